@@ -80,7 +80,7 @@ std::string loss_message(const certificate& c) {
 std::string certificate::message() const {
     switch (status) {
         case treeform::status::ok:
-            return "checked: all that was promised holds in the coordinates returned";
+            return "checked: all guarantees hold in the coordinates returned";
         case treeform::status::open_input:
             return open_message(*this);
         case treeform::status::sheet:

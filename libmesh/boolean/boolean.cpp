@@ -265,9 +265,10 @@ near_result clip_of(std::span<const mesh_view> views, std::uint32_t sheet,
                     const boolean_expression& expression, const boolean_options& options) {
     check_expression("clip", views, expression);
     if (sheet >= views.size())
-        throw std::invalid_argument("treeform::clip: the sheet is no operand");
+        throw std::invalid_argument("treeform::clip: the sheet is not an operand");
     if (!expression.needs(sheet))
-        throw std::invalid_argument("treeform::clip: the expression holds more than of the sheet");
+        throw std::invalid_argument(
+            "treeform::clip: the expression may be true outside of the sheet");
     bundled_operands operands(views, sheet);
     if (operands.all()[1].known->open.count > 0) {
         std::vector<mesh_view> solids(views.begin(), views.end());

@@ -97,7 +97,7 @@ parts_gltf parts_of_gltf(const source& in) {
         at += chunk_head;
         if (size > length - at) in.fail("cut short");
         const std::string_view chunk = all.substr(at, size);
-        if (first && type != "JSON") in.fail_byte(chunk.data() - 4, "the first chunk is no JSON");
+        if (first && type != "JSON") in.fail_byte(chunk.data() - 4, "the first chunk is not JSON");
         if (first) parts.json = chunk;
         if (type == std::string_view("BIN\0", 4) && !parts.binary) parts.binary = chunk;
         first = false;
@@ -147,7 +147,7 @@ std::string_view buffers_gltf::load(std::size_t number) {
         if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(";base64"))
             fail("buffers", number, "is a 'data:' without base64");
         auto decoded = from_base64(uri.substr(comma + 1));
-        if (!decoded) fail("buffers", number, "holds what is no base64");
+        if (!decoded) fail("buffers", number, "is not valid base64");
         bytes = decoded_.emplace_back(*std::move(decoded));
     } else {
         bytes = load_file(number, *buffer.uri);

@@ -41,7 +41,7 @@ void refuse_utf16(const source& in) {
 
 void refuse_unless_text(const source& in) {
     refuse_utf16(in);
-    if (!is_text(head_of(in))) in.fail("binary data where text should stand");
+    if (!is_text(head_of(in))) in.fail("binary data in a text file");
 }
 
 [[nodiscard]] bool is_off_word(std::string_view word) {
@@ -71,7 +71,7 @@ void refuse_unless_text(const source& in) {
 
 [[noreturn]] void refuse_ptx(const source& in) {
     in.fail(
-        "PTX is not read, whose scans each have a place of their own; write it as LAS or PTS "
+        "PTX is not read, since each scan has its own transform; write it as LAS or PTS "
         "first, with CloudCompare: CloudCompare -O in.ptx -C_EXPORT_FMT LAS -SAVE_CLOUDS");
 }
 
@@ -107,7 +107,7 @@ void refuse_unless_text(const source& in) {
     if (worded && (is_text(head) || (holds_word(head, "facet") && holds_word(head, "vertex"))))
         return {file_kind::stl_text};
     refuse_utf16(in);
-    if (is_text(head)) in.fail("text that does not start with 'solid', and no binary STL");
+    if (is_text(head)) in.fail("text that does not start with 'solid', and not a binary STL");
     return {file_kind::stl_binary};
 }
 
@@ -141,7 +141,7 @@ void check_chosen_columns(const source& in, const reading& how, file_kind kind) 
     const bool is_table =
         kind == file_kind::xyz || kind == file_kind::pts || kind == file_kind::csv;
     if (!how.options.columns.empty() && !is_table)
-        in.fail("columns are chosen of XYZ, PTS and CSV alone");
+        in.fail("columns can be chosen only for XYZ, PTS and CSV");
 }
 
 detected detect(const source& in, std::string_view format, std::string_view extension) {
@@ -154,7 +154,7 @@ detected detect(const source& in, std::string_view format, std::string_view exte
     if (wanted == "3mf") return {file_kind::package_3mf};
     if (wanted == "glb" || wanted == "gltf" || wanted == "vrm") return {file_kind::gltf};
     if (wanted == "las" || wanted == "laz") {
-        if (!text(in).starts_with("LASF")) in.fail_byte(in.begin(), "no LAS or LAZ file");
+        if (!text(in).starts_with("LASF")) in.fail_byte(in.begin(), "not a LAS or LAZ file");
         return {file_kind::las};
     }
     if (wanted == "e57") refuse_e57(in);

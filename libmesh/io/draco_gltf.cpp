@@ -32,7 +32,7 @@ namespace {
     const bool is_mesh = bytes[7] == 1;
     const bool has_metadata = (static_cast<unsigned char>(bytes[10]) & 0x80U) != 0;
     if (!is_mesh || bytes[5] != 2 || bytes[6] < 2 || has_metadata)
-        return "draco of a kind that glTF does not have";
+        return "draco data of a kind that glTF does not have";
     const bool is_edgebreaker = bytes[8] == 1;
     std::size_t at = is_edgebreaker ? head + 1 : head;
     const std::uint64_t first = varint_at(bytes, at);
@@ -40,7 +40,8 @@ namespace {
     const std::uint64_t faces = is_edgebreaker ? second : first;
     const std::uint64_t points = is_edgebreaker ? first : second;
     const std::uint64_t most = (std::uint64_t{1} << 20) + 1000 * bytes.size();
-    if (faces > most || points > 3 * faces) return "draco of more faces than so few bytes hold";
+    if (faces > most || points > 3 * faces)
+        return "draco data with more faces than its bytes can hold";
     return {};
 }
 
@@ -74,7 +75,7 @@ class unpacker {
         draco::DecoderBuffer in;
         in.Init(bytes.data(), bytes.size());
         auto decoded = draco::Decoder().DecodeMeshFromBuffer(&in);
-        if (!decoded.ok()) fail("draco that is damaged");
+        if (!decoded.ok()) fail("damaged draco data");
         const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
         for (const auto& [name, id] : primitive.draco->attributes) {
             const auto accessor = primitive.attributes.find(name);
@@ -96,7 +97,7 @@ class unpacker {
         const accessor_gltf& accessor = model_.accessors[number];
         const std::size_t count = mesh.num_points();
         if (accessor.components == 0 || accessor.count != count)
-            fail("draco of another size than that of its accessors");
+            fail("draco data of another size than its accessors");
         give(number, count, [&]<class T>(std::size_t i, T* to) {
             const auto at = values.mapped_index(draco::PointIndex(static_cast<std::uint32_t>(i)));
             return values.ConvertValue<T>(at, static_cast<std::int8_t>(accessor.components), to);
@@ -107,7 +108,7 @@ class unpacker {
         const accessor_gltf& accessor = model_.accessors[number];
         const std::size_t count = std::size_t{3} * mesh.num_faces();
         if (accessor.components != 1 || accessor.count != count)
-            fail("draco of another size than that of its accessors");
+            fail("draco data of another size than its accessors");
         give(number, count, [&]<class T>(std::size_t i, T* to) {
             const auto& face = mesh.face(draco::FaceIndex(static_cast<std::uint32_t>(i / 3)));
             *to = static_cast<T>(face[i % 3].value());
@@ -120,7 +121,7 @@ class unpacker {
         const accessor_gltf& accessor = model_.accessors[number];
         std::string bytes = with_type(
             accessor.type, [&]<class T>(T) { return filled<T>(count, accessor.components, put); });
-        if (bytes.empty()) fail("draco whose values are of no type of the accessors");
+        if (bytes.empty()) fail("draco data whose types differ from the accessors");
         buffers_.give_values(number, std::move(bytes));
     }
 

@@ -28,7 +28,7 @@ class json_entry {
 
     /// Of an object: the member; none when it is missing.
     [[nodiscard]] std::optional<json_entry> find(const char* key) const {
-        if (!value_->is_object()) fail("is no JSON object");
+        if (!value_->is_object()) fail("is not a JSON object");
         const auto at = value_->find(key);
         if (at == value_->end()) return std::nullopt;
         return json_entry(*in_, *at, place_.empty() ? key : place_ + '.' + key);
@@ -47,7 +47,7 @@ class json_entry {
     /// Calls f(entry) for each item of an array.
     template <class F>
     void for_each(F&& f) const {
-        if (!value_->is_array()) fail("is no JSON array");
+        if (!value_->is_array()) fail("is not a JSON array");
         for (std::size_t i = 0; i < value_->size(); ++i)
             f(json_entry(*in_, (*value_)[i], place_ + '[' + std::to_string(i) + ']'));
     }
@@ -64,7 +64,7 @@ class json_entry {
     /// Calls f(key, entry) for each member.
     template <class F>
     void for_each_member(F&& f) const {
-        if (!value_->is_object()) fail("is no JSON object");
+        if (!value_->is_object()) fail("is not a JSON object");
         for (const auto& [key, value] : value_->items())
             f(key, json_entry(*in_, value, place_ + '.' + key));
     }
@@ -74,7 +74,7 @@ class json_entry {
         if (value_->is_number_unsigned()) return value_->get<std::uint64_t>();
         const double number = value_->is_number_float() ? value_->get<double>() : -1.0;
         if (!(number >= 0.0 && number < 0x1p53) || number != std::floor(number))
-            fail("is no whole number from 0 on");
+            fail("is not an integer of 0 or more");
         return static_cast<std::uint64_t>(number);
     }
     /// The number of one of `count` things.
@@ -94,9 +94,9 @@ class json_entry {
     [[nodiscard]] std::array<double, N> numbers() const {
         std::array<double, N> all{};
         if (!value_->is_array() || value_->size() != N)
-            fail("is no array of " + std::to_string(N) + " numbers");
+            fail("is not an array of " + std::to_string(N) + " numbers");
         for (std::size_t i = 0; i < N; ++i) {
-            if (!(*value_)[i].is_number()) fail("holds what is no number");
+            if (!(*value_)[i].is_number()) fail("has an entry that is not a number");
             all[i] = (*value_)[i].get<double>();
         }
         return all;

@@ -104,7 +104,7 @@ class las_opener {
             h.offset[axis] = get<double>(at(155 + 8 * axis));
             if (!std::isfinite(h.scale[axis]) || h.scale[axis] == 0.0 ||
                 !std::isfinite(h.offset[axis]))
-                in_.fail_byte(at(131 + 8 * axis), "scale or offset is zero or no number");
+                in_.fail_byte(at(131 + 8 * axis), "scale or offset is zero or not a number");
         }
         file_.count = get<std::uint32_t>(at(107));
         if (h.version_minor == 4 && (file_.count == 0 || h.point_format >= 6))
@@ -139,7 +139,7 @@ class las_opener {
             h.records.push_back(*std::move(r));
         }
         if (h.records.size() < stated)
-            warnings_.push_back({"records", "the header promises " + std::to_string(stated) +
+            warnings_.push_back({"records", "the header announces " + std::to_string(stated) +
                                                 " records, " + std::to_string(h.records.size()) +
                                                 " are there"});
         h.behind_records = bytes_between(next, end);
@@ -161,7 +161,7 @@ class las_opener {
             }
         }
         if (h.extended_records.size() < stated)
-            warnings_.push_back({"records", "the header promises " + std::to_string(stated) +
+            warnings_.push_back({"records", "the header announces " + std::to_string(stated) +
                                                 " extended records, " +
                                                 std::to_string(h.extended_records.size()) +
                                                 " are there"});
@@ -180,7 +180,7 @@ class las_opener {
         const las_record* const r = find_record(file_.header.records, "laszip encoded", 22204);
         if (!packed_) return;
         if (r == nullptr || r->data.size() < 34)
-            in_.fail("packed points without a record of how: convert it with LASzip or PDAL");
+            in_.fail("packed points without the LASzip record: convert it with LASzip or PDAL");
         const char* const d = reinterpret_cast<const char*>(r->data.data());
         las_packing packing;
         const auto compressor = get<std::uint16_t>(d);
@@ -212,7 +212,8 @@ class las_opener {
         if (!file_.packing && file_.count > there / file_.record_size)
             in_.fail_byte(at(file_.first_point),
                           "the file ends in the points: " + std::to_string(file_.count) +
-                              " promised, " + std::to_string(there / file_.record_size) + " there");
+                              " announced, " + std::to_string(there / file_.record_size) +
+                              " there");
         const std::uint64_t room = (end_of_points() - file_.first_point) / file_.record_size;
         if (!file_.packing && file_.count < room)
             warnings_.push_back({"count", "the header counts " + std::to_string(file_.count) +

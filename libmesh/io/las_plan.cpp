@@ -106,7 +106,7 @@ class las_planner {
         }
         if (!points_)
             throw las_fault(
-                "LAS is written by runs only with scale and offset: set "
+                "writing LAS in runs needs scale and offset: set "
                 "mesh_file::las of the header");
         choose_las_grid(h, *points_, wish);
     }

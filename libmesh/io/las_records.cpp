@@ -49,7 +49,7 @@ void put_axes(std::span<const point3> points, const record_rows& rows, const las
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double x = points[rows.first + i][axis];
             if (!std::isfinite(x)) {
-                fault.at(rows.first + i, "a coordinate that is no finite number; LAS holds none");
+                fault.at(rows.first + i, "a coordinate that is not finite, which LAS cannot hold");
                 continue;
             }
             const double step = nearest_step(grid, axis, x);

@@ -95,7 +95,7 @@ class part_reader {
         const auto found = std::find_if(units_3mf.begin(), units_3mf.end(), [&](const char* known) {
             return std::strcmp(known, unit.value()) == 0;
         });
-        if (found == units_3mf.end()) xml_.fail(root, "has a unit that 3MF does not know");
+        if (found == units_3mf.end()) xml_.fail(root, "has a unit that 3MF does not define");
         model_.unit = *found;
     }
 

@@ -70,7 +70,7 @@ void refuse_extensions(const source& in, const json_entry& root) {
         case 5126:
             return scalar_type::float32;
         default:
-            component.fail("is no type of glTF 2.0");
+            component.fail("is not a type of glTF 2.0");
     }
 }
 
@@ -294,7 +294,7 @@ model_gltf parse_gltf(const source& in, std::string_view json) {
         text = nlohmann::json::parse(json.begin(), json.end());
     } catch (const nlohmann::json::parse_error& error) {
         const std::size_t byte = std::min(std::max<std::size_t>(error.byte, 1) - 1, json.size());
-        in.fail_byte(json.data() + byte, "the JSON has an error here, or is cut short");
+        in.fail_byte(json.data() + byte, "the JSON has an error here, or is truncated");
     } catch (const nlohmann::json::exception&) {
         in.fail("the JSON has a number that is too large");
     }

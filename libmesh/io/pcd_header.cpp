@@ -146,7 +146,7 @@ class pcd_header_reader {
 
     [[nodiscard]] char kind() {
         const std::string_view word = text_.word();
-        if (word != "I" && word != "U" && word != "F") fail("a type that is none of I, U, F");
+        if (word != "I" && word != "U" && word != "F") fail("a type other than I, U, F");
         return word[0];
     }
 
@@ -255,12 +255,12 @@ packed_pcd find_packed_pcd(const source& in, const pcd_header& header) {
     const std::size_t size = base::load<std::uint32_t, std::endian::little>(header.body + 4);
     if (packed > there - 8)
         in.fail_byte(header.body,
-                     "the file ends in the data: " + std::to_string(packed) + " bytes promised");
+                     "the file ends in the data: " + std::to_string(packed) + " bytes announced");
     if (size / header.row_size != header.vertices.rows || size % header.row_size != 0)
         in.fail_byte(header.body + 4, std::to_string(size) + " bytes of data are not those of " +
                                           std::to_string(header.vertices.rows) + " points");
     if (size / lzf_most_ratio > packed)
-        in.fail_byte(header.body, "the data cannot become as long as promised");
+        in.fail_byte(header.body, "the data cannot unpack to the announced size");
     return {{header.body + 8, packed}, size, there - 8 > packed};
 }
 

@@ -64,7 +64,7 @@ class counter {
             fail(key, "is or has one of more than " + std::to_string(most_placed) +
                           " objects that the build places");
         if (to.points > most_numbered || to.faces > most_numbered)
-            fail(key, "brings the build to more points or faces than 32-bit numbers can name");
+            fail(key, "makes more points or faces than 32-bit numbers can count");
     }
 
     [[noreturn]] void fail_deep(const object_key& key) const {

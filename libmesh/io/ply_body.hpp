@@ -40,7 +40,7 @@ template <class Values>
 void check_room(const Values& values, const element& e) {
     if (!Values::can_hold(values.bytes_left(), e.rows, e))
         values.fail("the file ends in element " + e.name + ": " + std::to_string(e.rows) +
-                    " promised");
+                    " announced");
 }
 
 template <class Values>

@@ -162,7 +162,7 @@ class ply_header_reader {
     }
 
     void declare_property() {
-        if (header_.elements.empty()) text_.fail("a property ahead of all elements");
+        if (header_.elements.empty()) text_.fail("a property before all elements");
         column c;
         text_.skip_blanks();
         const char* const start = text_.at;

@@ -117,7 +117,7 @@ struct point_writer::state {
         detail::io::check_columns(properties);
         if (result.written_as == precision::float32 && !options.precision &&
             !fits_single(block.points))
-            refuse_block("a coordinate is no float32 value, as the header says");
+            refuse_block("a coordinate is not a float32 value, as the header declares");
     }
 
     void check(const detail::io::row_block& block) {

@@ -16,20 +16,20 @@ constexpr const char* package_relationships = "_rels/.rels";
 /// The model part that the package starts with.
 [[nodiscard]] std::string root_of(const source& in, zip_archive& archive) {
     if (!archive.holds(package_relationships))
-        in.fail("no 3MF: the archive has no " + std::string(package_relationships));
+        in.fail("not a 3MF: the archive has no " + std::string(package_relationships));
     const xml_part relationships(in, package_relationships, archive.read(package_relationships));
     std::string root;
     for (const pugi::xml_node relationship : relationships.root().children()) {
         if (local_name(relationship.name()) != "Relationship") continue;
         if (std::strcmp(relationships.required(relationship, "Type"), model_relationship_3mf) != 0)
             continue;
-        if (!root.empty()) relationships.fail(relationship, "is a second model to start with");
+        if (!root.empty()) relationships.fail(relationship, "is a second start model");
         root = relationships.required(relationship, "Target");
         if (root.starts_with('/')) root.erase(0, 1);
         if (!archive.holds(root))
-            relationships.fail(relationship, "leads to what is not in the archive");
+            relationships.fail(relationship, "leads to a file that is not in the archive");
     }
-    if (root.empty()) relationships.fail("no relationship leads to a model: no 3MF");
+    if (root.empty()) relationships.fail("no relationship leads to a model: not a 3MF");
     return root;
 }
 

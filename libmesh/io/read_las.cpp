@@ -40,8 +40,7 @@ struct placed_chunk {
         return base::load<std::int64_t, std::endian::little>(at);
     };
     const char* const first = in.begin() + file.first_point;
-    if (in.size() < file.first_point + 8)
-        in.fail_byte(in.end(), "the file ends ahead of the points");
+    if (in.size() < file.first_point + 8) in.fail_byte(in.end(), "the file ends before the points");
     std::int64_t byte = place(first);
     if (byte == -1) byte = place(in.end() - 8);
     if (byte < static_cast<std::int64_t>(file.first_point) + 8 ||
@@ -82,7 +81,7 @@ struct placed_chunk {
         left -= points;
     }
     if (left > 0)
-        in.fail_byte(table, "the header promises " + std::to_string(file.count) +
+        in.fail_byte(table, "the header announces " + std::to_string(file.count) +
                                 " points, the chunks have " + std::to_string(file.count - left));
     return placed;
 }

@@ -26,7 +26,7 @@ void look_behind(bool more, warnings& said) {
 
 [[noreturn]] void fail_short(const source& in, const pcd_header& header) {
     in.fail_byte(header.body, "the file ends in the points: " +
-                                  std::to_string(header.vertices.rows) + " promised");
+                                  std::to_string(header.vertices.rows) + " announced");
 }
 
 [[nodiscard]] std::size_t bytes_of_body(const source& in, const pcd_header& header) {

@@ -90,7 +90,7 @@ class xyz_reader {
     void check_count(std::uint64_t count) {
         if (!promised_ || count == *promised_) return;
         const std::string both =
-            std::to_string(*promised_) + " points promised, " + std::to_string(count) + " there";
+            std::to_string(*promised_) + " points announced, " + std::to_string(count) + " there";
         if (count < *promised_) text_.fail("the file ends in the points: " + both);
         warnings_.push_back({"count", both});
     }
@@ -147,7 +147,7 @@ class xyz_reader {
         if (!starts_with_number || one_word) {
             if (pts_ && starts_with_number) promised_ = whole_number(first);
             if (!promised_ && (starts_with_number || !find_axes(split_heading(heading_))))
-                warnings_.push_back({"heading", "the first line is no point and was left out"});
+                warnings_.push_back({"heading", "the first line is not a point and was skipped"});
             if (done()) return;
             start = text_.at;
             first = text_.rest_of_line();

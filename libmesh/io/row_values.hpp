@@ -86,7 +86,7 @@ class text_values {
     void end_row() {
         text_.skip_blanks();
         if (!text_.done() && !is_newline(*text_.at))
-            text_.fail("more values than the header promises");
+            text_.fail("more values than the header announces");
         text_.file.release_before(text_.at);
     }
 

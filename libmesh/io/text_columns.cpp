@@ -79,7 +79,7 @@ std::optional<std::array<std::size_t, 3>> choose_columns(const source& in,
     }
     if (!axes[0] && !axes[1] && !axes[2]) return std::nullopt;
     if (!axes[0] || !axes[1] || !axes[2])
-        in.fail("columns: x, y and z are chosen together, or none of them");
+        in.fail("columns: choose x, y and z together, or none of them");
     if (axes[0] == axes[1] || axes[0] == axes[2] || axes[1] == axes[2])
         in.fail("columns: x, y and z are three columns");
     return std::array{*axes[0], *axes[1], *axes[2]};

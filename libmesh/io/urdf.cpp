@@ -39,7 +39,7 @@ class urdf_reader {
         if (!parsed)
             fail("byte " + std::to_string(parsed.offset) + ": no XML: " + parsed.description());
         const pugi::xml_node root = document_.child("robot");
-        if (!root) fail("no <robot>: is it a URDF file? (xacro has to be run first)");
+        if (!root) fail("no <robot>: not a URDF file? (run xacro first)");
         robot_.name = root.attribute("name").value();
         for (const pugi::xml_node link : root.children("link")) read_link(link);
         if (robot_.links.empty()) fail("the robot has no link");
@@ -255,7 +255,7 @@ class urdf_reader {
                 reached.push_back(robot_.joints[i].child);
                 ordered.push_back(robot_.joints[i]);
             }
-        if (reached.size() != links) fail("joints lead from a link back to it");
+        if (reached.size() != links) fail("joints form a cycle");
         robot_.joints = std::move(ordered);
         for (const urdf_joint& joint : robot_.joints)
             if (!joint.mimics.empty() && !joint_names_.contains(joint.mimics))

@@ -66,7 +66,7 @@ class las_writer {
         if (!job.out.can_replace())
             throw las_fault("LAS and LAZ are not written to a pipe: name a file");
         if (first_point_ > std::numeric_limits<std::uint32_t>::max())
-            throw las_fault("more than 4 GB of records ahead of the points");
+            throw las_fault("more than 4 GB of records before the points");
         put_block();
         for (const las_record& r : plan_.header.records) put_record(job_.out, r, false);
         const auto& behind = plan_.header.behind_records;

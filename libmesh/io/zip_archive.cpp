@@ -81,7 +81,7 @@ template <class T>
     for (std::size_t first = 0; first < name.size();) {
         const std::size_t slash = std::min(name.find('/', first), name.size());
         const std::string_view step = name.substr(first, slash - first);
-        if (step.empty() || step == "." || step == "..") return "a name that is no plain path";
+        if (step.empty() || step == "." || step == "..") return "a name that is not a plain path";
         first = slash + 1;
     }
     return {};
@@ -166,7 +166,7 @@ zip_archive::directory zip_archive::find_directory() const {
             all.ahead = place - all.size - all.at;
         return all;
     }
-    in_.fail("no ZIP archive, or one that is damaged or cut short");
+    in_.fail("not a ZIP archive, or one that is damaged or truncated");
 }
 
 /// That of ZIP64, by the record before the last one.
@@ -227,7 +227,7 @@ std::uint64_t zip_archive::add_member(std::uint64_t at, std::uint64_t end) {
         *value = field64(values.data(), 0);
         values.remove_prefix(8);
     }
-    if (!members_.emplace(package_name(name), m).second) fail(name, "is twice in the archive");
+    if (!members_.emplace(package_name(name), m).second) fail(name, "is in the archive twice");
     return at + whole;
 }
 
@@ -272,7 +272,7 @@ std::string_view zip_archive::packed_bytes(std::string_view name, const member& 
 std::string zip_archive::unpacked(std::string_view name, const member& m) const {
     const std::string_view packed = packed_bytes(name, m);
     if (m.method == 0) {
-        if (m.size != m.packed) fail(name, "is stored in other than the bytes announced");
+        if (m.size != m.packed) fail(name, "does not have the announced size");
         return std::string(packed);
     }
     std::string bytes;
@@ -290,7 +290,7 @@ std::string zip_archive::read(std::string_view name) {
     const member& m = found->second;
     check(name, m);
     std::string bytes = unpacked(name, m);
-    if (checksum_of(bytes) != m.checksum) fail(name, "its checksum does not fit: damaged");
+    if (checksum_of(bytes) != m.checksum) fail(name, "wrong checksum: damaged");
     return bytes;
 }
 

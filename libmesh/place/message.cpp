@@ -76,14 +76,14 @@ std::string placement::relation_in_words(const body_set& moving, const body_set&
 std::string placement::message(std::span<const std::string> names) const {
     const bool floats = certificate.precision == treeform::precision::float32;
     const bool named = nearest && nearest->fixed < names.size();
-    const std::string other = named ? names[nearest->fixed] : "something fixed";
+    const std::string other = named ? names[nearest->fixed] : "a fixed mesh";
     switch (end) {
         case placement_end::starts_penetrating:
-            return "penetrates " + other + " where it is";
+            return "penetrates " + other + " at the start";
         case placement_end::starts_too_near:
-            return "is nearer to " + other + " than the clearance where it is";
+            return "is nearer to " + other + " than the clearance at the start";
         case placement_end::starts_touching:
-            return "touches " + other + " where it is, which leaves no clearance";
+            return "touches " + other + " at the start, which leaves no clearance";
         case placement_end::starts_below_bed:
             return depth_of(*this);
         case placement_end::nothing_met:
@@ -93,13 +93,12 @@ std::string placement::message(std::span<const std::string> names) const {
             return too_far(*this);
         case placement_end::no_coordinates:
             if (effort.cut > 0)
-                return "no move apart was found within " + counted(effort.bound, "pair", "pairs") +
-                       " of faces";
+                return "no separating translation was found within " +
+                       counted(effort.bound, "pair", "pairs") + " of faces";
             return floats ? "rounded to float32 there is no such place"
                           : "there is no such place in coordinates that can be written";
         case placement_end::too_many_steps:
-            return "goes past something so near, and so long, that it was not found out whether "
-                   "it is met";
+            return "is undecided: it passes a fixed mesh too closely, over a long way";
         case placement_end::out_of_range:
             return std::string("is beyond the range of ") + (floats ? "float32" : "doubles") +
                    " at its place";

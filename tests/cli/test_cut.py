@@ -44,7 +44,7 @@ class Cut(ToolTest):
         write(self.path("two.obj"), together(box((0, 0, 0), (2, 2, 2)), box((1, 1, 0), (3, 3, 2))))
         run = self.run_tool("half", "two.obj", "--height", "1", "-n", status=0)
         self.assertIn("2 pieces", run.text)
-        self.assertIn("parts that overlap are one", run.err)
+        self.assertIn("overlapping parts are merged", run.err)
         write(self.path("apart.obj"),
               together(box((0, 0, 0), (2, 2, 2)), box((3, 3, 0), (4, 4, 2))))
         self.assertEqual(self.run_tool("half", "apart.obj", "--height", "1", "-n", status=0).err,

@@ -88,18 +88,17 @@ class Help(ToolTest):
                                  .group(1).split()) for mode in MODES["place"] if mode != "check"}
         self.assertEqual(output["lay"], "MOVING at its new place")
         self.assertEqual(output["slide"],
-                         "MOVING at its new place; PLY, GLB: faces that penetrate --fixed are red, "
-                         "touching "
-                         "yellow, closer than --clearance or stopped at it cyan (if they had no "
-                         "colors)")
-        self.assertTrue(output["measure"].startswith("MOVING where it is; PLY, GLB: "))
+                         "MOVING at its new place; PLY, GLB without colors: faces that penetrate "
+                         "--fixed are red, touching yellow, closer than --clearance or stopped at "
+                         "it cyan")
+        self.assertTrue(output["measure"].startswith("MOVING where it is; PLY, GLB without"))
         for mode in MODES["place"]:
             if mode != "drop":
                 self.assertNotIn("drop with", self.help_of("place", mode))
             if mode not in ("arrange", "fit"):
-                self.assertNotRegex(self.help_of("place", mode), "all fit|converged")
-        self.assertIn("drop with --fixed has none", self.help_of("place", "drop"))
-        self.assertIn("Translate along --direction until contact (less --clearance).\n",
+                self.assertNotRegex(self.help_of("place", mode), "all parts are placed|converged")
+        self.assertIn("drop with --fixed has a bed only", self.help_of("place", "drop"))
+        self.assertIn("Translate along --direction until contact (minus --clearance).\n",
                       self.help_of("place", "slide"))
 
     def try_option(self, tool, mode, name, value):

@@ -160,7 +160,7 @@ class Mend(ToolTest):
         self.run_tool("out.ply", "--check", status=0)
         run = self.run_tool(write(self.path("open.obj"), (cube()[0], faces)), "--wrap", "0.1", "-n",
                             status=0)
-        self.assertIn("a skin on both sides", run.err)
+        self.assertIn("covers both sides", run.err)
 
     def test_a_wrap_takes_no_steps_and_a_size_that_makes_sense(self):
         part = write(self.path("part.obj"), CLEAN)
@@ -339,7 +339,7 @@ class Mend(ToolTest):
     def test_help_and_what_makes_no_sense(self):
         run = self.run_tool("--help", status=0)
         self.assertEqual([line for line in run.text.splitlines() if len(line) > 80], [])
-        for group in ("Steps, in this order", "Options:", "Limits", "What to give back:",
+        for group in ("Steps, in this order", "Options:", "Limits", "Output:",
                       "Exit status:"):
             self.assertIn(group, run.text)
         part = write(self.path("part.obj"), CLEAN)

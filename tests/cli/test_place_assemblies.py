@@ -255,7 +255,7 @@ class Assemblies(PlaceTest):
         run = self.run_tool("slide", "part.obj", "--fixed", "floor.obj", "-n")
         self.assertEqual(run.status, 1)
         self.assertEqual(run.text.count("penetrat"), 1)
-        self.assertRegex(run.text, r"not placed: penetrates floor.obj where it is \(\d+ pairs of "
+        self.assertRegex(run.text, r"not placed: penetrates floor.obj at the start \(\d+ pairs of "
                                    r"faces, the first \d+ and \d+\); clear would take it out")
 
 

@@ -38,7 +38,7 @@ class Usage(PlaceTest):
         run = self.run_tool("--help", status=0)
         self.assertTrue(run.text.startswith("Usage: tf-place MODE [OPTIONS] MOVING..."))
         self.assertEqual([line for line in run.text.splitlines() if len(line) > 80], [])
-        for word in ("Modes:", "Options:", "What to give back:", "Common options:", "Examples:",
+        for word in ("Modes:", "Options:", "Output:", "Common options:", "Examples:",
                      "Exit status:", "drop", "slide", "mate", "clear", "measure", "--fixed",
                      "--bed", "--direction", "--clearance", "--max-travel", "--start", "--scene",
                      "--matrix"):

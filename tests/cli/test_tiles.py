@@ -170,13 +170,13 @@ class Tiles(ToolTest):
         weld = subprocess.run([WELD, "cloud.xyz", "-t", "1", "-o", "out.xyz", "--tile-points", "10",
                                "--work", "tiles"], cwd=self.folder, capture_output=True)
         self.assertEqual(weld.returncode, 4)
-        self.assertIn(b"that this tool has not put there", weld.stderr)
+        self.assertIn(b"that are not of this tool", weld.stderr)
         self.assertEqual(self.run_tool("float.ply", *work, "--plan", status=0).text.split()[1],
                          str(tiles))
         for arguments, words in (
                 (["--plan"], "need --work DIR"),
             (["--plan", "--finish", *work], "exclude each other"),
-                (["--tile", "0", *work, "--pairs", "p.csv"], "outputs belong to --finish"),
+                (["--tile", "0", *work, "--pairs", "p.csv"], "--plan and --tile write no output"),
                 (["double.ply", "--plan", *work], "take one INPUT")):
             self.assertIn(words, self.run_tool("float.ply", *arguments, status=2).err)
 
@@ -379,7 +379,7 @@ class Tiles(ToolTest):
             self.assertIn(fault, self.run_tool(name, "--tile-faces", 10, status=3).err)
         self.put("foreign/file.txt", "mine")
         run = self.run_tool("in.stl", "--tile-faces", 10, "--work", "foreign", status=4)
-        self.assertIn("holds files that this tool has not put there", run.err)
+        self.assertIn("holds files that are not of this tool", run.err)
         self.assertEqual(self.read("foreign/file.txt"), "mine")
 
     @unittest.skipIf(not MODELS, "TREEFORM_MODELS_DIR is not set")

@@ -214,7 +214,7 @@ class Shared(WeldTest):
         for arguments, status, words in (
                 (["--plan"], 2, "need --work DIR"),
                 (["--plan", "--finish", *work], 2, "exclude each other"),
-                (["--tile", 0, *work, "-o", "out.ply"], 2, "outputs belong to --finish"),
+                (["--tile", 0, *work, "-o", "out.ply"], 2, "--plan and --tile write no output"),
                 (["--tile", 0, *work], 3, "holds no tiles of this input"),
                 (["--finish", *work, "-o", "out.ply"], 3, "holds no tiles of this input"),
                 (["--finish", *work], 2, "nothing to give back"),

@@ -245,7 +245,7 @@ class Tiles(WeldTest):
         os.symlink("/dev/full", self.path("full.ply"))
         command = ["in.ply", "-t", "0.05", "--tile-points", 50, "--work", "tiles"]
         run = self.run_tool(*command, "-o", "full.ply", status=4)
-        self.assertIn("tiles: tiles stay there; the same command goes on", run.err)
+        self.assertIn("tiles: tiles stay there; the same command resumes", run.err)
         run = self.run_tool(*command, "-o", "full.ply", "-v", status=4)
         self.assertIn("finished before", run.err)
         run = self.run_tool(*command, "-o", "full.ply", "--order", "z", status=4)

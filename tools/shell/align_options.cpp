@@ -46,40 +46,40 @@ void add_align_options(command_line& line, tf::align_options& options) {
     };
     line.option({"--overlap", "F",
                  "fit: share of MOVING that has a partner; each step\n"
-                 "ignores the rest, the points furthest away",
+                 "ignores the rest, which is furthest away",
                  "1"},
                 [overlap](std::string_view text) {
                     overlap("--overlap", text, parse_number("--overlap", text));
                 });
-    line.option({"--trim", "F", "fit: the same, said by what to ignore: 1 - overlap", "0"},
+    line.option({"--trim", "F", "fit: share to ignore: 1 - overlap", "0"},
                 [overlap](std::string_view text) {
                     overlap("--trim", text, 1.0 - parse_share("--trim", text));
                 });
     line.option(o.robust,
                 {"--weights", "W",
-                 "fit: welsch: far pairs count less; finds out by itself\n"
-                 "what has no partner, up to half of MOVING | equal",
+                 "fit: welsch: distant pairs have less weight, so up to\n"
+                 "half of MOVING may lack a partner | equal",
                  "welsch"},
                 weights);
     line.option(o.method,
                 {"--metric", "M",
-                 "fit: distances to a plane | point | planes of both\n"
-                 "clouds | auto: plane, but of a fixed cloud planes",
+                 "fit: distances to a plane | point | planes, of both\n"
+                 "clouds | auto: planes for a fixed cloud, else plane",
                  "auto"},
                 metrics);
     line.option({"--starts", "N",
                  "fit: try N starts: the present position, the\n"
-                 "principal axes (4), then turns all around",
+                 "principal axes (4), then rotations in all directions",
                  "1"},
                 [&o](std::string_view text) { o.starts = parse_number_of("--starts", text, 1); });
-    line.option({"--iterations", "N", "fit: at most, from each start", "100"},
+    line.option({"--iterations", "N", "fit: most iterations from each start", "100"},
                 [&o](std::string_view text) {
                     o.max_iterations = parse_number_of("--iterations", text, 0);
                 });
     line.option(
         {"--fit-tolerance", "F",
-         "fit: converged when 5 steps in a row lower the cost\n"
-         "by less than this share of it",
+         "fit: converged if 5 steps in a row lower the cost by\n"
+         "less than this share of it",
          "1e-6"},
         [&o](std::string_view text) { o.tolerance = parse_share("--fit-tolerance", text); });
     line.flag_with_value({.names = "--scale",
@@ -110,8 +110,8 @@ std::string align_sentence(const tf::align_result& r) {
             return "fitted " + r.message();
         case tf::align_end::doubtful:
             return "in doubt " + r.message() +
-                   "; neighbors are off to the same side (correlation " + brief(r.correlation) +
-                   ") or too little holds the place (uncertainty " + brief(r.uncertainty) +
+                   "; neighbors deviate to the same side (correlation " + brief(r.correlation) +
+                   ") or the data do not determine the place (uncertainty " + brief(r.uncertainty) +
                    "): a wrong place, or parts without a partner; --starts 100 or --overlap "
                    "may help";
         case tf::align_end::out_of_iterations:

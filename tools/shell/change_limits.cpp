@@ -14,7 +14,7 @@ void add_max_move(command_line& line, change_limits& target) {
 void add_max_loss(command_line& line, change_limits& target) {
     line.option({"--max-loss", "SHARE", "fail (exit 1) if more of the solid is lost", "5%"},
                 [&t = target.max_loss](std::string_view v) { t = parse_share("--max-loss", v); });
-    line.flag(target.accept_loss, {"--accept-loss", "", "write it all the same"});
+    line.flag(target.accept_loss, {"--accept-loss", "", "write the result even so"});
 }
 
 std::string move_objection(json& entry, const change_limits& limits, double diagonal,

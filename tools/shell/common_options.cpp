@@ -31,7 +31,7 @@ void add_output_options(command_line& line, common_options& o, const common_feat
         return;
     }
     line.option({"--output-dir", "DIR",
-                 "one result per INPUT, named STEM+SUFFIX.EXT;\nDIR is made where it is not there"},
+                 "one result per INPUT, named STEM+SUFFIX.EXT;\nDIR is created if needed"},
                 [&o](std::string_view value) { o.output_dir = value; });
     line.option(o.suffix, {"--suffix", "TEXT", "SUFFIX for --output-dir", o.suffix});
     line.flag(o.in_place, {.names = "--in-place",
@@ -45,7 +45,7 @@ void add_format_options(command_line& line, common_options& o, const common_feat
                 {"--output-format", "EXT", joined(features.output_formats, " "), "extension of -o"},
                 features.output_formats);
     line.flag(o.ascii, {.names = "--ascii",
-                        .text = "text or binary where the format has both",
+                        .text = "text or binary, if the format has both",
                         .fallback = "binary",
                         .label = "--ascii, --binary"});
     line.flag(o.binary, {.names = "--binary"});
@@ -96,7 +96,7 @@ void add_picture_options(command_line& line, common_options& o) {
                         "display and no browser"});
     line.option({"--view", "V,...",
                  "of --png: iso top bottom front back left right;\n"
-                 "several are side by side in FILE; all:\n"
+                 "several are drawn side by side; all is\n"
                  "iso,top,front,right",
                  "iso"},
                 [&o](std::string_view value) { o.picture.views = parse_views(value); });
@@ -127,8 +127,9 @@ void add_run_options(command_line& line, common_options& o) {
                  "auto | always | never; auto: on a terminal, unless\nNO_COLOR is set", "auto"},
                 {"auto", "always", "never"});
     line.flag(o.quiet, {.names = "-q, --quiet", .text = "errors only"});
-    line.repeatable_flag(o.verbose, {.names = "-v, --verbose", .text = "more (repeatable)"});
-    line.option(o.log, {"--log", "FILE", "append what is said on stderr to FILE as well"});
+    line.repeatable_flag(o.verbose,
+                         {.names = "-v, --verbose", .text = "print details (repeatable)"});
+    line.option(o.log, {"--log", "FILE", "also append messages of stderr to FILE"});
     line.flag(o.exit_zero, {.names = "--exit-zero", .text = "exit status 0 instead of 1"});
     line.mention({.names = "-h, --help", .text = "this text"});
     line.mention({.names = "--version", .text = "version and build"});
@@ -207,7 +208,7 @@ void add_common_options(command_line& line, common_options& target,
         {.names = "-f, --force", .text = "overwrite existing files", .fallback = "refuse, exit 4"});
     if (!features.output_formats.empty())
         line.flag(o.dry_run, {.names = "-n, --dry-run",
-                              .text = "do all the work, write no mesh (reports are written)"});
+                              .text = "compute, but write no mesh (reports are written)"});
     add_format_options(line, o, features);
     line.option(
         o.unit,

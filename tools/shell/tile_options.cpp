@@ -33,8 +33,8 @@ void add_tile_options(command_line& line, tile_options& target, const std::strin
                       const std::string& per_tile) {
     line.group(heading);
     line.option({"--work", "DIR",
-                 "folder for them; left when stopped, so that the same\n"
-                 "command goes on there",
+                 "folder for the tiles; kept if the run is stopped, so\n"
+                 "that the same command resumes there",
                  "beside the output"},
                 [&target](std::string_view text) { target.folder = text; });
     line.option({.names = per_tile, .value = "N"}, [&target, per_tile](std::string_view text) {
@@ -47,11 +47,11 @@ void add_tile_options(command_line& line, tile_options& target, const std::strin
 
 void add_sharing_options(command_line& line, tile_options& target) {
     line.flag(target.plan, {"--plan", "",
-                            "only make the tiles; then any number of processes do\n"
-                            "them (--tile K, K from 0), and one combines their\n"
-                            "results (--finish), all with the same INPUT, options\n"
-                            "and --work DIR"});
-    line.option({"--tile", "K", "only do this tile"},
+                            "only make the tiles. Then any number of processes\n"
+                            "process tiles (--tile K, K from 0), and one combines\n"
+                            "the results (--finish), all with the same INPUT,\n"
+                            "options and --work DIR"});
+    line.option({"--tile", "K", "only process this tile"},
                 [&target](std::string_view text) { target.tile = parse_count("--tile", text); });
     line.flag(target.finish, {"--finish", "", "only combine the results of all tiles; DIR stays"});
 }
@@ -80,7 +80,7 @@ void check_tile_options(const tile_options& tiles, const command_line& line,
     const bool gives =
         std::ranges::any_of(outputs, [&](const fs::path& path) { return path != options.report; });
     if (tiles.is_part() && (gives || wants_mesh(options)))
-        refuse("--plan and --tile give nothing back: outputs belong to --finish");
+        refuse("--plan and --tile write no output; --finish does");
 }
 
 void say_what_is_left(job& work, const fs::path& folder, const tile_options& tiles) {
@@ -89,7 +89,7 @@ void say_what_is_left(job& work, const fs::path& folder, const tile_options& til
     const bool piped = std::ranges::find(work.options.inputs, "-") != work.options.inputs.end();
     work.warn("work-left",
               folder.string() + (piped ? ": tiles stay there; remove the folder"
-                                       : ": tiles stay there; the same command goes on from them, "
+                                       : ": tiles stay there; the same command resumes from them, "
                                          "or remove the folder"));
 }
 
@@ -128,8 +128,7 @@ failure failure_of(const job& work, const tf::stream_error& error) {
         case folder_in_use:
             return {bad_output, "work-folder", where + "is in use by another process"};
         case folder_foreign:
-            return {bad_output, "work-folder",
-                    where + "holds files that this tool has not put there"};
+            return {bad_output, "work-folder", where + "holds files that are not of this tool"};
         case write:
             return {bad_output, "output", error.what()};
         case read:

@@ -26,10 +26,10 @@ using tools::exit_status;
 void add_options(command_line& line, boolean_settings& s) {
     line.group("Options");
     line.option(s.expression, {"--expr", "EXPR",
-                               "instead of OP, such as \"(a-b)*(c+d)\"; a is INPUT 1;\n"
-                               "+ | union, * & intersection, -, ^ exclusive or; of\n"
-                               "one INPUT, a is its first object; or names of\n"
-                               "parts, \"body-(bolt_1+'left bolt')\""});
+                               "instead of OP, such as \"(a-b)*(c+d)\"; a is INPUT 1,\n"
+                               "or the first object of a single INPUT; + | union,\n"
+                               "* & intersection, - difference, ^ exclusive or; or\n"
+                               "names of parts, \"body-(bolt_1+'left bolt')\""});
     line.repeatable_option(s.matrix_texts,
                            {"--matrix", "N:FILE", "4x4 matrix for INPUT N (repeatable)"});
     line.option(s.inside,
@@ -39,33 +39,32 @@ void add_options(command_line& line, boolean_settings& s) {
     line.flag(s.accept_open, {"--accept-open", "",
                               "an open input is a surface that the others cut:\n"
                               "a difference or intersection keeps a part of it"});
-    line.flag(s.repair, {"--repair", "", "mend each INPUT first, as tf-repair does"});
+    line.flag(s.repair, {"--repair", "", "repair each INPUT first, as tf-repair does"});
     line.flag(s.keep_cuts, {"--keep-cuts", "",
                             "do not merge coplanar faces that were cut, or\n"
                             "that overlap"});
     line.flag(s.simplify, {"--simplify", "", "merge all coplanar faces, also those not cut"});
-    line.option(
-        {"--min-volume", "V", "leave out parts of the result, and fill voids, below V", "0"},
-        [&s](std::string_view v) {
-            s.min_volume = tools::parse_volume("--min-volume", v);
-            s.min_volume_given = true;
-        });
+    line.option({"--min-volume", "V", "drop parts and fill voids of the result below V", "0"},
+                [&s](std::string_view v) {
+                    s.min_volume = tools::parse_volume("--min-volume", v);
+                    s.min_volume_given = true;
+                });
     line.option(s.gap, {"--gap", "DIST",
                         "union: fill gaps of at most DIST between faces of\n"
-                        "different operands that lie over each other"});
+                        "different operands that face each other"});
     tools::add_max_move(line, s.limits);
 }
 
 void add_what_to_give_back(command_line& line, boolean_settings& s, common_options& options) {
-    line.group("What to give back");
+    line.group("Output");
     line.output(options.output, {"-o, --output", "FILE", "the solid"});
     line.option(s.source, {"--source", "P",
                            "write source mesh and face of each face to\n"
                            "properties P_mesh, P_face of a PLY or GLB",
                            "source"});
     line.flag(s.no_attributes, {"--no-attributes", "",
-                                "do not interpolate colors, normals, uv, others,\n"
-                                "also of corners; no materials, no textures"});
+                                "no colors, normals, uv or other properties, also of\n"
+                                "corners; no materials, no textures"});
     line.output(s.curves,
                 {"--curves", "FILE", "the lines along which the inputs meet, as OBJ or PLY"});
 }

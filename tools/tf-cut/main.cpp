@@ -81,13 +81,13 @@ exit_status not_made(tools::job& work, const cut_settings& s, const usable_input
                     }));
     if (why.status == tf::status::open_input)
         work.warn("no-solid",
-                  "the input bounds no solid; tf-repair makes one of it, and thicken takes any "
+                  "the input bounds no solid; tf-repair may make one, and thicken takes any "
                   "surface");
     if (why.status == tf::status::vanished)
         work.warn("too-thin",
                   s.mode == cut_mode::hollow
                       ? "there is no cavity: the solid is nowhere thicker than two walls"
-                      : "the solid is nowhere so thick, or by less than a cell");
+                      : "the solid is nowhere that thick, or only by less than a cell");
     return tools::found;
 }
 
@@ -119,16 +119,14 @@ exit_status look_at(tools::job& work, const cut_settings& s) {
             work.out.result(work.name + ": not cut: " + why);
             if (made.certificate.status == tf::status::open_input)
                 work.warn("no-solid",
-                          "the input bounds no solid; tf-repair makes one of it, and "
+                          "the input bounds no solid; tf-repair may make one, and "
                           "--open cuts it as a surface");
             tools::write_page(work, input, "not cut: " + why, false, {}, nullptr);
             return tools::found;
         }
         if (made.resolved)
-            work.warn("united",
-                      s.open ? "faces meet: they are cut along each other first"
-                             : "faces meet: what is cut is the solid that they wind around, where "
-                               "parts that overlap are one");
+            work.warn("united", s.open ? "faces meet: they are cut along each other first"
+                                       : "faces meet: overlapping parts are merged before the cut");
         pieces = pieces_of(std::move(made), s);
         const auto furthest = std::ranges::max_element(
             pieces, {}, [](const cut_off& piece) { return piece.certificate.max_displacement; });
@@ -152,9 +150,10 @@ exit_status look_at(tools::job& work, const cut_settings& s) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    command_line line("tf-cut", "MODE [OPTIONS] INPUT...",
-                      "Cut meshes by planes: sections, halves, pieces for a printer; take their\n"
-                      "parts, and say what they are. Every verdict is exact.");
+    command_line line(
+        "tf-cut", "MODE [OPTIONS] INPUT...",
+        "Cut meshes by planes: sections, halves, pieces for a printer; extract their\n"
+        "parts, and measure them. Every verdict is exact.");
     cut_settings s;
     common_options options;
     options.suffix = "-cut";

@@ -13,8 +13,8 @@ namespace {
 void add_distances(command_line& line, shape_settings& s) {
     line.group("Distances");
     line.option({"--distance", "D",
-                 "simplify, offset: how far both surfaces may be apart;\n"
-                 "or how far the solid grows (below 0: shrinks)"},
+                 "simplify, offset: largest distance of the result from\n"
+                 "the input; or growth of the solid (below 0: shrinks)"},
                 [&s](std::string_view v) {
                     const bool shrinks = v.starts_with('-');
                     s.distance = parse_distance("--distance", v.substr(shrinks ? 1 : 0));
@@ -22,14 +22,14 @@ void add_distances(command_line& line, shape_settings& s) {
                     s.distance.value = -s.distance.value;
                     s.distance.given.insert(0, "-");
                 });
-    line.option({"--wall", "W", "hollow: how thick the wall is"},
+    line.option({"--wall", "W", "hollow: thickness of the wall"},
                 [&s](std::string_view v) { s.distance = parse_distance("--wall", v); });
-    line.option({"--thickness", "T", "thicken: how thick the solid is"},
+    line.option({"--thickness", "T", "thicken: thickness of the solid"},
                 [&s](std::string_view v) { s.distance = parse_distance("--thickness", v); });
     line.option({"--resolution", "R",
-                 "offset, hollow, thicken: edge of the cells that the\n"
-                 "surface is made in, at most half of the distance;\n"
-                 "a quarter, or what some 170,000 faces allow"},
+                 "offset, hollow, thicken: cell size, at most half of\n"
+                 "the distance; by default a quarter of it, or larger\n"
+                 "to stay near 170,000 faces"},
                 [&s](std::string_view v) { s.resolution = parse_number("--resolution", v); });
     line.option(s.side, {"--side", "SIDE", "thicken: both | front | back", "both"}, thick_sides);
     line.option({"--drain", "X,Y,Z,D",
@@ -44,7 +44,7 @@ void add_distances(command_line& line, shape_settings& s) {
 
 void add_options(command_line& line, cut_settings& s) {
     line.group("Planes");
-    line.option({"--normal", "X,Y,Z", "across the plane; above is where it points", "0,0,1"},
+    line.option({"--normal", "X,Y,Z", "normal of the plane; it points above", "0,0,1"},
                 [&s](std::string_view v) { s.plane.normal = parse_direction("--normal", v); });
     line.option({"--at", "X,Y,Z", "a point of the plane", "0,0,0"},
                 [&s](std::string_view v) { s.plane.at = parse_point("--at", v); });
@@ -69,12 +69,12 @@ void add_options(command_line& line, cut_settings& s) {
         s.lines.levels = parse_numbers("--levels", v, count);
     });
     line.option(s.lines.count, {"--count", "N",
-                                "isolines: this many levels, evenly spaced between\n"
-                                "the least value and the greatest",
+                                "isolines: number of levels, evenly spaced between\n"
+                                "the least and the greatest value",
                                 "0"});
     line.option({"--bed", "X,Y[,Z]",
-                 "pieces: that fit into a box of this size; as few as\n"
-                 "possible, of equal length"},
+                 "pieces: as few as fit boxes of this size, of equal\n"
+                 "length"},
                 [&s](std::string_view v) {
                     const auto count = static_cast<std::size_t>(std::ranges::count(v, ',')) + 1;
                     const auto size = parse_numbers("--bed", v, count == 2 ? 2 : 3);
@@ -85,33 +85,33 @@ void add_options(command_line& line, cut_settings& s) {
     line.group("Options");
     line.option(s.keep, {"--keep", "HALF", "half: both | below | above", "both"}, kept_halves);
     line.flag(s.open, {"--open", "",
-                       "half, pieces: cut a surface, which may end anywhere,\n"
-                       "and leave the pieces open"});
+                       "half, pieces: cut the mesh as a surface, without caps;\n"
+                       "it may be open"});
     line.option(s.walls,
                 {"--walls", "HOW",
-                 "info: thinnest wall of a solid: ray, from the middle\n"
-                 "of each face inward; sphere, the largest ball there\n"
-                 "(it takes far longer); or none",
+                 "info: how to find the thinnest wall of a solid: ray,\n"
+                 "from the middle of each face inward; sphere, the\n"
+                 "largest ball there (much slower); or none",
                  "ray"},
                 wall_measures);
     add_max_move(line, s.limits);
-    line.option({"--min-volume", "V", "parts: leave out those below V; open ones have none", "0"},
+    line.option({"--min-volume", "V", "parts: drop parts below V; open parts count as 0", "0"},
                 [&s](std::string_view v) { s.parts.min_volume = parse_volume("--min-volume", v); });
     line.option(s.parts.largest,
-                {"--largest", "N", "parts: only the N of the greatest volume", "all"});
+                {"--largest", "N", "parts: only the N parts of greatest volume", "all"});
 }
 
 void add_what_to_give_back(command_line& line, cut_settings& s) {
-    line.group("What to give back");
+    line.group("Output");
     line.output(s.output, {"-o, --output", "FILE",
-                           "where the result goes: lines as svg, dxf, obj or json,\n"
-                           "\"-\" being json on standard output;\n"
-                           "pieces as meshes, or objects of one 3MF, OBJ or GLB.\n"
-                           "\"%d\" in the name, or \"%03d\" with zeros ahead, is the\n"
-                           "number of a layer or piece with a file of its own"});
+                           "the result: lines as svg, dxf, obj or json (\"-\": json\n"
+                           "on standard output); pieces as meshes, or as objects\n"
+                           "of one 3MF, OBJ or GLB. With \"%d\" in the name, or\n"
+                           "\"%03d\" for leading zeros, each layer or piece gets\n"
+                           "its own file, with its number"});
     line.option(s.caps, {"--caps", "P",
-                         "half, pieces: write the number of its plane for each\n"
-                         "face of a cap to property P of a PLY or GLB, else -1"});
+                         "half, pieces: write the number of the plane to\n"
+                         "property P of a PLY or GLB; -1 for faces of no cap"});
 }
 
 void check_lines(const command_line& line, line_settings& lines) {

@@ -18,8 +18,8 @@ int main(int argc, char** argv) {
         if (argc > 1 && argv[1] == one->mode()) return one->run(argc, argv);
     tools::command_line line(
         "tf-place", "MODE [OPTIONS] MOVING...",
-        "Find where to put one mesh (or point set) with respect to others.\n"
-        "The result never penetrates: it is checked again in the precision written.");
+        "Place a mesh or a point cloud relative to others.\n"
+        "The result never penetrates: it is checked in the precision that is written.");
     tools::place_settings s;
     tools::fixed_meshes fixed;
     tools::common_options options;

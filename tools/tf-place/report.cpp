@@ -125,7 +125,7 @@ std::string sentence(const placing& p) {
         std::string text = "not placed: " + p.reason;
         if (at.at_place != tf::mesh_relation::penetrating || !at.nearest) return text;
         const std::string seen = "penetrating " + p.fixed.label(at.nearest->fixed);
-        constexpr std::string_view where = " where it is";
+        constexpr std::string_view where = " at the start";
         const std::size_t at_end = std::min(text.find(where), text.size() - where.size());
         return text.insert(at_end + where.size(),
                            relation.substr(std::min(seen.size(), relation.size())));

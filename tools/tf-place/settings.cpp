@@ -40,33 +40,35 @@ const char* name_of(place_mode mode) { return modes[static_cast<std::size_t>(mod
 
 void add_options(command_line& line, place_settings& s, common_options& options) {
     line.group("Options");
-    line.repeatable_option(options.also_read, {"--fixed", "FILE",
-                                               "what stays where it is (repeatable); its objects,\n"
-                                               "groups or nodes are bodies, except for what has\n"
-                                               "points in common"});
+    line.repeatable_option(options.also_read,
+                           {"--fixed", "FILE",
+                            "mesh that does not move (repeatable); its objects,\n"
+                            "groups or nodes are separate bodies, unless they\n"
+                            "have points in common"});
     line.option({"--bed", "Z",
                  "drop, lay, arrange: height of the bed; drop with\n"
-                 "--fixed has none unless this is given",
+                 "--fixed has a bed only if this is given",
                  "0"},
                 [&s](std::string_view text) { s.bed = parse_number("--bed", text); });
     line.option(
         {"-d, --direction", "X,Y,Z", "slide, drop: direction of travel", "0,0,-1"},
         [&s](std::string_view text) { s.direction = parse_direction("--direction", text); });
     line.option(s.clearance, {"--clearance", "DIST", "gap to leave", "0"});
-    line.option(s.max_travel, {"--max-travel", "DIST", "give up beyond this travel (exit 1)"});
+    line.option(s.max_travel,
+                {"--max-travel", "DIST", "largest travel (exit 1 if it is not enough)"});
     add_options_of_modes(line, s);
     line.option(s.start,
                 {"--start", "FILE",
                  "matrix applied to MOVING first: 4x4 numbers, or a\nreport of tf-place with one"});
-    line.group("What to give back");
+    line.group("Output");
     line.output(options.output, {"-o, --output", "FILE",
                                  "MOVING at its new place; of measure, MOVING where it\n"
-                                 "is; PLY, GLB: faces that penetrate --fixed are red,\n"
-                                 "touching yellow, closer than --clearance or\n"
-                                 "stopped at it cyan (if they had no colors)"});
+                                 "is; PLY, GLB without colors: faces that penetrate\n"
+                                 "--fixed are red, touching yellow, closer than\n"
+                                 "--clearance or stopped at it cyan"});
     line.flag(s.scene, {"--scene", "",
-                        "-o and --output-dir: the fixed meshes too, with\n"
-                        "the names of their parts"});
+                        "-o and --output-dir: also write the fixed meshes,\n"
+                        "with the names of their parts"});
     line.output(s.matrix, {"--matrix", "FILE",
                            "4x4 matrix, 4 lines, row-major, column vectors:\n"
                            "new = M * old, in file coordinates; \"-\" = stdout"});
@@ -95,8 +97,7 @@ void check_settings(const command_line& line, place_settings& s, common_options&
          listed(feature_option_names()) + " are for mate"},
         {!s.feature.kind && given(feature_option_names()) > 0,
          "--pick, --pick-fixed and --flip need --feature"},
-        {(is(turn) || s.feature.kind) && s.max_travel,
-         "--max-travel: not of a turn, or by features"},
+        {(is(turn) || s.feature.kind) && s.max_travel, "--max-travel: not for turns or features"},
         {is(lay) && !s.fixed.empty(), "--fixed: lay puts MOVING on the bed alone"},
         {is(lay) && clearance, "--clearance: lay puts MOVING on the bed"},
         {is(lay) && s.max_travel, "--max-travel: lay goes to the bed"},
@@ -104,7 +105,7 @@ void check_settings(const command_line& line, place_settings& s, common_options&
          listed(arrange_option_names()) + " are for arrange"},
         {!is(fit) && (line.given("--max-distance") || given(align_option_names()) > 0),
          "--max-distance, " + listed(align_option_names()) + " are for fit"},
-        {given(std::array{"--overlap", "--trim"}) > 1, "--overlap and --trim say the same"},
+        {given(std::array{"--overlap", "--trim"}) > 1, "--overlap and --trim exclude each other"},
         {is(arrange) && !line.given("--size"), "arrange needs --size"},
         {is(arrange) && !s.fixed.empty(), "--fixed: arrange puts MOVING on an empty plate"},
         {is(fit) && s.fixed.size() > 1, "fit: one --fixed only"},
@@ -114,7 +115,7 @@ void check_settings(const command_line& line, place_settings& s, common_options&
         {!is(drop, lay, arrange) && s.bed, "--bed: only drop, lay and arrange have one"},
         {!is(drop, slide) && s.direction, "--direction: " + mode + " finds its own"},
         {s.has_bed() && s.direction && !(s.direction->z < 0.0),
-         "--direction: does not lead down to the bed"},
+         "--direction: must lead down to the bed"},
         {!is(measure) && s.deviation.wanted(), "--distances and --tolerance-band are for measure"},
         {!is(measure) && s.deviation.no_depth, "--no-depth is for measure"},
         {is(measure) && s.max_travel, "--max-travel: measure moves nothing"},

@@ -32,17 +32,16 @@ struct step {
 };
 constexpr std::array<step, 5> steps{
     {{"join",
-      "degenerate and repeated faces go; cracks narrower\n"
-      "than --gap and T-junctions close",
+      "drop degenerate and duplicate faces; close cracks\n"
+      "narrower than --gap and T-junctions",
       &tf::repair_options::join},
-     {"orient", "faces agree, shells turn outward; strays go", &tf::repair_options::orient},
-     {"fill", "holes are filled", &tf::repair_options::fill},
+     {"orient", "orient faces consistently and outward; drop strays", &tf::repair_options::orient},
+     {"fill", "fill holes", &tf::repair_options::fill},
      {"resolve",
-      "self-intersections are cut; what bounds nothing\n"
-      "goes",
+      "cut self-intersections; drop faces that do not bound\n"
+      "the solid",
       &tf::repair_options::resolve},
-     {"detach", "parts that touch in an edge or a point are set apart",
-      &tf::repair_options::detach}}};
+     {"detach", "separate parts that touch in an edge or a point", &tf::repair_options::detach}}};
 
 /// By `repair_rule`.
 constexpr std::array<const char*, 4> rules{"auto", "nonzero", "odd", "positive"};
@@ -53,7 +52,7 @@ struct request {
 };
 
 void add_steps(command_line& line, request& r) {
-    line.group("Steps, in this order (each can be left out with --no-STEP)");
+    line.group("Steps, in this order (--no-STEP skips one)");
     for (std::size_t i = 0; i < steps.size(); ++i) {
         line.mention({.names = steps[i].name, .text = steps[i].text});
         line.flag(r.left_out[i], {.names = std::string("--no-") + steps[i].name});
@@ -65,7 +64,7 @@ void add_options(command_line& line, repair_settings& s) {
     line.option(s.gap, {"--gap", "DIST", "widest crack to close", "found, at most 0.1%"});
     line.option(s.steps.largest_hole, {"--holes", "N", "fill holes of at most N edges", "all"});
     line.option(
-        {"--strays", "SHARE", "loose open pieces below this share of area go", "0.1%"},
+        {"--strays", "SHARE", "drop loose open pieces below this share of the area", "0.1%"},
         [&s](std::string_view text) { s.steps.strays = tools::parse_share("--strays", text); });
     line.option(s.steps.inside,
                 {"--inside", "RULE", "what is solid: auto | nonzero | odd | positive", "auto"},
@@ -75,20 +74,20 @@ void add_options(command_line& line, repair_settings& s) {
                                   "do not merge coplanar faces that were cut, or\n"
                                   "that overlap"});
     line.flag(s.check, {"--check", "",
-                        "change nothing; say what is wrong; exit 1 if\n"
-                        "anything is"});
+                        "change nothing; list the defects; exit 1 if there\n"
+                        "are any"});
     line.group("Limits beyond which nothing is written (exit 1)");
     tools::add_max_loss(line, s.limits);
     tools::add_max_move(line, s.limits);
 }
 
 void add_what_to_give_back(command_line& line, repair_settings& s, common_options& options) {
-    line.group("What to give back");
+    line.group("Output");
     line.output(options.output, {"-o, --output", "FILE", "the solid"});
-    line.output(s.curves, {"--curves", "FILE", "lines along which faces met, as OBJ or PLY"});
+    line.output(s.curves, {"--curves", "FILE", "intersection curves of the input, as OBJ or PLY"});
     line.option(s.source, {"--source", "P",
-                           "write the face of the input that each face lies in\n"
-                           "to property P of a PLY or GLB; -1 where it is new"});
+                           "write the input face of each face to property P of\n"
+                           "a PLY or GLB; -1 for new faces"});
 }
 
 void check_request(const command_line& line, request& r, common_options& options) {
@@ -98,13 +97,13 @@ void check_request(const command_line& line, request& r, common_options& options
     for (std::size_t i = 0; i < steps.size(); ++i)
         if (r.left_out[i]) s.steps.*steps[i].wanted = false;
     tools::check_curve_path(s.curves);
-    if (s.gap && !s.steps.join) refuse("--gap: --no-join closes no cracks");
+    if (s.gap && !s.steps.join) refuse("--gap: --no-join skips the step that closes cracks");
     if (line.given("--holes") && (!s.steps.fill || s.steps.sheet))
         refuse("--holes: no hole is filled with --no-fill or --sheet");
     for (const char* name : {"--inside", "--keep-cuts"})
         if (line.given(name) && !s.steps.resolve)
-            refuse(std::string(name) + ": --no-resolve cuts nothing");
-    if (s.steps.keep_cuts && s.steps.sheet) refuse("--keep-cuts: --sheet keeps all of them");
+            refuse(std::string(name) + ": --no-resolve skips cutting");
+    if (s.steps.keep_cuts && s.steps.sheet) refuse("--keep-cuts: a --sheet is never merged");
     if (!options.output.empty()) {
         const std::string format = tools::mesh_format(options, options.output);
         if (!s.source.empty() && format != "ply" && format != "glb")
@@ -205,8 +204,8 @@ exit_status look_at(tools::job& work, const repair_settings& s) {
 
 int main(int argc, char** argv) {
     command_line line("tf-repair", "[OPTIONS] INPUT...",
-                      "Make solids of dirty meshes: closed, oriented, manifold and free of\n"
-                      "self-intersections in the file that is written, or say why not.");
+                      "Repair meshes to solids: closed, oriented, manifold and free of\n"
+                      "self-intersections in the file that is written, or report why not.");
     const auto asked = std::make_unique<request>();  // on the stack, GCC 12 sees it uninitialized
     request& r = *asked;
     common_options options;

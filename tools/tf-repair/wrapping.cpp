@@ -70,9 +70,10 @@ void warn_of_skin(job& work, const dirty_mesh& input, const tf::offset_result& m
 void add_wrapping(command_line& line, wrap_settings& target) {
     line.group("Last resort, instead of the steps");
     line.option(target.size, {"--wrap", "SIZE",
-                              "a closed surface around everything, which enters no\n"
-                              "gap or hole narrower than about SIZE"});
-    line.option(target.offset, {"--offset", "DIST", "how far from the faces", "SIZE / 30"});
+                              "a closed surface around all faces; closes gaps and\n"
+                              "holes narrower than about twice SIZE"});
+    line.option(target.offset,
+                {"--offset", "DIST", "distance of the surface from the faces", "SIZE / 30"});
 }
 
 void check_wrapping(const command_line& line, const wrap_settings& settings) {

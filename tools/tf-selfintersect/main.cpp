@@ -60,7 +60,7 @@ void add_what_counts(command_line& line, tools::search_settings& s) {
     line.offer("--vertices", {identities.begin(), identities.end()});
     line.option(s.tolerance, {.names = "-t, --tolerance",
                               .value = "DIST",
-                              .text = "join corners within DIST before looking",
+                              .text = "join corners within DIST before the search",
                               .fallback = "0",
                               .aliases = "--eps,--threshold"});
     line.option({"--box", "X0,Y0,Z0,X1,Y1,Z1", "only faces that meet this box"},
@@ -68,8 +68,8 @@ void add_what_counts(command_line& line, tools::search_settings& s) {
 }
 
 void add_what_to_give_back(command_line& line, request& r, common_options& options) {
-    line.group("What to give back");
-    line.flag(r.search.first, {"--first", "", "stop at the first one found"});
+    line.group("Output");
+    line.flag(r.search.first, {"--first", "", "stop at the first pair found"});
     line.option(r.limit, {"--limit", "N",
                           "list at most N pairs in the report (counts, --pairs\n"
                           "and regions stay complete)",
@@ -77,17 +77,17 @@ void add_what_to_give_back(command_line& line, request& r, common_options& optio
     line.output(r.pairs, {"--pairs", "FILE", "all pairs as CSV: face,face,kind,region"});
     line.output(r.curves, {"--curves", "FILE", "intersection curves as OBJ or PLY lines"});
     line.output(options.output, {"-o, --output", "FILE",
-                                 "the mesh with the faces colored by kind, and its\n"
-                                 "properties tf_class and tf_region (PLY, GLB); the\n"
-                                 "repaired mesh with --repair, and the face that each\n"
-                                 "one lies in as property source_face (PLY)"});
+                                 "the mesh with faces colored by kind, and properties\n"
+                                 "tf_class and tf_region (PLY, GLB); with --repair the\n"
+                                 "repaired mesh, and the input face of each face as\n"
+                                 "property source_face (PLY)"});
 }
 
 void add_repair(command_line& line, request& r) {
     line.group("Repair");
     line.flag_with_value({.names = "--repair",
                           .text = "split: cut along the curves, keep every face\n"
-                                  "outer: then keep only what bounds the solid\n"
+                                  "outer: also keep only the boundary of the solid\n"
                                   "remove: delete the faces and fill the holes",
                           .fallback = "outer",
                           .label = "--repair[=MODE]"},
@@ -182,7 +182,7 @@ int run(int argc, char** argv, tools::team_member& me) {
     command_line line(
         "tf-selfintersect", "[OPTIONS] INPUT...",
         "Find self-intersections of triangle meshes and, with --repair, resolve them.\n"
-        "Every yes/no answer is exact for the coordinates as read.");
+        "Every verdict is exact on the coordinates as read.");
     request r;
     common_options options;
     r.tiles.communicator = me.communicator;

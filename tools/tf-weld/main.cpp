@@ -30,12 +30,12 @@ void add_what_is_merged(command_line& line, weld_settings& s, bool& exact) {
     line.option({"--rule", "RULE",
                  "first: in file order, drop a point if an earlier\n"
                  "kept one is within DIST\n"
-                 "chain: everything linked by steps of DIST is one",
+                 "chain: merge all points linked by steps of DIST",
                  "first"},
                 [&s](std::string_view text) { s.options.rule = tools::parse_rule(text); });
     line.offer("--rule", {"first", "chain"});
     line.option({"--same", "P[=TOL],...",
-                 "merge only if property P agrees too (within TOL),\n"
+                 "merge only if property P agrees, too (within TOL),\n"
                  "e.g. --same classification,nx=0.01"},
                 [&s](std::string_view text) { s.options.same = tools::parse_same(text); });
     line.option({"--across", "P,...",
@@ -53,25 +53,23 @@ void add_which_one_stays(command_line& line, tf::weld_options& options) {
                 [&options](std::string_view text) { tools::parse_keep(text, options); });
     line.offer("--keep", {"first", "last", "mean", "min:", "max:"});
     line.option({"--order", "P",
-                 "P or min:P | max:P: go through points from the\n"
-                 "least or greatest P on; ties, NaN last, in file\n"
-                 "order",
+                 "P or min:P | max:P: visit points by rising or\n"
+                 "falling P; ties in file order, NaN last",
                  "file order"},
                 [&options](std::string_view text) { tools::parse_order(text, options); });
     line.offer("--order", {"min:", "max:"});
 }
 
 void add_what_to_give_back(command_line& line, weld_outputs& outputs, common_options& options) {
-    line.group("What to give back");
+    line.group("Output");
     line.output(options.output, {"-o, --output", "FILE",
                                  "the welded set; all other properties are kept\n"
                                  "(meshes: obj ply stl off glb; points: ply pcd\n"
                                  "las laz xyz csv). \"-\" = stdout, with --output-format"});
     line.output(outputs.map, {"--map", "FILE",
-                              "input index -> output index: CSV where FILE ends\n"
-                              "in .csv or is \"-\", else binary u64, little endian"});
-    line.output(outputs.removed,
-                {"--removed", "FILE", "the points that were dropped, in a format of points"});
+                              "input index -> output index: CSV if FILE ends in\n"
+                              ".csv or is \"-\", else binary u64, little endian"});
+    line.output(outputs.removed, {"--removed", "FILE", "the dropped points, in a point format"});
     line.option(outputs.label, {"--label", "P", "drop nothing; write group numbers to property P"});
     line.flag(outputs.withhold, {"--withhold", "",
                                  "drop nothing; set the flag \"withheld\" of points\n"
@@ -82,21 +80,21 @@ void add_what_to_give_back(command_line& line, weld_outputs& outputs, common_opt
 void add_columns(command_line& line, common_options& o, bool& mixed) {
     line.group("Properties");
     line.option({"--columns", "A=B,...",
-                 "of XYZ, PTS, CSV: property A is what the heading\n"
-                 "calls B, or column number B, e.g. x=E,y=N,z=H"},
+                 "XYZ, PTS, CSV: property A is the column with heading\n"
+                 "B or number B, e.g. x=E,y=N,z=H"},
                 [&o](std::string_view text) { o.columns = tools::parse_names("--columns", text); });
     line.flag(o.drop_nan,
               {"--drop-nan", "", "drop points with a NaN or infinite coordinate first"});
     line.option({"--drop", "P,...",
-                 "properties of points that are not written; normal, uv\n"
-                 "of corners as well"},
+                 "do not write these properties of points; normal, uv:\n"
+                 "also of corners"},
                 [&o](std::string_view text) { o.drop = tools::parse_properties("--drop", text); });
-    line.option({"--rename", "P=NAME,...", "property P of points is written as NAME"},
+    line.option({"--rename", "P=NAME,...", "write property P of points as NAME"},
                 [&o](std::string_view text) {
                     o.rename = tools::parse_names("--rename", text);
                     for (auto& r : o.rename) std::swap(r.name, r.source);
                 });
-    line.option({"--las-scale", "S[,S,S]", "steps of coordinates in LAS, one or of each axis",
+    line.option({"--las-scale", "S[,S,S]", "scale of LAS coordinates, one or one for each axis",
                  "of the input, else chosen"},
                 [&o](std::string_view text) {
                     o.las_scale = tools::parse_axes("--las-scale", text);
@@ -105,12 +103,11 @@ void add_columns(command_line& line, common_options& o, bool& mixed) {
                             refuse("--las-scale " + std::string(text) + ": not above 0");
                 });
     line.option(
-        {"--las-offset", "X[,Y,Z]", "where these steps are counted from",
-         "of the input, else chosen"},
+        {"--las-offset", "X[,Y,Z]", "offset of LAS coordinates", "of the input, else chosen"},
         [&o](std::string_view text) { o.las_offset = tools::parse_axes("--las-offset", text); });
     line.flag(mixed, {"--mixed", "",
                       "--join LAS of different reference systems or time\n"
-                      "types, too; those of the first are written"});
+                      "types; the output has those of the first"});
 }
 
 void add_meshes(command_line& line, weld_settings& s) {
@@ -118,8 +115,8 @@ void add_meshes(command_line& line, weld_settings& s) {
     line.flag(s.options.keep_degenerate,
               {"--keep-degenerate", "", "keep faces that collapse", "drop and count"});
     line.flag(s.options.keep_manifold, {"--keep-manifold", "",
-                                        "leave a pair alone if merging it would make an edge\n"
-                                        "of more than two faces or a bow-tie vertex"});
+                                        "do not merge a pair if that would make an edge of\n"
+                                        "more than two faces or a bow-tie vertex"});
 }
 
 /// Options that would do nothing are refused rather than passed over.
@@ -169,7 +166,7 @@ void check_request(const command_line& line, const tools::weld_request& r,
 
 int run(int argc, char** argv, tools::team_member& me) {
     command_line line("tf-weld", "[OPTIONS] INPUT...",
-                      "Merge points or mesh vertices that lie within a distance of each other.\n"
+                      "Merge points or mesh vertices that are within a distance of each other.\n"
                       "Point clouds stay point clouds; meshes are re-indexed.");
     tools::weld_request r;
     tools::tile_options tiles{.communicator = me.communicator};
@@ -191,7 +188,7 @@ int run(int argc, char** argv, tools::team_member& me) {
     add_meshes(line, r.settings);
     add_columns(line, options, r.mixed);
     tools::add_tile_options(line, tiles,
-                            "What is larger than --memory is welded in tiles on the disk",
+                            "Inputs larger than --memory are welded in tiles on the disk",
                             "--tile-points");
     tools::add_sharing_options(line, tiles);
     line.group("Common options");

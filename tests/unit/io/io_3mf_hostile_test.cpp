@@ -103,7 +103,7 @@ TEST_CASE("3mf hostile: a package with any byte changed is read or refused by it
 
 TEST_CASE("3mf hostile: what is no package is refused") {
     CHECK(refusal_of_3mf("").find("empty") != std::string::npos);
-    CHECK(refusal_of_3mf("v 0 0 0\n").find("no ZIP archive") != std::string::npos);
+    CHECK(refusal_of_3mf("v 0 0 0\n").find("not a ZIP archive") != std::string::npos);
     CHECK_FALSE(refusal_of_3mf(test::zip_of({})).empty());
     CHECK(refusal_of_3mf(test::zip_of({{.name = "a.txt", .bytes = "a"}})).find("_rels/.rels") !=
           std::string::npos);
@@ -117,7 +117,7 @@ TEST_CASE("3mf hostile: what is no package is refused") {
                      two.bytes.substr(two.bytes.find("<Relationship "),
                                       two.bytes.find("</") - two.bytes.find("<Relationship ")));
     CHECK(refusal_of_3mf(test::zip_of({two, {.name = "a.model", .bytes = ""}}))
-              .find("second model") != std::string::npos);
+              .find("second start model") != std::string::npos);
 }
 
 TEST_CASE("3mf hostile: names that leave the archive, or are there twice, are refused") {
@@ -127,7 +127,7 @@ TEST_CASE("3mf hostile: names that leave the archive, or are there twice, are re
         CHECK(refusal_of_3mf(package_3mf(good, {{.name = name, .bytes = "x"}}))
                   .find("the archive has") != std::string::npos);
     CHECK(refusal_of_3mf(package_3mf(good, {{.name = "3D/3DMODEL.model", .bytes = good}}))
-              .find("twice in the archive") != std::string::npos);
+              .find("in the archive twice") != std::string::npos);
     CHECK(refusal_of_3mf(package_3mf(good, {{.name = "3D/", .bytes = ""},
                                             {.name = "a..b/c...d", .bytes = ""}}))
               .empty());

@@ -132,16 +132,17 @@ TEST_CASE("gltf, hostile: counts and offsets that the bytes cannot hold are refu
     CHECK(accessor(R"("count":8,"byteOffset":1)") == beyond);
     CHECK(accessor(R"("count":8,"byteOffset":18446744073709551604)") == beyond);
     CHECK(accessor(R"("count":0)") == "a.glb: accessors[0].count is 0");
-    CHECK(accessor(R"("count":-8)") == "a.glb: accessors[0].count is no whole number from 0 on");
-    CHECK(accessor(R"("count":8.5)") == "a.glb: accessors[0].count is no whole number from 0 on");
-    CHECK(accessor(R"("count":1e300)") == "a.glb: accessors[0].count is no whole number from 0 on");
-    CHECK(accessor(R"("count":"8")") == "a.glb: accessors[0].count is no whole number from 0 on");
+    CHECK(accessor(R"("count":-8)") == "a.glb: accessors[0].count is not an integer of 0 or more");
+    CHECK(accessor(R"("count":8.5)") == "a.glb: accessors[0].count is not an integer of 0 or more");
+    CHECK(accessor(R"("count":1e300)") ==
+          "a.glb: accessors[0].count is not an integer of 0 or more");
+    CHECK(accessor(R"("count":"8")") == "a.glb: accessors[0].count is not an integer of 0 or more");
     CHECK(accessor(R"("byteOffset":0)") == "a.glb: accessors[0] has no 'count'");
     CHECK(with_accessor(
               R"({"bufferView":4294967296,"componentType":5126,"count":8,"type":"VEC3"})") ==
           "a.glb: accessors[0].bufferView is 4294967296, of 2 buffer views");
     CHECK(with_accessor(R"({"bufferView":0,"componentType":5124,"count":8,"type":"VEC3"})") ==
-          "a.glb: accessors[0].componentType is no type of glTF 2.0");
+          "a.glb: accessors[0].componentType is not a type of glTF 2.0");
     CHECK(with_accessor(R"({"bufferView":0,"componentType":5126,"count":8,"type":"VEC2"})") ==
           "a.glb: accessors[0] has another type than POSITION has");
     CHECK(with_accessor(R"({"bufferView":0,"componentType":5126,"count":1,"type":"MAT4"})") ==
@@ -205,7 +206,7 @@ TEST_CASE("gltf, hostile: nodes that are no tree are refused") {
     file.scenes = R"([{"nodes":[7]}])";
     CHECK(gltf_refusal(file) == "a.glb: scenes[0].nodes[0] is 7, of 2 nodes");
     file.scenes = R"([{"nodes":"all"}])";
-    CHECK(gltf_refusal(file) == "a.glb: scenes[0].nodes is no JSON array");
+    CHECK(gltf_refusal(file) == "a.glb: scenes[0].nodes is not a JSON array");
 }
 
 TEST_CASE(

@@ -112,7 +112,7 @@ TEST_CASE("stl binary: a file that ends within a triangle is refused, and so is 
     CHECK(read_named(binary_stl(0, 0), "a.stl").mesh.faces.empty());
     // Of the size of one triangle.
     CHECK(named_refusal("<html>" + std::string(84 + 50 - 6, 'a'), "a.stl") ==
-          "a.stl: text that does not start with 'solid', and no binary STL");
+          "a.stl: text that does not start with 'solid', and not a binary STL");
     std::string wide = "\xff\xfe";
     for (const char c : "solid\nendsolid\n" + std::string(50, ' ')) wide += {c, '\0'};
     CHECK(named_refusal(wide, "a.stl") ==

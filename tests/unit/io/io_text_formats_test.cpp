@@ -263,9 +263,11 @@ TEST_CASE("pts: a wrong count is a warning, and an error where points are missin
     CHECK(more.mesh.points.size() == 2);
     REQUIRE(more.warnings.size() == 1);
     CHECK(more.warnings[0].code == "count");
-    CHECK(more.warnings[0].text == "1 points promised, 2 there");
-    CHECK(says_of_text(text_complaint("3\n1 2 3\n4 5 6\n", "a.pts"), "3 points promised, 2 there"));
-    CHECK(says_of_text(text_complaint("99999999999999999\n1 2 3\n", "a.pts"), "promised, 1 there"));
+    CHECK(more.warnings[0].text == "1 points announced, 2 there");
+    CHECK(
+        says_of_text(text_complaint("3\n1 2 3\n4 5 6\n", "a.pts"), "3 points announced, 2 there"));
+    CHECK(
+        says_of_text(text_complaint("99999999999999999\n1 2 3\n", "a.pts"), "announced, 1 there"));
     CHECK(says_of_text(text_complaint("2\n", "a.pts"), "no point found"));
     CHECK(read_text("1.5\n1 2 3\n", "a.pts").warnings.at(0).code == "heading");
     CHECK(read_text("7\n1 2 3\n", "a.xyz").warnings.at(0).code == "heading");
@@ -403,7 +405,7 @@ TEST_CASE("csv: columns are what they are said to be") {
 TEST_CASE("detection: what is no LAS is not read as LAS") {
     CHECK(says_of_text(text_complaint(std::string_view("LASF\0\0\1\2", 8), "stdin"),
                        "ends in the header"));
-    CHECK(says_of_text(text_complaint("anything", "a.laz"), "no LAS or LAZ file"));
+    CHECK(says_of_text(text_complaint("anything", "a.laz"), "not a LAS or LAZ file"));
 }
 
 TEST_CASE("detection: the content comes first, then the name") {

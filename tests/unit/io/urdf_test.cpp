@@ -282,7 +282,7 @@ TEST_CASE("urdf: links are adjacent across links without meshes") {
 
 TEST_CASE("urdf: what is wrong is named") {
     CHECK(urdf_refusal("<robot").starts_with("byte "));
-    CHECK(urdf_refusal("<a/>") == "no <robot>: is it a URDF file? (xacro has to be run first)");
+    CHECK(urdf_refusal("<a/>") == "no <robot>: not a URDF file? (run xacro first)");
     CHECK(urdf_refusal(robot("")) == "the robot has no link");
     CHECK(urdf_refusal(robot("<link/>")) == "a link has no name");
     CHECK(urdf_refusal(robot("<link name=\"a\"/><link name=\"a\"/>")) ==
@@ -298,9 +298,8 @@ TEST_CASE("urdf: what is wrong is named") {
     CHECK(urdf_refusal(
               robot(three + joint("j", "fixed", "a", "b") + joint("k", "fixed", "c", "b"))) ==
           "link b is the child of two joints");
-    CHECK(urdf_refusal(
-              robot(three + joint("j", "fixed", "a", "b") + joint("k", "fixed", "b", "a"))) ==
-          "joints lead from a link back to it");
+    CHECK(urdf_refusal(robot(three + joint("j", "fixed", "a", "b") +
+                             joint("k", "fixed", "b", "a"))) == "joints form a cycle");
     CHECK(urdf_refusal(robot(three + joint("j", "revolute", "a", "b", "<axis xyz=\"0 0 0\"/>"))) ==
           "joint j: its axis has no direction");
     CHECK(urdf_refusal(robot(three + joint("j", "fixed", "a", "b", "<origin xyz=\"1 nan 0\"/>"))) ==

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// treeform in C: everything. Each header answers the questions of one kind.
+/// treeform in C: includes all headers, one for each subject.
 
 #include <treeform/c/assembly.h>
 #include <treeform/c/attributes.h>

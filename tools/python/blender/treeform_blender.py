@@ -392,11 +392,11 @@ class Operator(bpy.types.Operator):
 
 
 OPERATIONS = (
-    ("union", "Union", "The active object becomes what is in any of the selected ones"),
+    ("union", "Union", "The active object becomes the union of all selected objects"),
     ("difference", "Difference",
-     "The active object becomes what of it is in no other selected one"),
+     "The other selected objects are subtracted from the active object"),
     ("intersection", "Intersection",
-     "The active object becomes what is in all of the selected ones"),
+     "The active object becomes the intersection of all selected objects"),
 )
 
 

@@ -159,7 +159,7 @@ def intersects(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
 def distance(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
              move_b: ArrayLike | None = None, radius: float = np.inf,
              progress: Progress = None) -> Any:
-    """The distance of the surfaces `a` and `b`; infinite when `closest_points` finds none.
+    """The distance of the surfaces `a` and `b`; infinite if `closest_points` returns none.
 
     move_a: an affine map of `a` (4, 4), or many (n, 4, 4): then the answer is an array (n,).
     move_b: the same of `b`.
@@ -182,8 +182,8 @@ class NearestPoints(NamedTuple):
     on_a: (3,) the point on the surface of `a`, rounded, as is `on_b`.
     on_b: (3,) the point on the surface of `b`.
     distance: Exactly 0 if and only if the meshes meet.
-    face_a: The face of `a` that `on_a` is on.
-    face_b: That of `b`.
+    face_a: The face of `a` that contains `on_a`.
+    face_b: The face of `b` that contains `on_b`.
     """
 
     on_a: Floats
@@ -199,26 +199,26 @@ class NearestPoints(NamedTuple):
 def closest_points(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
                    move_b: ArrayLike | None = None, radius: float = np.inf,
                    progress: Progress = None) -> NearestPoints | None:
-    """The nearest points of the surfaces `a` and `b`; none when one has no faces, or when they are
-    further apart than the radius. Surfaces count, not solids: a mesh inside a closed one has the
-    distance to its surface.
+    """The nearest points of the surfaces `a` and `b`; none if one has no faces, or if they are
+    further apart than the radius. Surfaces count, not solids: inside a closed mesh, the distance is
+    that to its surface.
 
-    Whether the meshes meet is decided exactly, on the coordinates as given or as moved. If they do
-    not, the distance is within 16 u L of the true one, where u = 2^-53 and L is the largest
-    distance of two corners of the faces named. Of several pairs of faces at the same computed
-    distance, the lowest numbers are named. When the meshes meet, it may be any pair that meets, but
-    the same one in every run.
+    Whether the meshes meet is decided exactly, on the coordinates as given or as moved. If not, the
+    error of the distance is at most 16 u L, where u = 2^-53 and L is the largest distance of two
+    corners of the returned faces. Of several pairs of faces at the same computed distance, the
+    lowest numbers are returned. If the meshes meet, any pair that meets may be returned, but the
+    same one in every run.
 
-    A `Mesh` keeps tight bounds of their surfaces. That makes later calls several times as fast
-    where surfaces are nearly flat and not along the axes. A transform other than a rotation,
-    uniform scaling or mirror makes a call slower, not wrong.
+    Prepared meshes cache tight bounds of their surfaces, which make later calls several times
+    faster for nearly flat surfaces that are not axis-aligned. Transforms other than rotations,
+    uniform scalings and reflections are slower.
 
     move_a: (4, 4) an affine map of `a`, applied first.
     move_b: (4, 4) the same of `b`.
     radius: beyond it, the answer is None.
 
-    Raises ValueError naming the mesh and its lowest face with a corner out of range or not finite,
-    when a transform is not finite, or the radius is negative or NaN.
+    Raises ValueError naming the mesh and its lowest face with a corner out of range or not finite;
+    for a transform that is not finite; for a radius that is negative or NaN.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -238,14 +238,13 @@ class PartClash(Result):
     how: 'penetrating', 'touching' or 'closer_than_clearance'.
     a_inside_b: As in `mesh_relation_result`.
     b_inside_a: The same with `a` and `b` swapped.
-    distance: Of the surfaces; 0 where they meet.
-    nearest: (2, 3) of those that are too close: on a, on b.
+    distance: Distance of the surfaces; 0 if they meet.
+    nearest: (2, 3) Nearest points on a and on b, of parts that are too close.
     face_pairs: That meet.
-    volume: Of penetrating parts that are closed: the volume of what is inside both, by the exact
-        arrangement, as `operand_volumes::both`.
-    depth: Of penetrating parts: `penetration_depth`, the length of `move`, which takes `a` out of
-        `b`.
-    move: (3,) a short translation that takes `a` out of `b`.
+    volume: For closed parts that penetrate: the volume of their intersection, as
+        `operand_volumes::both`.
+    depth: For penetrating parts: `penetration_depth`, the length of `move`.
+    move: (3,) a short translation that separates `a` from `b`.
     depth_effort: Of `depth`, as in `penetration_depth_result`.
     regions: Where they meet: (box (2, 3), pairs of faces, faces of a, faces of b).
     """
@@ -271,9 +270,9 @@ class ClashResult(Result):
 
     pairs: That are not clear, ascending.
     counts: Pairs that were looked at, by how they lie.
-    clashes: Pairs that penetrate or are closer than the clearance; with a clearance, those that
-        touch, too.
-    boxes_apart: Pairs that their boxes keep apart: not looked at.
+    clashes: Number of pairs that penetrate or are closer than the clearance; with a clearance, also
+        pairs that touch.
+    boxes_apart: Pairs excluded by their boxes.
     """
 
     pairs: list[PartClash]
@@ -286,17 +285,16 @@ def clash(parts: Iterable[Body], clearance: float = 0.0, *, volumes: bool = True
           depths: bool = True, limit: int = 1000, vertices: str = "by_coordinates",
           poses: ArrayLike | None = None, ignored: PartPairs = (),
           progress: Progress = None) -> ClashResult:
-    """How all parts of an assembly lie to each other, two by two.
+    """The relations of all pairs of parts of an assembly.
 
-    Exact, as `measure`: parts penetrate, touch, or are separate. Boxes decide nothing but which
-    pairs need not be looked at: rings in each other, or an L around a corner, whose boxes overlap,
-    are clear if they do not meet. Parts without faces are clear of all. A distance is that of
-    `distance`, and only looked for with a clearance. A part is indexed when its box comes near
-    another's.
+    Exact, like `measure`: parts penetrate, touch, or are separate. Boxes only exclude pairs: linked
+    rings are clear if they do not meet, although their boxes overlap. Parts without faces are clear
+    of all. Distances are those of `distance`, and only computed with a clearance. A part is only
+    indexed if its box is near that of another.
 
     clearance: Parts that are nearer than this are too close.
-    volumes: Of what two closed parts have in common.
-    depths: Of penetrating parts.
+    volumes: Compute the volume of the intersection of closed parts.
+    depths: Compute depths of penetrating parts.
     limit: Faces listed for each region and part.
     vertices: 'by_coordinates' or 'by_index'. As in `measure`.
     poses: (N, 4, 4) an affine map for each of the N parts: where it is. Corners are rounded to
@@ -304,12 +302,12 @@ def clash(parts: Iterable[Body], clearance: float = 0.0, *, volumes: bool = True
         for many poses of all.
     ignored: pairs of numbers of parts that are not looked at.
 
-    Raises ValueError naming the part and its lowest face with a corner out of range or not finite,
-    for a clearance that is negative or not finite, an ignored pair with a number out of range.
+    Raises ValueError naming the part and its lowest face with a corner out of range or not finite;
+    for a clearance that is negative or not finite; for an ignored pair with a number out of range.
 
-    Cost: O(N log N + P) for N parts, P pairs of them whose boxes are within the clearance; and for
-    each of these `measure`, `distance` with a clearance, `mesh_intersections` where they meet,
-    `intersection` and `penetration_depth` where they penetrate.
+    Cost: O(N log N + P) for N parts and the P pairs of parts whose boxes are within the clearance;
+    for each of these pairs `measure`, `distance` with a clearance, `mesh_intersections` if they
+    meet, `intersection` and `penetration_depth` if they penetrate.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -330,12 +328,12 @@ def clash(parts: Iterable[Body], clearance: float = 0.0, *, volumes: bool = True
 def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0, *,
                 first_only: bool = False, vertices: str = "by_coordinates", ignored: PartPairs = (),
                 progress: Progress = None) -> PoseClashes:
-    """What clashes in each of many poses.
+    """The clashes in each of many poses.
 
-    Exact, as `clash` and `measure`, for the corners that the transforms give, rounded to double. No
-    part is copied or indexed anew, except where two moved parts touch, or a corner of one is so
-    near the surface of another that rounding might put it on the other side, or a transform is no
-    motion: then these two are looked at as they are moved.
+    Exact, like `clash` and `measure`, for the moved corners, rounded to double. Parts are not
+    copied or indexed again for a pose, with these exceptions, in which two parts are tested as
+    moved copies: they touch, a corner of one is so near the surface of the other that rounding
+    might change its side, or a transform is not a rigid motion.
 
     poses: (P, N, 4, 4) an affine map for each of the N parts, or (P, 4, 4) for a single one beside
         parts that stay: then it moves the first.
@@ -345,11 +343,11 @@ def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0,
     ignored: pairs of numbers of parts that are not looked at.
 
     Raises ValueError naming the part and its lowest face with a corner out of range or not finite,
-    the pose with a transform that is not finite, for a number of transforms that is no multiple of
-    that of parts, and as `clash`.
+    the pose with a transform that is not finite; for a number of transforms that is not a multiple
+    of the number of parts; as `clash`.
 
-    Cost: the indexes of the parts; then, for each pose, O(N^2) comparisons of boxes, and an
-    `intersects` for pairs whose boxes overlap.
+    Cost: the indexes of the parts; for each pose O(N^2) comparisons of boxes, and an `intersects`
+    for each pair whose boxes overlap.
 
     >>> import numpy as np, treeform
     >>> cube = treeform.read("data/cube.stl")

@@ -95,17 +95,18 @@ def union(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float6
     meshes: each a mesh, or a list of meshes.
     inside: 'nonzero', 'odd' or 'positive'. What is solid.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
-    max_displacement: Where rounding makes faces meet, only what is at most this far apart is
-        joined, in the mesh's own length unit, and never what is further apart than 2^-10 of the
-        largest coordinate. Not negative.
-    keep_cuts: Keep coplanar faces apart that were cut, or that overlap. By default they are merged,
-        exactly and before rounding: a vertex goes where only such faces meet, or two flat parts of
-        them along a straight edge. Faces that nothing has cut stay. `split` keeps all cuts.
+    max_displacement: Where rounding makes faces meet, only points at most this far apart are
+        joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
+        coordinate. Not negative.
+    keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
+        merged, exactly and before rounding: this removes vertices inside a flat part, and on a
+        straight edge between two flat parts. Uncut faces stay as they are. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute those of two operands, of what is in either, and of what is in both.
-    min_volume: Parts of the result with a volume below this, in cubic units, are left out: specks
-        are dropped, and voids are filled, with all that is in them. A part is a component connected
-        by edges; its volume is what it encloses. Of solids only. Finite and not negative.
+    min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
+        are dropped, and small voids are filled, with all that is in them. A part is a component
+        connected by edges; its volume is the volume that it encloses. For solids only. Finite and
+        not negative.
     gap: the widest gap to fill between faces of different solids, where they lie over each other.
         Faces of what fills it, the last, have the face that they stand on, or lie opposite of, as
         `face_source`; `filled_faces` of `statistics` counts the faces at such gaps. No volumes
@@ -113,13 +114,13 @@ def union(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float6
     check: False returns what could not be certified, too, with its `certificate`.
 
     Raises NotSolidError where an operand is open, NotCertifiedError where the result could not be
-    certified; ValueError when the expression has another number of operands, or naming a face with
-    a corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000; for a
-    `gap` when it is not a union of all operands.
+    certified; ValueError if the expression has another number of operands; naming a face with a
+    corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000; for a
+    `gap` if the expression is not a union of all operands.
 
-    Cost: O(F log F) for the faces where the result's surface may be. Of one or two closed manifolds
-    that meet in few places, that of finding these (prepared meshes: once) and of a copy. With a
-    `gap`, O(P) more for the P pairs of faces whose boxes are that near.
+    Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
+    manifolds that meet in few places, the cost of finding these (prepared meshes: once) and of a
+    copy. A `gap` adds O(P) for the P pairs of faces whose boxes are that near.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -141,25 +142,27 @@ def intersection(*meshes: MeshesLike, inside: str = "nonzero", precision: str = 
     meshes: each a mesh, or a list of meshes.
     inside: 'nonzero', 'odd' or 'positive'. What is solid.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
-    max_displacement: Where rounding makes faces meet, only what is at most this far apart is
-        joined, in the mesh's own length unit, and never what is further apart than 2^-10 of the
-        largest coordinate. Not negative.
-    keep_cuts: Keep coplanar faces apart that were cut, or that overlap. By default they are merged,
-        exactly and before rounding: a vertex goes where only such faces meet, or two flat parts of
-        them along a straight edge. Faces that nothing has cut stay. `split` keeps all cuts.
+    max_displacement: Where rounding makes faces meet, only points at most this far apart are
+        joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
+        coordinate. Not negative.
+    keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
+        merged, exactly and before rounding: this removes vertices inside a flat part, and on a
+        straight edge between two flat parts. Uncut faces stay as they are. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute those of two operands, of what is in either, and of what is in both.
-    min_volume: Parts of the result with a volume below this, in cubic units, are left out: specks
-        are dropped, and voids are filled, with all that is in them. A part is a component connected
-        by edges; its volume is what it encloses. Of solids only. Finite and not negative.
+    min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
+        are dropped, and small voids are filled, with all that is in them. A part is a component
+        connected by edges; its volume is the volume that it encloses. For solids only. Finite and
+        not negative.
     check: False returns what could not be certified, too, with its `certificate`.
 
     Raises NotSolidError where an operand is open, NotCertifiedError where the result could not be
-    certified; ValueError when the expression has another number of operands, or naming a face with
-    a corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000.
+    certified; ValueError if the expression has another number of operands; naming a face with a
+    corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000.
 
-    Cost: O(F log F) for the faces where the result's surface may be. Of one or two closed manifolds
-    that meet in few places, that of finding these (prepared meshes: once) and of a copy.
+    Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
+    manifolds that meet in few places, the cost of finding these (prepared meshes: once) and of a
+    copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -182,25 +185,27 @@ def difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "f
     meshes: each a mesh, or a list of meshes.
     inside: 'nonzero', 'odd' or 'positive'. What is solid.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
-    max_displacement: Where rounding makes faces meet, only what is at most this far apart is
-        joined, in the mesh's own length unit, and never what is further apart than 2^-10 of the
-        largest coordinate. Not negative.
-    keep_cuts: Keep coplanar faces apart that were cut, or that overlap. By default they are merged,
-        exactly and before rounding: a vertex goes where only such faces meet, or two flat parts of
-        them along a straight edge. Faces that nothing has cut stay. `split` keeps all cuts.
+    max_displacement: Where rounding makes faces meet, only points at most this far apart are
+        joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
+        coordinate. Not negative.
+    keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
+        merged, exactly and before rounding: this removes vertices inside a flat part, and on a
+        straight edge between two flat parts. Uncut faces stay as they are. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute those of two operands, of what is in either, and of what is in both.
-    min_volume: Parts of the result with a volume below this, in cubic units, are left out: specks
-        are dropped, and voids are filled, with all that is in them. A part is a component connected
-        by edges; its volume is what it encloses. Of solids only. Finite and not negative.
+    min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
+        are dropped, and small voids are filled, with all that is in them. A part is a component
+        connected by edges; its volume is the volume that it encloses. For solids only. Finite and
+        not negative.
     check: False returns what could not be certified, too, with its `certificate`.
 
     Raises NotSolidError where an operand is open, NotCertifiedError where the result could not be
-    certified; ValueError when the expression has another number of operands, or naming a face with
-    a corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000.
+    certified; ValueError if the expression has another number of operands; naming a face with a
+    corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000.
 
-    Cost: O(F log F) for the faces where the result's surface may be. Of one or two closed manifolds
-    that meet in few places, that of finding these (prepared meshes: once) and of a copy.
+    Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
+    manifolds that meet in few places, the cost of finding these (prepared meshes: once) and of a
+    copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -222,25 +227,27 @@ def symmetric_difference(*meshes: MeshesLike, inside: str = "nonzero", precision
     meshes: each a mesh, or a list of meshes.
     inside: 'nonzero', 'odd' or 'positive'. What is solid.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
-    max_displacement: Where rounding makes faces meet, only what is at most this far apart is
-        joined, in the mesh's own length unit, and never what is further apart than 2^-10 of the
-        largest coordinate. Not negative.
-    keep_cuts: Keep coplanar faces apart that were cut, or that overlap. By default they are merged,
-        exactly and before rounding: a vertex goes where only such faces meet, or two flat parts of
-        them along a straight edge. Faces that nothing has cut stay. `split` keeps all cuts.
+    max_displacement: Where rounding makes faces meet, only points at most this far apart are
+        joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
+        coordinate. Not negative.
+    keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
+        merged, exactly and before rounding: this removes vertices inside a flat part, and on a
+        straight edge between two flat parts. Uncut faces stay as they are. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute those of two operands, of what is in either, and of what is in both.
-    min_volume: Parts of the result with a volume below this, in cubic units, are left out: specks
-        are dropped, and voids are filled, with all that is in them. A part is a component connected
-        by edges; its volume is what it encloses. Of solids only. Finite and not negative.
+    min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
+        are dropped, and small voids are filled, with all that is in them. A part is a component
+        connected by edges; its volume is the volume that it encloses. For solids only. Finite and
+        not negative.
     check: False returns what could not be certified, too, with its `certificate`.
 
     Raises NotSolidError where an operand is open, NotCertifiedError where the result could not be
-    certified; ValueError when the expression has another number of operands, or naming a face with
-    a corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000.
+    certified; ValueError if the expression has another number of operands; naming a face with a
+    corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000.
 
-    Cost: O(F log F) for the faces where the result's surface may be. Of one or two closed manifolds
-    that meet in few places, that of finding these (prepared meshes: once) and of a copy.
+    Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
+    manifolds that meet in few places, the cost of finding these (prepared meshes: once) and of a
+    copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -255,18 +262,18 @@ def boolean(expression: str, *operands: MeshesLike, inside: str = "nonzero",
             precision: str = "float64", max_displacement: float = np.inf, keep_cuts: bool = False,
             simplify: bool = False, volumes: bool = False, min_volume: float = 0.0,
             check: bool = True, progress: Progress = None, **meshes: MeshLike) -> BooleanResult:
-    """The solid that `expression` makes of the operands. All of them are cut along each other at
-    once.
+    """The solid that `expression` defines. All operands are cut along each other in one
+    arrangement.
 
     The surface is decided exactly, on the coordinates as given. Then points on cuts are rounded,
-    and the rounded surface is checked. Where rounding makes faces meet, thin faces are taken out,
-    and what still meets is cut and rounded again, in rounds. Vertices of operands stay bit for bit,
-    except next to such a place, or when float32 is asked for.
+    and the rounded surface is checked. Where rounding makes faces meet, thin faces are removed, and
+    faces that still meet are cut and rounded again, in rounds. Vertices of operands stay bit for
+    bit, except next to such a place, or if float32 is requested.
 
-    Each operand has to bound a solid: after cutting, the signed face count of every edge is zero.
+    Each operand must bound a solid: after cutting, the signed face count of every edge is zero.
     Operands may overlap themselves, touch, be nested, be equal, consist of parts, be inside out or
     empty. Their corners with equal coordinates are one vertex. Where parts of the result touch in
-    an edge or at a vertex, each part has vertices of its own there, with equal coordinates, so that
+    an edge or at a vertex, each part has its own vertices there, with equal coordinates, so that
     every edge has two faces.
 
     Attributes of operands are carried over: a face has the values of the face that it lies in, a
@@ -278,25 +285,27 @@ def boolean(expression: str, *operands: MeshesLike, inside: str = "nonzero",
         the others, which go from left to right.
     inside: 'nonzero', 'odd' or 'positive'. What is solid.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
-    max_displacement: Where rounding makes faces meet, only what is at most this far apart is
-        joined, in the mesh's own length unit, and never what is further apart than 2^-10 of the
-        largest coordinate. Not negative.
-    keep_cuts: Keep coplanar faces apart that were cut, or that overlap. By default they are merged,
-        exactly and before rounding: a vertex goes where only such faces meet, or two flat parts of
-        them along a straight edge. Faces that nothing has cut stay. `split` keeps all cuts.
+    max_displacement: Where rounding makes faces meet, only points at most this far apart are
+        joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
+        coordinate. Not negative.
+    keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
+        merged, exactly and before rounding: this removes vertices inside a flat part, and on a
+        straight edge between two flat parts. Uncut faces stay as they are. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute those of two operands, of what is in either, and of what is in both.
-    min_volume: Parts of the result with a volume below this, in cubic units, are left out: specks
-        are dropped, and voids are filled, with all that is in them. A part is a component connected
-        by edges; its volume is what it encloses. Of solids only. Finite and not negative.
+    min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
+        are dropped, and small voids are filled, with all that is in them. A part is a component
+        connected by edges; its volume is the volume that it encloses. For solids only. Finite and
+        not negative.
     check: False returns what could not be certified, too, with its `certificate`.
 
     Raises NotSolidError where an operand is open, NotCertifiedError where the result could not be
-    certified; ValueError when the expression has another number of operands, or naming a face with
-    a corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000.
+    certified; ValueError if the expression has another number of operands; naming a face with a
+    corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000.
 
-    Cost: O(F log F) for the faces where the result's surface may be. Of one or two closed manifolds
-    that meet in few places, that of finding these (prepared meshes: once) and of a copy.
+    Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
+    manifolds that meet in few places, the cost of finding these (prepared meshes: once) and of a
+    copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -319,18 +328,19 @@ def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", inside: st
         are the sheet.
     inside: 'nonzero', 'odd' or 'positive'. What is solid.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
-    max_displacement: Where rounding makes faces meet, only what is at most this far apart is
-        joined, in the mesh's own length unit, and never what is further apart than 2^-10 of the
-        largest coordinate. Not negative.
-    keep_cuts: Keep coplanar faces apart that were cut, or that overlap. By default they are merged,
-        exactly and before rounding: a vertex goes where only such faces meet, or two flat parts of
-        them along a straight edge. Faces that nothing has cut stay. `split` keeps all cuts.
+    max_displacement: Where rounding makes faces meet, only points at most this far apart are
+        joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
+        coordinate. Not negative.
+    keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
+        merged, exactly and before rounding: this removes vertices inside a flat part, and on a
+        straight edge between two flat parts. Uncut faces stay as they are. `split` keeps all cuts.
     check: False returns what could not be certified, too, with its `certificate`.
 
     Raises NotSolidError where an operand is open, NotCertifiedError where the result could not be
-    certified.
+    certified; ValueError as `boolean`; if `sheet` is not an operand; if the expression may be true
+    outside of the sheet, as in a union.
 
-    Cost: faces of solids that do not reach into the box of a face of the sheet are not looked at.
+    Cost: as `boolean`; faces of solids whose boxes overlap no face of the sheet are skipped.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -345,15 +355,15 @@ def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", inside: st
 def split(*meshes: MeshesLike, precision: str = "float64", max_displacement: float = np.inf,
           check: bool = True, progress: Progress = None) -> BooleanResult:
     """All faces of the operands, cut along each other and along themselves, each piece once. Any
-    two pieces have a corner, an edge or nothing in common. Operands need not bound solids, and the
-    certificate does not check edges. Where faces of several operands lie on each other, one piece
-    stands for all; its source is the lowest of them. Nothing is simplified.
+    two pieces share a corner, an edge or nothing. Operands need not bound solids, and the
+    certificate does not check edges. Where faces overlap, one piece stands for all; its source is
+    the lowest of them. Coplanar pieces are not merged.
 
     meshes: each a mesh, or a list of meshes.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
-    max_displacement: Where rounding makes faces meet, only what is at most this far apart is
-        joined, in the mesh's own length unit, and never what is further apart than 2^-10 of the
-        largest coordinate. Not negative.
+    max_displacement: Where rounding makes faces meet, only points at most this far apart are
+        joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
+        coordinate. Not negative.
     check: False returns what could not be certified, too, with its `certificate`.
 
     Raises NotCertifiedError where the result could not be certified.
@@ -368,9 +378,9 @@ def split(*meshes: MeshesLike, precision: str = "float64", max_displacement: flo
 
 
 def check_solid(mesh: MeshLike, *, progress: Progress = None) -> Certificate:
-    """Whether a mesh bounds a solid, as an operand of `boolean` has to. The certificate is ok, or
-    says where the surface ends. When the edges as they are leave the mesh open, it is cut along
-    itself first: its faces may still fit together piece by piece.
+    """Whether a mesh bounds a solid, as operands of `boolean` must. The certificate is ok, or lists
+    where the surface is open. If edges do not match as they are, the mesh is cut along itself
+    first, since they may still match piece by piece.
 
     Raises ValueError as `boolean`.
 

@@ -124,15 +124,15 @@ def joined(meshes: Iterable[MeshLike], progress: Progress) -> Mesh:
 #   submesh concatenate transformed MassProperties mass_properties
 @dataclass(frozen=True, repr=False)
 class SectionLoop(Result):
-    """A closed polygon, or, where the mesh ends, an open polyline.
+    """A closed polygon, or an open polyline that ends at a border of the mesh.
 
     points: (n, 2) in the frame of the section; the first is not repeated.
     faces: (n,) the face that the side from each point to the next lies in.
     closed: Whether it is a polygon.
     oriented: The faces along it agree: what is inside is to the left, seen from above the plane.
     parent: The innermost loop of the layer that is around it, by number; None for none.
-    depth: How many loops are around it: of a solid, holes have an odd one.
-    area: Positive where it runs counter-clockwise; 0 for open ones.
+    depth: Number of loops around this one; odd for holes in a solid.
+    area: Positive if counter-clockwise; 0 for open loops.
     length: Of its sides.
     """
 
@@ -150,23 +150,23 @@ def section(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0
             heights: ArrayLike | None = None, progress: Progress = None) -> Section:
     """Sections of a mesh by the planes at `heights` above a plane.
 
-    Which side of a plane a vertex is on, which segments make a loop, and which loop lies in which
-    are decided exactly, on the coordinates as given. Then points are rounded.
+    The side of each vertex, the loops and their nesting are decided exactly, on the coordinates as
+    given. Then points are rounded.
 
-    A vertex in a plane counts as above it. So a section is that of a plane just below: a box from
-    height 0 to 1 has none at 0, and its full top at 1. A point or line in which the mesh only
-    touches the plane from below gives no loop. A face in the plane counts where the mesh goes on
-    below it.
+    A vertex in a plane counts as above it, so a section shows the mesh just below the plane: a box
+    from height 0 to 1 has no section at 0, and its full top at 1. A point or line in which the mesh
+    touches the plane from below gives no loop. A face in the plane is part of the section if the
+    mesh continues below it.
 
-    Of a mesh that is closed and agrees in its orientation, all polylines are closed. Loops may
-    touch where faces do; at an edge of four faces or more, those that bound one wedge of the solid
-    are joined. Where the mesh has a border, polylines are open; where neighbors disagree, they go
-    on, not `oriented`. Loops of faces that cross each other do, too: `parent` is then that of one
-    of their points, and areas are added up as often as the surface winds around them. Corners with
-    equal coordinates are one.
+    If the mesh is closed and consistently oriented, all polylines are closed. Loops may touch where
+    faces touch; at an edge of four or more faces, segments that bound the same wedge of the solid
+    are joined. Where the mesh has a border, polylines are open; across inconsistently oriented
+    neighbors they continue, but are not `oriented`. If faces cross each other, so do loops:
+    `parent` is then that of one point of the loop, and areas count as often as the surface winds
+    around them. Corners with equal coordinates are one.
 
-    Where a loop goes straight on from one face to another in the same plane, exactly, there is no
-    point: a box has four. The side from a point on lies in the face named, and may go on in others.
+    Between exactly coplanar faces a straight loop has no point: the section of a box has four. The
+    segment after a point begins in the face in `faces`, and may continue in others.
 
     Loops are in the order of their lowest faces.
 
@@ -177,7 +177,7 @@ def section(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0
     Raises ValueError naming a face with a corner out of range or not finite, for a plane or height
     that is not finite, or a normal that is zero.
 
-    Cost: O(V log K + F + S log L) for K planes and L loops in one of S sides.
+    Cost: O(V log K + F + S log L) for K planes, and L loops of S segments in one plane.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -208,11 +208,11 @@ def layer_heights(mesh: MeshLike, thickness: float, normal: ArrayLike = (0, 0, 1
 
 @dataclass(frozen=True, repr=False)
 class CutPiece(MadeMesh):
-    """What is between two planes.
+    """The part of the mesh between two neighboring planes.
 
-    face_source: (F,) face of the input that each lies in; `NONE`: a cap.
-    vertex_source: (V,) vertex of the input that each is; `NONE`: new.
-    cap: (F,) of a cap, the number of its plane, from the lowest; else `NONE`.
+    face_source: (F,) input face that contains each face; `NONE`: a cap.
+    vertex_source: (V,) input vertex equal to each vertex; `NONE`: new.
+    cap: (F,) for faces of a cap, the number of its plane, from the lowest; else `NONE`.
     """
 
     face_source: Ids
@@ -224,17 +224,17 @@ def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0)
         heights: ArrayLike | None = None, precision: str = "float64",
         max_displacement: float = np.inf, caps: bool = True, check: bool = True,
         progress: Progress = None) -> CutPieces:
-    """The mesh below, between and above planes at `heights` above a plane.
+    """The pieces of a mesh below, between and above planes at `heights` above a plane.
 
-    Which side of a plane a vertex is on is decided exactly, on the coordinates as given. A face
-    that lies in a plane belongs to the side that its solid is on. What the solid has in the plane
-    is then closed by a cap, the same for both sides. Only points on cuts are rounded, once; each
-    piece is checked as results of `boolean` are. Caps between axes stay flat and alike when
-    rounded; others may bend by a step of the precision.
+    The side of each vertex is decided exactly, on the coordinates as given. A face in a plane
+    belongs to the side of its solid. The section of the solid in a plane becomes a cap, the same on
+    both sides. Only points on cuts are rounded, once; each piece is checked like a result of
+    `boolean`. Caps across an axis stay flat and equal when rounded; others may bend by a step of
+    the precision.
 
-    The mesh has to bound a solid, as an operand of `boolean` has to. Where it meets itself, or has
-    parts that are inside out or hidden in others, it is first made the solid that it winds around,
-    rounded: then all that is said here is of that one. Equal planes are one.
+    With caps, the mesh must bound a solid, like an operand of `boolean`. If it meets itself, or has
+    parts that are inside out or hidden in others, it is first replaced by the solid that it winds
+    around, rounded; the statements above then hold for that solid. Equal planes count once.
 
     So a solid is cut into what is below and above a plane; with `heights`, K + 1 pieces, from the
     lowest up. Some may have no faces.
@@ -243,8 +243,9 @@ def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0)
     at: (3,) a point of the plane.
     heights: (K,) of planes above that one, along its normal at length 1; None is the plane itself.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
-    max_displacement: As in `boolean`: how far what rounding has broken is joined.
-    caps: Otherwise pieces end at the planes, and the mesh may end anywhere: it is cut as a surface.
+    max_displacement: As in `boolean`.
+    caps: Close pieces by caps. If false, the mesh is cut as a surface, which may be open, and
+        pieces are open at the planes.
     check: False returns what could not be certified, too, with its `certificate`.
 
     Raises NotSolidError where the mesh is open, NotCertifiedError where the result could not be
@@ -266,20 +267,22 @@ def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0)
 def cut_to_fit(mesh: MeshLike, size: ArrayLike, *, precision: str = "float64",
                max_displacement: float = np.inf, caps: bool = True, check: bool = True,
                progress: Progress = None) -> CutPieces:
-    """Pieces that fit into a box of this size: cut by planes across x, then y, then z, as few along
-    each axis as there can be, and equally far apart, to rounding. A size that is infinite is not
-    cut along. Pieces are those with faces, by x, then y, then z; numbers of planes count across x
-    first, then y, then z. Cuts across y and z are of the rounded pieces of the cuts before.
+    """Pieces that fit into a box of this size. They are cut by planes across x, then y, then z: as
+    few as possible for each axis, equally spaced up to rounding, and none for an axis with infinite
+    size. Pieces without faces are omitted; the others are ordered by x, then y, then z. Planes are
+    numbered across x first, then y, then z. Cuts across y and z cut the rounded pieces of the cuts
+    before.
 
     size: (3,) of the box, as the bed of a printer.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
-    max_displacement: As in `boolean`: how far what rounding has broken is joined.
-    caps: Otherwise pieces end at the planes, and the mesh may end anywhere: it is cut as a surface.
+    max_displacement: As in `boolean`.
+    caps: Close pieces by caps. If false, the mesh is cut as a surface, which may be open, and
+        pieces are open at the planes.
     check: False returns what could not be certified, too, with its `certificate`.
 
     Raises NotSolidError where the mesh is open, NotCertifiedError where the result could not be
-    certified; ValueError as `cut`, for a size that is not positive, or where there would be more
-    than 2^16 planes across an axis, or might be more than 2^20 pieces.
+    certified; ValueError as `cut`; for a size that is not positive; for more than 2^16 planes
+    across an axis, or possibly more than 2^20 pieces.
 
     >>> import treeform
     >>> len(treeform.cut_to_fit(treeform.read("data/cube.stl"), (0.5, 0.4, 2)))
@@ -292,14 +295,13 @@ def cut_to_fit(mesh: MeshLike, size: ArrayLike, *, precision: str = "float64",
 
 def cut_along(mesh: MeshLike, values: ArrayLike, levels: ArrayLike, *, check: bool = True,
               progress: Progress = None) -> CutPieces:
-    """The mesh cut along its isolines (`isolines`): pieces with values below, between and from the
-    levels on, K + 1 for K levels in ascending order, equal ones counted once. Pieces are open
-    surfaces that end in the same points; together they are the mesh, for it is not moved: only new
-    points are rounded, by less than a step of their largest coordinate.
+    """The mesh cut along its isolines (`isolines`): K + 1 pieces for K different levels in
+    ascending order. A piece has the values from one level, inclusive, to the next. Pieces are open
+    surfaces with common border points, and together cover the mesh. Only new points are rounded, by
+    less than a step of their largest coordinate.
 
-    The certificate says whether faces meet beyond common corners and edges in what is returned, all
-    pieces together: where those of the mesh do, or rounding makes some do. `faces` of its pairs are
-    numbered through all pieces.
+    The certificate tells whether faces of all pieces together meet beyond common corners and edges,
+    because faces of the mesh do, or by rounding. Its face numbers count through all pieces.
 
     values: (V,) of the vertices, linear in each face.
     levels: (K,)
@@ -325,8 +327,8 @@ class MeshPart(MeshResult):
     """Faces of a mesh by themselves, with the vertices that they use, and their attributes.
 
     mesh: The part.
-    face_source: (F,) the number of each face in the whole.
-    vertex_source: (V,) that of each point; ascending.
+    face_source: (F,) the number of each face in the given mesh.
+    vertex_source: (V,) the number of each point in the given mesh; ascending.
     volume: As `Mesh.volume`.
     area: As `Mesh.area`.
     """
@@ -352,7 +354,7 @@ def components(mesh: MeshLike, *, min_volume: float = 0.0, largest: int = 0,
     Raises ValueError naming the lowest face with a corner out of range, and for a `min_volume` that
     is negative or NaN.
 
-    Cost: O(V + F); for cavities, as `contains`.
+    Cost: O(V + F); with cavities, plus `contains`.
 
     >>> import treeform
     >>> spheres = treeform.components(treeform.read("data/two_spheres.stl"))
@@ -363,15 +365,14 @@ def components(mesh: MeshLike, *, min_volume: float = 0.0, largest: int = 0,
 
 
 def submesh(mesh: MeshLike, faces: ArrayLike, *, progress: Progress = None) -> MeshPart:
-    """The faces of these numbers, in this order, and the points that they use, in the order of
+    """The faces with these numbers, in this order, and the points that they use, in the order of
     `mesh`.
 
     Vertices keep their attributes.
 
     faces: (n,) numbers; or a mask (F,) of True and False.
 
-    Raises ValueError naming the number that is no face of the mesh, or a face with a corner out of
-    range.
+    Raises ValueError naming a number that is out of range, or a face with a corner out of range.
 
     Cost: O(V + F).
 
@@ -383,7 +384,7 @@ def submesh(mesh: MeshLike, faces: ArrayLike, *, progress: Progress = None) -> M
 
 
 def concatenate(meshes: Iterable[MeshLike], *, progress: Progress = None) -> Mesh:
-    """Points and faces of all meshes, one after the other; nothing is joined.
+    """The points and faces of all meshes, one mesh after the other; points are not joined.
 
     Their attributes are put together likewise.
 
@@ -398,8 +399,8 @@ def concatenate(meshes: Iterable[MeshLike], *, progress: Progress = None) -> Mes
 
 
 def transformed(mesh: MeshLike, matrix: ArrayLike | None, *, progress: Progress = None) -> Mesh:
-    """The mesh with its points moved. Where `matrix` mirrors, faces are turned over, so that they
-    look outward as before.
+    """The mesh with transformed points. If `matrix` mirrors, faces are flipped, so that they still
+    point outward.
 
     It keeps its attributes, with normals turned.
 
@@ -417,12 +418,12 @@ def transformed(mesh: MeshLike, matrix: ArrayLike | None, *, progress: Progress 
 
 @dataclass(frozen=True, repr=False)
 class MassProperties(Result):
-    """Of a solid of density 1.
+    """Mass properties of a solid of density 1.
 
-    volume: What the mesh encloses; negative where it is inside out.
+    volume: The enclosed volume; negative if the mesh is inside out.
     center: (3,) of mass.
-    inertia: (3, 3) About the center, by axes x, y and z: the energy of turning by w is w . (inertia
-        w) / 2.
+    inertia: (3, 3) Inertia tensor about the center, in axes x, y and z: the energy of rotation w is
+        w . (inertia w) / 2.
     """
 
     volume: float
@@ -431,15 +432,14 @@ class MassProperties(Result):
 
 
 def mass_properties(mesh: MeshLike, *, progress: Progress = None) -> MassProperties | None:
-    """Volume, center of mass and inertia of what a closed mesh encloses. Where it is inside out,
-    volume and inertia have the opposite sign. A region that the surface winds around several times
-    counts that often. None where the volume is 0, as of an empty mesh, or so small beside what
-    cancels in its sum that the center would be noise, or not finite; of an open one, they mean
-    little.
+    """Volume, center of mass and inertia of the solid that a closed mesh bounds. If the mesh is
+    inside out, volume and inertia have the opposite sign. A region counts as often as the surface
+    winds around it. None if the volume is 0, as for an empty mesh, not finite, or so small compared
+    with the terms of its sum that the center would be noise. Meaningless for an open mesh.
 
-    Coordinates are first taken from the middle of the box, which rounds them by at most 2^-53 of
-    its diagonal; sums are then made in twice the precision of double, of products that are off by
-    2^-50 at most.
+    Coordinates are first taken relative to the center of the box, which rounds them by at most
+    2^-53 of its diagonal. Sums have twice the precision of double; their terms have a relative
+    error of at most 2^-50.
 
     Raises ValueError naming the lowest face with a corner out of range.
 

@@ -103,54 +103,53 @@ def _scene_of(parts: Mapping[str, Any]) -> tuple[Mesh, bool]:
 def read(path: Path | IO[bytes], format: str = "", *, join: bool = True,
          columns: Columns | None = None, drop_nan: bool = False, progress: Progress = None) -> Mesh:
     """Reads the file at `path`; "-" is standard input. `format` is an extension without its dot
-    ("stl", "obj", "ply", "off", "pcd", "xyz", "csv", "3mf", "glb", ...). When it is empty, the
-    content decides, then the extension.
+    ("stl", "obj", "ply", "off", "pcd", "xyz", "csv", "3mf", "glb", ...). If empty, the format is
+    detected by content first, then by extension.
 
     Coordinates are as stored: float32 widened to double, decimal text rounded once to the nearest
     double. NaN and infinity are kept, so that the caller can report them (`find_defects`).
 
-    - OBJ: `vt` and `vn` are in `Attributes.corners`. The material files that it names are read
-      where they are there and the OBJ has a path: the diffuse colors of its materials become
-      columns red, green, blue and, where one is not opaque (`d`), alpha of faces; faces without one
-      are white.
-    - STL: a binary file with a wrong count of triangles is read where all of it is whole triangles,
-      and one with bytes behind those of the header. Text may have zero bytes between words, and
-      words after `endloop` and `endfacet`. `Attributes.warnings` says so.
-    - PLY: triangle strips, the element "tristrips", come as faces, those that repeat a vertex too.
+    - OBJ: `vt` and `vn` are in `Attributes.corners`. Material files are read if they exist and the
+      OBJ has a path: the diffuse colors of its materials become columns red, green, blue and, where
+      one is not opaque (`d`), alpha of faces; faces without a material are white.
+    - STL: a binary file with a wrong count of triangles is read if its size is that of whole
+      triangles; bytes after the counted triangles are ignored. ASCII may have zero bytes between
+      words, and words after `endloop` and `endfacet`. `Attributes.warnings` reports all of these.
+    - PLY: triangle strips, the element "tristrips", become faces, also those that repeat a vertex.
     - PLY: the list "texcoord" of faces is in `Attributes.corners` when it has two numbers a corner,
       or none.
     - Text without a header (XYZ, CSV): the first line may name the columns. Then x, y and z may be
-      any columns, also such as easting, northing and elevation, which a warning says; latitude and
-      longitude are refused. `columns` says which is which. An empty cell, or one with a word, is
-      NaN. Whole numbers beyond 2^53 are 64-bit integers where a column has nothing else. Colors are
-      of 8 or 16 bits where they are whole numbers of these.
-    - PTS: as XYZ. Where the first line is the number of points, 4 columns are x y z intensity, 6
-      are x y z red green blue, and 7 have both. More points than it says are read with a warning;
-      fewer are an error. The format is then called "xyz".
+      any columns; names such as easting, northing and elevation are accepted with a warning,
+      latitude and longitude are refused. `columns` assigns columns explicitly. An empty cell, or
+      one with text, is NaN. A column of integers beyond 2^53 has 64-bit integers. Columns of colors
+      have 8 or 16 bits if all values are integers in that range.
+    - PTS: as XYZ. If the first line is the number of points, 4 columns are x y z intensity, 6 are x
+      y z red green blue, and 7 have both. More points than announced are read with a warning; fewer
+      are an error. The format is reported as "xyz".
     - PCD: a field of several values becomes columns "name[0]", "name[1]", ...
-    - LAS and LAZ: columns are the fields of its records. LAZ of LASzip 1 to 3, COPC included; extra
-      bytes as described in the file.
-    - 3MF: the build. Each mesh that an item shows, itself or through components, is a part with a
-      name of its own ("gear", "gear (2)"), where the transforms put it; mirrored ones have their
-      faces turned, so that they are not inside out. Supports and surfaces are read as models are,
-      objects of the type "other" and those outside the build are not. Items and components may be
-      in other model parts of the package. Base materials are materials of parts, and their colors
-      and those of color groups become columns red, green, blue and alpha of faces, or of points
-      where corners have colors of their own. Texture coordinates are in `Attributes.corners`;
-      images are not read. Extensions that a file requires and that would change its shape are
-      refused.
+
+    LAZ of LASzip 1 to 3, COPC included; extra bytes as described in the file.
+
+    - 3MF: the build. Each mesh of an item, directly or through components, is a part with a unique
+      name ("gear", "gear (2)"), transformed; faces of mirrored parts are flipped, so that they are
+      not inside out. Supports and surfaces are read like models; objects of type "other" and
+      objects outside the build are not read. Items and components may be in other model parts of
+      the package. Base materials are materials of parts, and their colors and those of color groups
+      become columns red, green, blue and alpha of faces, or of points where corners have colors of
+      their own. Texture coordinates are in `Attributes.corners`; images are not read. Extensions
+      that a file requires and that would change its shape are refused.
     - glTF 2.0 and GLB, also packed by draco where treeform was built with it: the default scene.
-      Each mesh that a node shows, also as an instance of EXT_mesh_gpu_instancing, is a part with a
-      name of its own, that of the node or of the mesh, where the transforms, composed in double,
-      put it; mirrored ones have their faces turned. Strips and fans are triangles. COLOR_0 becomes
-      columns red, green, blue and alpha of points, in the type and with the numbers of the file;
-      NORMAL nx, ny and nz, turned with the node; the texture coordinates that the color of the
-      material takes, with KHR_texture_transform, s and t = 1 - v, since t counts from the lower
-      edge elsewhere. Colors of materials become columns red, green, blue and alpha of faces, of 8
-      bits. Textures, other attributes and lines are not read, morph targets and skins not applied.
-      Files that a glTF names are read from its folder and those in it. Extensions that a file
-      requires are refused by name, except for KHR_mesh_quantization and those that only change how
-      a surface looks. glTF 1.0 is left to assimp.
+      Each mesh of a node, also as an instance of EXT_mesh_gpu_instancing, is a part with a unique
+      name, from the node or the mesh, transformed by matrices composed in double; faces of mirrored
+      parts are flipped. Strips and fans are triangles. COLOR_0 becomes columns red, green, blue and
+      alpha of points, in the type and with the numbers of the file; NORMAL nx, ny and nz, turned
+      with the node; the texture coordinates that the color of the material takes, with
+      KHR_texture_transform, s and t = 1 - v, since t counts from the lower edge elsewhere. Colors
+      of materials become columns red, green, blue and alpha of faces, of 8 bits. Textures, other
+      attributes and lines are not read, morph targets and skins not applied. Files that a glTF
+      names are read from its folder and those in it. Extensions that a file requires are refused by
+      name, except for KHR_mesh_quantization and those that only change how a surface looks. glTF
+      1.0 is left to assimp.
 
     Polygons are cut into triangles (`Attributes.stored_face`). A cloud has no faces. DAE and others
     are read where treeform was built with assimp. Where there is no such file, the error is a
@@ -199,9 +198,9 @@ def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: b
           round: bool = False, progress: Progress = None) -> Written:
     """Writes `mesh` to `path`; "-" is standard output, which needs `format`.
 
-    A file appears whole or not at all: it is written under another name and then renamed. Numbers
-    in text are the shortest that read back as the same double, float32 values included. Polygons
-    are written as polygons where the format has them. Newlines in names become blanks.
+    A file is written completely or not at all: it is written under another name and then renamed.
+    Numbers in text are the shortest that read back as the same double, float32 values included.
+    Polygons are written as polygons if the format has polygons. Newlines in names become blanks.
 
     Of `Attributes`, each format takes what it can hold:
     - PLY: all elements in their order; texture coordinates of corners, as the list "texcoord" of
@@ -237,9 +236,9 @@ def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: b
     OBJ numbers from 0 to 1; normals are nx, ny, nz, in PCD normal_x, ..., in OBJ `vn`. A file is
     not translated to its own format.
 
-    Warnings say what is scaled, what is rounded, and all that is left out.
+    Warnings tell what is scaled, rounded or omitted.
 
-    A mesh without points and faces can be written in every format of meshes, and read again.
+    An empty mesh can be written in every mesh format, and read again.
 
     path: of the file; or what is open for writing bytes, such as BytesIO, with `format`.
     mesh: one; or several, which become the parts of the file, named "1", "2", ...; or a dict of
@@ -247,24 +246,24 @@ def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: b
         says so. Of several, columns of vertices and faces are left out.
     format: Extension without its dot: stl, obj, ply, off, xyz, csv, pcd, las, laz, glb, 3mf. Empty:
         that of the path.
-    ascii: Write text when the format has text and binary. Binary PLY is little endian unless the
-        file was read from a big endian one. PCD is compressed only when it was read from a
-        compressed one.
+    ascii: Write text if the format has text and binary. Binary PLY is little endian, unless the
+        file was read from a big-endian file. PCD is compressed only if it was read from a
+        compressed file.
     precision: 'float32' or 'float64'. Precision of the coordinates; None: as they were stored.
-        Binary STL and GLB hold float32 only. 3MF holds doubles, but its readers make floats of
-        them: none is float32 there.
-    drop: Columns of points that are not written; "normal", "uv" or "color" for all of that kind,
-        also those of corners.
+        Binary STL and GLB only hold float32. 3MF holds doubles, but most of its readers convert to
+        float, so none means float32 there.
+    drop: Columns of points to omit; "normal", "uv" or "color" for all columns of that kind, also of
+        corners.
     rename: columns of points under another name: {'old': 'new'}.
-    las_scale: Of LAS and LAZ; None: those of the file, else as `write` says.
+    las_scale: For LAS and LAZ; None: those of the file, else chosen by `write`.
     las_offset: likewise.
     round: a mesh whose coordinates were certified (`Mesh.certificate`) may be rounded further,
         which can undo what was certified. Otherwise that is an error: ask the operation for
         `precision='float32'` instead.
 
-    Raises FileError when the format cannot hold the file or the file cannot be written; ValueError
-    when a corner is out of range, when the element "vertex" or "face" has not one row for each
-    point or stored face, or when a number in `Attributes.corners` is out of range.
+    Raises FileError if the format cannot hold the file, or the file cannot be written; ValueError
+    for a corner out of range; unless the elements "vertex" and "face" have one row for each point
+    and stored face; for an index in `Attributes.corners` out of range.
 
     >>> import tempfile, treeform
     >>> with tempfile.TemporaryDirectory() as folder:

@@ -194,8 +194,8 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = N
     kinds: those to look for, of `KINDS`; None is all.
     limit: Lowest pairs listed; all are counted.
 
-    Raises ValueError when a transform is not finite, or naming the mesh and its face with a corner
-    out of range or, as moved, not finite.
+    Raises ValueError if a transform is not finite; naming the mesh and its face with a corner out
+    of range or, after the move, not finite.
 
     Cost: O(F log F) for indexes that are not built yet; O(B) time for the B pairs whose boxes
     overlap and the nodes above them. Of a `Mesh` up to twice as fast.
@@ -216,28 +216,27 @@ def self_intersections_of_file(path: Path, *, vertices: str | None = None,
                                communicator: Communicator | None = None,
                                progress: Progress = None) -> FilePairs:
     """The pairs that `self_intersections` finds in the usable part of a file, for files larger than
-    memory: binary STL, and PLY whose vertices come ahead of its faces. Space is cut into tiles;
-    each gets a copy, on the disk, of the faces that reach into it, which must fit into memory. A
-    pair counts in the tile that holds the lowest corner of the common part of the boxes of its
-    faces, so it counts once.
+    memory: binary STL, and PLY with vertices before faces. Space is cut into tiles. Each tile gets
+    a copy, on the disk, of the faces that reach into it; they must fit into memory. A pair counts
+    once: in the tile that contains the lowest corner of the intersection of its faces' boxes.
 
-    The folder stays when the process is killed, and the same call goes on from there. With several
-    ranks, rank 0 makes the tiles, all search them, and rank 0 gets the result.
+    If the process is killed, the folder stays, and the same call resumes there. With several ranks,
+    rank 0 makes the tiles, all ranks search them, and rank 0 gets the result.
 
     vertices: None: 'by_coordinates' for STL, else 'by_index'.
     kinds: as for `self_intersections`.
     format: Of the input, as for `read`.
-    memory: Bytes to take; 0: three quarters of the machine's.
+    memory: Limit in bytes; 0: three quarters of the machine's memory.
     folder: for the tiles; empty: beside the input. Where a run was killed, the same call goes on.
-    faces_per_tile: At most about this many; 0: as the memory allows.
+    faces_per_tile: Approximate limit; 0: as the memory allows.
     communicator: ranks that do it together, as for `weld_stream`; the first one gets the result,
         all others an empty one.
 
-    Raises FileError when the file cannot be read or is of another format; FileError for the folder;
+    Raises FileError if the file cannot be read or has another format; FileError for the folder;
     ValueError for more than 2^32 - 1 triangles.
 
-    Cost: time as `self_intersections`; memory as the options say, plus what is found; 60 to 100
-    bytes on the disk for each tile that a face reaches into, and 24 a vertex of a PLY.
+    Cost: time as `self_intersections`; memory as in the options, plus the result; on the disk 60 to
+    100 bytes for each tile that a face reaches into, and 24 bytes for each vertex of a PLY.
 
     >>> import treeform
     >>> found = treeform.self_intersections_of_file("data/two_spheres.stl")
@@ -251,7 +250,7 @@ def self_intersections_of_file(path: Path, *, vertices: str | None = None,
 
 @dataclass(frozen=True, repr=False)
 class Region(Result):
-    """Faces that meet, in one place of the mesh.
+    """A connected set of faces that meet.
 
     faces: (n,) ascending.
     bounds: (2, 3) the box around them.
@@ -265,15 +264,15 @@ class Region(Result):
 
 def intersection_regions(mesh: MeshLike, found: FacePairs, *,
                          progress: Progress = None) -> tuple[list[Region], Ids]:
-    """Groups the faces in `found` into regions. Two of these faces are in one region when a pair or
-    a shared corner links them, directly or through other such faces.
+    """Groups the faces in `found` into regions. Two of these faces are in one region if a pair or a
+    shared corner links them, directly or through other faces of `found`.
 
     Returns regions in the order of their lowest face, and (n,) the region of each pair.
 
     Raises ValueError naming a pair with a face out of range, or the lowest face with a corner out
     of range.
 
-    Cost: O(V + F + pairs) time except for an inverse Ackermann factor, about 8 bytes a face and 4 a
+    Cost: O(V + F + pairs) time, up to an inverse Ackermann factor; about 8 bytes a face and 4 a
     point.
 
     >>> import treeform

@@ -105,11 +105,11 @@ def closest_point(mesh: MeshLike, points: ArrayLike, *, radius: float = np.inf,
 
     radius: what is further away is ignored; inclusive.
 
-    Raises ValueError naming the face with a corner out of range or not finite, or the query that is
-    not finite; for a radius that is negative or NaN.
+    Raises ValueError naming a face with a corner out of range or not finite, or a query that is not
+    finite; for a radius that is negative or NaN.
 
     Cost: O(F log F) and 128 bytes a face for the index, which a `Mesh` keeps. A query opens O(log
-    F) nodes in most cases; more when much of the mesh is about equally far; many when the query is
+    F) nodes in most cases; more if much of the mesh is about equally far, or if the query is
     further away than 1e5 times the extent of the mesh.
 
     >>> import treeform
@@ -135,7 +135,7 @@ def contains(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) ->
 
 
 def locate(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> NDArray[np.int8]:
-    """Where a point is with respect to a closed mesh.
+    """The position of a point relative to a closed mesh.
 
     Exact on the coordinates as given, for every point. The crossings of one ray along x are
     counted. An edge that the ray grazes is treated as lying to one side, by a rule that all faces
@@ -146,8 +146,8 @@ def locate(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> N
 
     points: (n, 3)
 
-    Raises ValueError when the mesh is open, naming an open edge, or naming a face with a corner out
-    of range or not finite, or the point that is not finite.
+    Raises ValueError if the mesh is open, naming an open edge; naming a face with a corner out of
+    range or not finite, or a point that is not finite.
 
     Cost: O(F log F) for the indexes, which a `Mesh` keeps; O(log F + B) a point, for the B faces
     whose boxes meet the ray from the point along +x.
@@ -176,11 +176,11 @@ def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = N
     inside, as in trimesh, and exactly 0 on the surface. The sign is exact. `deviation` has the
     other sign, that of metrology: negative inside. Raises NotSolidError where the mesh is open.
 
-    Raises ValueError for a point of `a` that is not finite, a face of `b` as `closest_point`, a
-    band that is NaN or the wrong way round, or more bins than 2^20.
+    Raises ValueError for a point of `a` that is not finite; a face of `b` as in `closest_point`; a
+    band that is NaN or reversed; more than 2^20 bins.
 
-    Cost: `closest_point` for each point, in an order of space; and for signs a winding number for
-    one point in 1024, and the faces between neighbors for the others. A copy of `b` where there are
+    Cost: `closest_point` for each point, in a spatial order; for signs a winding number for one
+    point in 1024, and the faces between neighbors for the others. A copy of `b` if there are
     several.
 
     >>> import treeform
@@ -211,20 +211,20 @@ def raycast(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min:
     """The face that a ray hits first; none when it hits nothing. Of several faces at one point, the
     lowest number.
 
-    Which faces a ray hits, on which corner, edge or interior, and in which order, is exact. Only
-    the numbers t are rounded. A ray that hits an edge or a corner hits every face that has it:
-    through a vertex of six faces it has six hits at equal t, and each names the vertex as a corner
-    of its own face. Faces include their edges and are hit from both sides.
+    The faces that a ray hits, their order, and the corner, edge or interior hit are exact. Only the
+    parameters t are rounded. A ray that hits an edge or a corner hits every face there: through a
+    vertex of six faces it has six hits at equal t, each with the vertex as a corner of its face.
+    Faces include their edges and are hit from both sides.
 
     origins: (n, 3)
     directions: (n, 3) of any length.
     t_min: what is hit before origin + t_min direction does not count.
     t_max: nor what is hit beyond this.
 
-    Raises ValueError for a ray with a direction of zero or a number that is not finite (t_min and
+    Raises ValueError for a ray with a zero direction or a number that is not finite (t_min and
     t_max may be infinite); naming a face with a corner out of range or not finite.
 
-    Cost: O(F log F) for the index, which a `Mesh` keeps; for most rays O(log F) and the faces at
+    Cost: O(F log F) for the index, which a `Mesh` keeps; for most rays O(log F) plus the faces at
     the hit.
 
     >>> import treeform
@@ -278,18 +278,18 @@ class Deviation(Result):
     """How far points are from a surface.
 
     distances: (V,) of `a`: the distance of each point from the surface of `b`, negative inside the
-        solid that `b` bounds, exactly 0 on its surface. Not negative when `b` bounds none.
+        solid that `b` bounds, exactly 0 on its surface. Never negative if `b` bounds no solid.
     faces: (V,) the nearest face of `b`.
     is_signed: Whether distances have a sign.
     side_counts: Where they have: how many points are inside, on, outside; exact. Else None.
     mean: Mean of the signed distances.
     mean_absolute: Mean of their magnitudes.
     rms: Root mean square of the distances.
-    p50: The least value that half of the magnitudes do not exceed.
+    p50: Median of the magnitudes: the least value that half of them do not exceed.
     p95: The same for 95 % of them.
     p99: The same for 99 % of them.
     max: The largest magnitude.
-    worst: The lowest point with that distance.
+    worst: The lowest point number with that magnitude.
     lowest: The least signed distance.
     highest: The greatest signed distance.
     there: (over the points of the first, a bound that no point of its surface exceeds); of the
@@ -324,28 +324,27 @@ class Deviation(Result):
 
 def deviation(a: Body, b: Body, *, band: tuple[float, float] | None = None, bins: int = 40,
               both_ways: bool = True, progress: Progress = None) -> Deviation:
-    """How far the points of `a` (all of them, used by faces or not) are from the surface of `b`: of
-    all meshes in it as one. Faces are numbered through, mesh after mesh.
+    """The signed distances of all points of `a`, used by faces or not, from the surface of `b`.
+    Several meshes `b` count as one, with faces numbered mesh after mesh.
 
-    The side is exact: that of the exact winding number of `b` about the point (`locate`). Corners
-    of `b` with equal coordinates are one vertex, as in a file that repeats them. When `b` is open,
-    or a cloud, it has no inside, and distances have no sign. A magnitude is within 16 u L of the
-    true distance, as `closest_point` says. A point that rounding puts at distance 0 keeps that as
-    its magnitude, and the sign of 0.
+    The sign is exact: that of the winding number of `b` around the point (`locate`). Corners of `b`
+    with equal coordinates are one vertex. If `b` is open, or a cloud, it has no inside, and
+    distances have no sign. Magnitudes have the error bound of `closest_point`, 16 u L; a distance
+    may round to 0.
 
-    None when `a` has no points or `b` no faces.
+    None if `a` has no points or `b` has no faces.
 
     `a` and `b` are a mesh or a cloud (n, 3) each.
 
     band: signed distances that are within tolerance.
     bins: Of the histogram; 0: none.
-    both_ways: Also look from the points of `b` to `a`.
+    both_ways: Also compute distances of the points of `b` from `a`.
 
-    Raises ValueError for a point of `a` that is not finite, a face of `b` as `closest_point`, a
-    band that is NaN or the wrong way round, or more bins than 2^20.
+    Raises ValueError for a point of `a` that is not finite; a face of `b` as in `closest_point`; a
+    band that is NaN or reversed; more than 2^20 bins.
 
-    Cost: `closest_point` for each point, in an order of space; and for signs a winding number for
-    one point in 1024, and the faces between neighbors for the others. A copy of `b` where there are
+    Cost: `closest_point` for each point, in a spatial order; for signs a winding number for one
+    point in 1024, and the faces between neighbors for the others. A copy of `b` if there are
     several.
 
     >>> import treeform

@@ -73,17 +73,17 @@ class Placement(MeshResult):
         'starts_penetrating', 'starts_too_near', 'starts_touching', 'starts_below_bed',
         'no_coordinates', 'too_many_steps', 'out_of_range'.
     message: Half a sentence; empty where there is a place.
-    direction: (3,) of the travel, of length 1; 0 when there is none.
-    travel: A length; for `too_far` the one that would be needed.
+    direction: (3,) unit direction of the travel; 0 if there is none.
+    travel: A length; for `too_far` the length needed.
     at_start: Exact: 'separate', 'touching', 'penetrating', 'closer_than_clearance' or 'clear'.
     at_place: The same at the place: 'separate', 'touching', 'penetrating', 'closer_than_clearance'
         or 'clear'.
     contacts: Pairs of faces that meet there, or keep the clearance.
-    contact_count: Of all, listed or not.
+    contact_count: Number of all contacts, listed or not.
     nearest: The fixed mesh that matters most, and how the mesh lies to it; None where all are far.
     certificate: What was checked about the coordinates.
-    effort: Of `separate`: what its search took. Where some of its questions were cut, a shorter way
-        may exist; without a place, one that was not found.
+    effort: For `separate`: the effort of its search. If `cut` is not 0, a shorter translation may
+        exist; or, if no place was found, a place.
     angle: Of `turn` and `mate_features`: in degrees, of the turn.
     tolerance: Of `turn`: the gap, beyond the clearance, that counts as contact.
     offset: Of `mate_features`: how far the center of the moving feature ended from that of the
@@ -112,13 +112,13 @@ class Placement(MeshResult):
 
 
 class SearchEffort(NamedTuple):
-    """The work of a bounded search, in pairs of faces looked at. It depends on the input alone.
-    What the search found is valid even where it was cut short.
+    """The work of a bounded search, in pairs of faces tested. It depends on the input alone. A
+    result is valid even if the bound was reached.
 
-    pairs: Pairs of faces looked at; a pair in motion counts as two.
-    bound: The most that the search was to look at.
-    cut: Candidates skipped, since each would take more than 1/32 of the bound, or than what was
-        left of it. If not 0, a better answer may exist.
+    pairs: Pairs of faces tested; a pair in motion counts as two.
+    bound: The limit of `pairs`.
+    cut: Number of candidates skipped, since each would take more than 1/32 of the bound, or more
+        than the rest of it. If not 0, a better result may exist.
     """
 
     pairs: int
@@ -141,7 +141,7 @@ class Measure(Result):
     on_b: (3,) the nearest point on the surface of `b`; where they meet, a common one.
     face_a: The face of `a` that `on_a` is on.
     face_b: The face of `b` that `on_b` is on.
-    a_inside_b: A part of `a` lies inside the solid `b` and does not touch `b`.
+    a_inside_b: A component of `a` is inside the solid `b` without touching it.
     b_inside_a: The same with `a` and `b` exchanged.
     """
 
@@ -159,16 +159,15 @@ class Measure(Result):
 def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0, *,
           max_travel: float | None = None, precision: str = "float64", bed: float | None = None,
           progress: Progress = None) -> Placement:
-    """Moves `moving` along `direction` (of any length) until it first meets one of `onto`, or comes
-    as near to one as the clearance.
+    """Moves `moving` along `direction` (of any length) until it first meets one of `onto`, or is at
+    the clearance from one.
 
-    The coordinates returned are checked again. Where rounding made them penetrate, or come nearer
-    than the clearance, they are moved back by units in the last place. A mesh that touches at the
-    start stays there. One that penetrates has no place. Points that no face uses move along and are
-    otherwise ignored.
+    The returned coordinates are checked again: if rounding made the mesh penetrate, or come nearer
+    than the clearance, it is moved back by units in the last place. A mesh that touches at the
+    start stays there. A mesh that penetrates at the start has no place. Points without faces move
+    along and are otherwise ignored.
 
-    Only fixed meshes on the way are looked at and indexed. For many calls, keep them as prepared
-    meshes.
+    Only fixed meshes on the way are tested and indexed. For many calls, pass prepared meshes.
 
     onto: a fixed body, or a list of them.
     direction: (3,) of any length.
@@ -178,12 +177,12 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
     bed: z of a bed, which also stops the mesh: points that rest on it have exactly its z (with
         float32, the least one not below it), and no point is below.
 
-    Raises ValueError for a direction that is zero or not finite, a clearance that is negative or
-    not finite, a bed that is not finite or beyond float32, and naming the operand and its lowest
-    face with a corner out of range or not finite.
+    Raises ValueError for a direction that is zero or not finite; a clearance that is negative or
+    not finite; a bed that is not finite or beyond float32; naming the operand and its lowest face
+    with a corner out of range or not finite.
 
-    Cost: O(V + F) of all to check the input; the search in motion; and for each attempt at
-    coordinates a tree over `moving` and a `measure` to what is near.
+    Cost: O(V + F) of all meshes to check the input; the search in motion; for each attempt at
+    rounding a tree over `moving` and a `measure` to the meshes nearby.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -209,7 +208,7 @@ def drop(moving: Body, onto: Any = None, *, direction: ArrayLike = (0, 0, -1),
     precision: As of `slide`.
     bed: z of the bed; without fixed bodies, there is one at 0.
 
-    Raises ValueError as `slide`, and for a direction that does not lead down.
+    Raises ValueError as `slide`; for a direction that does not point down.
 
     Cost: O(V).
 
@@ -226,9 +225,9 @@ def drop(moving: Body, onto: Any = None, *, direction: ArrayLike = (0, 0, -1),
 
 def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float | None = None,
          precision: str = "float64", progress: Progress = None) -> Placement:
-    """Translates `moving` so that its nearest points to `onto` come together, or to the clearance.
-    Coordinates are checked as in `slide`. A mesh that touches stays; one that penetrates has no
-    place.
+    """Translates `moving` so that the nearest points of `moving` and `onto` meet, or are at the
+    clearance. Coordinates are checked as in `slide`. A mesh that touches stays; a mesh that
+    penetrates has no place.
 
     onto: a fixed body, or a list of them.
     clearance: The gap to leave, a distance; 0: until contact.
@@ -250,14 +249,15 @@ def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float |
 
 def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: float | None = None,
              precision: str = "float64", effort: int = 0, progress: Progress = None) -> Placement:
-    """Translates `moving` to where it penetrates none of `fixed` and keeps the clearance. It stays
-    when it already does.
+    """Translates `moving` to a place where it penetrates none of `fixed` and keeps the clearance.
+    It stays if it already does.
 
-    Some fifty directions are tried: the axes, away from the nearest points, the normals of faces
-    that meet, and others around the best. Of the places found, the nearest is returned whose
-    coordinates pass the check of `slide`. It need not be the nearest place of all: that one is on
-    the boundary of a set with O(n^2 m^2) faces. The search ends by its effort, and passes over
-    places that take much of it, as that of `penetration_depth` does: `Placement.effort` says so.
+    About fifty directions are tried: the axes, away from the nearest points, normals of faces that
+    meet, and others around the best. The nearest of the places found is returned, if its
+    coordinates pass the check of `slide`. It need not be the globally nearest place, which is on
+    the boundary of a set with O(n^2 m^2) faces. The search is limited by `effort`, and skips
+    candidates that would take much of it, as in `penetration_depth`; `Placement.effort` tells how
+    many.
 
     fixed: a fixed body, or a list of them.
     clearance: The gap to leave, a distance; 0: until contact.
@@ -268,7 +268,7 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
 
     Raises ValueError as `slide`.
 
-    Cost: for each direction up to a dozen `intersects` or `distance`, a tree over `moving` and a
+    Cost: for each direction up to about 12 `intersects` or `distance`, a tree over `moving` and a
     search in motion.
 
     >>> import treeform
@@ -288,13 +288,13 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
     """Turns `moving` about the axis until it first comes within the tolerance of one of `fixed`, or
     of the clearance from one.
 
-    On the way there it meets nothing, up to the rounding of distances: each step is one that no
-    pair of faces can have met in, by bounds on how fast their corners approach. At the place, the
-    coordinates returned are looked at exactly: they penetrate nothing, and keep the clearance as
-    `distance` computes it. Where rounding has it otherwise, the turn goes back by units in the last
-    place. A mesh that touches at the start stays; one that penetrates has no place. With
-    `nothing_met`, all of `max_angle` is free. With `too_many_steps` it was not found out: something
-    is passed at a distance that is very small against the size, over a long way.
+    Conservative advancement: in no step can a pair of faces meet, by bounds on the speed of their
+    corners, up to the rounding of distances. The returned coordinates are checked exactly: they
+    penetrate nothing, and keep the clearance as computed by `distance`. If rounding violates that,
+    the rotation is reduced by units in the last place. A mesh that touches at the start stays; one
+    that penetrates has no place. With `nothing_met`, all of `max_angle` is free. `too_many_steps`
+    means undecided: the mesh passes another at a distance that is very small compared with its
+    size, over a long way.
 
     `travel` is 0, and `points` differ from `matrix` by a few units in the last place of the largest
     coordinate. `contacts` are the pairs of faces within the tolerance, beyond the clearance.
@@ -312,12 +312,11 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
         the largest distance of a point from the axis.
     precision: 'float32' or 'float64'. Of the points returned.
 
-    Raises ValueError for an axis that is zero or not finite, an angle out of range, a tolerance
-    that is not positive, and as `slide`.
+    Raises ValueError as `slide`; for an axis that is zero or not finite, an angle out of range, or
+    a tolerance that is not positive.
 
-    Cost: for each step the pairs of faces near each other. Some ten to a hundred steps where it
-    comes to meet something head on; in the order of sqrt(length / gap) for each radian in which it
-    passes something at a gap.
+    Cost: for each step the pairs of faces near each other. About 10 to 100 steps to a head-on
+    contact; O(sqrt(length / gap)) steps for each radian along which it passes a mesh at a gap.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -333,10 +332,10 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
 def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature, *,
                   clearance: float = 0.0, max_travel: float | None = None, flip: bool = False,
                   precision: str = "float64", progress: Progress = None) -> Placement:
-    """Turns `moving` by the least angle that makes the two features' directions opposite (planes)
-    or parallel (axes), puts center above center, and slides it from outside along the direction of
-    the fixed feature until first contact with any of `onto`, or the clearance, exactly as `slide`
-    does. Planes come from the side that the fixed one looks to; axes from the side where `moving`
+    """Rotates `moving` by the least angle that makes the features' directions opposite (planes) or
+    parallel (axes), aligns their centers, and slides `moving` from outside along the direction of
+    the fixed feature until first contact with any of `onto`, or the clearance, exactly like
+    `slide`. Planes approach from the front of the fixed plane; axes from the side where `moving`
     is.
 
     A shaft may go through its bore and meet nothing: then its center stays at that of the bore, if
@@ -351,8 +350,8 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
     flip: planes look the same way rather than at each other; axes are turned around.
     precision: 'float32' or 'float64'. Of the points returned.
 
-    Raises ValueError for features of two kinds, or with a direction that is not of length 1 or an
-    origin that is not finite, and as `slide`.
+    Raises ValueError as `slide`; for features of different kinds, with a direction that is not of
+    length 1, or with an origin that is not finite.
 
     Cost: that of `slide`, and two trees over `moving`.
 
@@ -382,8 +381,8 @@ class LaidFlat(MeshResult):
     normals: (S, 3) outward, before the turn.
     tip_angles: (S,) degrees of tilt at which it tips over; negative: by itself.
     overhangs: (S,) area of the faces that would need support; NaN where it was not computed.
-    center_of_mass: (3,) before the turn, rounded.
-    mass: What that is the center of: 'solid', 'surface' or 'points'.
+    center_of_mass: (3,) before the rotation, rounded.
+    mass: What `center_of_mass` is the center of: 'solid', 'surface' or 'points'.
     on_bed: (n,) points of that side, ascending.
     certificate: What was checked about the coordinates.
     """
@@ -406,32 +405,32 @@ def lay_flat(mesh: MeshLike, *, choose: str = "largest", toward: ArrayLike = (0.
              keep_spin: bool = False, tolerance: float = 0.0, bed: float = 0.0,
              overhang_angle: float = 45.0, precision: str = "float64",
              progress: Progress = None) -> LaidFlat:
-    """Turns `mesh` so that a flat side of its convex hull is on the bed. The center of its box
-    keeps x and y. None when there is no side: fewer than three points, or all on a line.
+    """Rotates `mesh` so that a flat side of its convex hull is on the bed. The center of its box
+    keeps x and y. None if there is no side: fewer than three points, or all on a line.
 
-    Every point in the plane of the side, exactly or within the tolerance, then has exactly the z of
-    the bed, and no point is below. Areas and angles are rounded; those within 2^-40 of the best are
-    treated as equal. Of equal sides, one that is exactly down already is chosen, else the largest,
-    else the first in `sides`. Points that no face uses move along and are otherwise ignored; a mesh
+    Every point in the plane of the side, exactly or within the tolerance, gets exactly the z of the
+    bed, and no point is below. Areas and angles are rounded; values within 2^-40 of the best are
+    treated as equal. Of equal sides, one that is already exactly down is chosen, else the largest,
+    else the first in `sides`. Points without faces move along and are otherwise ignored; a mesh
     without faces uses all its points.
 
     choose: 'largest' area, 'nearest_normal' to the direction `toward`, 'holding_point' `toward`, or
         'most_stable'.
     toward: (3,) a direction of any length, or a point, in the coordinates of the mesh.
-    keep_spin: Only bring the side down. Otherwise the mesh is also turned about the vertical, by at
-        most 45 degrees, until the longest edge of the side runs along x or y.
+    keep_spin: Do not rotate about the vertical. Otherwise the mesh is also rotated about it, by at
+        most 45 degrees, so that the longest edge of the side runs along x or y.
     tolerance: Points at most this far from the plane of a side belong to it. With 0, a side is
-        exactly in one plane. That fits models in round numbers. A flat face that was turned and
-        rounded before then falls into many sides; about 1e-6 of the size joins them again.
+        exactly coplanar, which suits models in round numbers. A flat face that was rotated and
+        rounded falls into many exactly coplanar sides; about 1e-6 of the size joins them.
     bed: Z of the bed.
     overhang_angle: In degrees from the vertical, 0 to 90.
     precision: 'float32' or 'float64'. Of the points returned.
 
     Raises ValueError naming a point that is not finite or a face with a corner out of range; for a
-    direction that is zero where one is needed; for options not finite, a negative tolerance, and an
-    overhang angle out of range; OverflowError for coordinates too large to be turned.
+    zero direction with `nearest_normal`; for options that are not finite, a negative tolerance, or
+    an overhang angle out of range; OverflowError for coordinates that overflow in the rotation.
 
-    Cost: that of `convex_hull`, and O(F) for the center of mass and each side with an overhang.
+    Cost: `convex_hull`, plus O(F) for the center of mass and for each side with an overhang.
 
     >>> import treeform
     >>> laid = treeform.lay_flat(treeform.read("data/cube.stl"))
@@ -453,16 +452,18 @@ class Alignment(MeshResult):
         large, and so is its rounding. There, new = `pivot_moved` + (linear part of M) * (old -
         `pivot`) is more accurate.
     mesh: The moved mesh; of a cloud, one without faces.
-    rms: Root mean square of the distances that count, after, by weights if there are; 0 for none.
-        Of two clouds by `plane_to_plane`, the distances to the planes, as far as both sides agree.
-    rms_at_start: The same at the start, without weights.
-    overlap: Share of all moving points whose nearest fixed point is within `max_distance`, after.
-    inliers: How many of the moving points are within 4.5 medians of the distances that count.
-    correlation: Correlation of the signed distances of neighbors, in [-1, 1]: near 0 where they are
-        noise, near 1 where whole regions are off to one side.
-    uncertainty: How far the points may be from where they belong: the standard deviation that the
-        distances leave, and how little they hold, as a root mean square over the points; without
-        the motions that `undetermined` counts.
+    rms: Root mean square of the distances at the end, weighted if weights are used; 0 without
+        partners. For two clouds with `plane_to_plane`, of the distances to the planes, by the
+        agreement of both sides.
+    rms_at_start: The same at the start, unweighted.
+    overlap: Share of all moving points whose nearest fixed point is within `max_distance`, at the
+        end.
+    inliers: Number of moving points within 4.5 medians of the distances used.
+    correlation: Correlation of the signed distances of neighbors, in [-1, 1]: near 0 for noise,
+        near 1 if whole regions deviate to one side.
+    uncertainty: Estimated error of the place, as a root mean square over the points: the standard
+        deviation from the residuals and the stiffness of the motions, without those that
+        `undetermined` counts.
     scale: The scale found, in addition to that of `start`.
     end: 'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'.
     converged: `end` is `converged`.
@@ -497,59 +498,57 @@ def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False
           max_distance: float = np.inf, max_iterations: int = 100, tolerance: float = 1e-6,
           starts: int = 1, samples: int = 100_000, start: ArrayLike | None = None,
           precision: str = "float64", progress: Progress = None) -> Alignment:
-    """The rigid motion, with a uniform scale if asked for, that brings the moving points near the
-    fixed mesh, or near its points when it has no faces.
+    """The rigid motion, with a uniform scale if requested, that brings the moving points near the
+    fixed mesh, or near its points if it has no faces.
 
-    From each start it is a local optimum: the right one when the motion is small compared with the
-    features of the shape. The result is never worse than the present position; when nothing better
-    is found, it is `start`, grown or shrunk about its center to the bounds of the scale. To
-    compare, the squared distances of all moving points to the nearest fixed points are cut off at
-    `max_distance` squared, and the mean is taken over the `overlap` share that is nearest. With
-    weights, and with an overlap below 1, it is Welsch's function of the distances, by the v of the
-    end: a share that is somewhat too large does no harm. Directions in which the points may slide
-    freely (a plane on a plane) are left alone. Equal points count once on a cloud.
+    From each start this is a local optimum: the right one if the motion is small compared with the
+    features of the shape. The result is never worse than the present position; if nothing better is
+    found, it is `start`, scaled about its center to the bounds of the scale. Results are compared
+    by the mean of the squared distances to the nearest fixed points, cut off at `max_distance`
+    squared, over the nearest `overlap` share. With weights, and with an overlap below 1, it is the
+    mean of Welsch's function with the final v, so that an overlap somewhat too large does no harm.
+    Motions in which points slide freely (a plane on a plane) are not changed. Equal points of a
+    cloud count once.
 
-    Along motions that are little held (a stiffness below 0.02, as of a cogwheel about its axis),
-    places up to 6% of the diagonal away are tried, too.
+    Along motions with a stiffness below 0.02, such as a cogwheel about its axis, places up to 6% of
+    the diagonal away are also tried.
 
-    Whether it is the right place, distances alone do not tell. At the right place they are noise;
-    at a wrong one, regions are off to one side. From 4000 moving points on, every fourth is not
-    fitted, and is what is looked at. Where they are off, by more than noise, places around the
-    start are tried: shifts by 8% of the diagonal, turns by 14 degrees. Where they still are, a
-    cloud is in doubt when they are off by more than 0.6 times of how thick both sides are around
-    their planes. On a mesh, `converged` needs that other starts, tried with few points, do not end
-    better, and that what is off is below 0.2% of the diagonal.
+    Distances alone do not tell whether a place is right. At the right place residuals are noise; at
+    a wrong one, regions deviate to one side. From 4000 moving points on, every fourth is held out
+    of the fit and used for this test. If its residuals are more than noise, places around the start
+    are tried: shifts by 8% of the diagonal, rotations by 14 degrees. If they still are, a cloud is
+    doubtful if they exceed 0.6 times the thickness of both sides around their planes. On a mesh,
+    `converged` requires that other starts, tried with few points, do not end better, and that the
+    deviation is below 0.2% of the diagonal.
 
-    Without moving or without fixed points, the result is `start`, not converged.
+    If either side has no points, the result is `start`, not converged.
 
     scale: find a uniform scale, too; a pair is its bounds, in addition to the scale of `start`.
     method: 'point_to_plane', 'point_to_point', 'automatic' or 'plane_to_plane'.
-    overlap: Share of the moving points that have a partner, in (0, 1]. Each step uses this share,
-        the nearest ones, and ignores the rest.
+    overlap: Share of the moving points that have a partner, in (0, 1]. Each step uses this share of
+        nearest points, and ignores the rest.
     robust: Partners count less the further apart they are: by exp(-d^2 / 2 v^2) (Welsch). From 3
         medians of the distances at the start, v is halved down to where a third of the points is
         within 2 v; at the end it is 4.5 medians of what is near. Up to half of the points may have
         no partner, and nobody needs to say how many. Otherwise all count alike.
     max_distance: Ignore partners further apart. Not squared, not negative.
     max_iterations: From each start.
-    tolerance: Converged when in 5 steps in a row the cost falls by less than this share of itself,
-        or when a step moves no point near the fixed mesh by more than 1e-11 of the diagonal of its
-        box.
-    starts: Places to start from, at least 1. The first is the present position; then the principal
-        axes of both sides on each other, in their 4 ways; then turns spread evenly over all turns,
-        small ones first, with the centers on each other. The best end wins; of equals the first.
+    tolerance: Converged if the cost falls by less than this share in 5 steps in a row, or if a step
+        moves no point near the fixed mesh by more than 1e-11 of the diagonal of its box.
+    starts: Number of starts, at least 1. The first is the present position; then the principal axes
+        of both sides aligned, in their 4 ways; then rotations spread evenly over all rotations,
+        small ones first, with aligned centers. The best end is returned; of equal ends the first.
     samples: Use at most this many moving points in the steps, spread evenly over space; 0 is all.
     start: (4, 4) Applied to the moving points first: any affine map.
     precision: 'float32' or 'float64'. Of the points returned.
 
-    Raises ValueError naming a point that is not finite or a face with a corner out of range, and
-    for an option that is out of its range; OverflowError when the matrix, a point as written, or
-    the square of a distance, in about the diagonals of the fixed mesh, is beyond the range of
-    double.
+    Raises ValueError naming a point that is not finite or a face with a corner out of range; for an
+    option out of its range; OverflowError if the matrix, a rounded point, or a squared distance
+    relative to the fixed mesh's diagonal overflows double.
 
-    Cost: the index of `closest_point` over the fixed mesh, a search for all moving points at the
-    start and at the end, and for the samples in each step; of a fixed cloud, only for those whose
-    nearest point may have changed. Each further start: some 20 steps of 1000 points.
+    Cost: the index of `closest_point` over the fixed mesh; nearest points of all moving points at
+    the start and at the end, and of the samples in each step (for a fixed cloud, only of those
+    whose nearest point may have changed). Each further start: about 20 steps with 1000 points.
 
     >>> import treeform
     >>> part = treeform.read("data/two_spheres.stl")
@@ -564,9 +563,9 @@ def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False
 class PackedPart(NamedTuple):
     """A part on a plate.
 
-    placed: It has a place.
+    placed: Whether it has a place.
     plate: Number of its plate, from 0.
-    matrix: (4, 4) new = M * old, a turn about z and a translation; the identity when the part is
+    matrix: (4, 4) new = M * old, a rotation about z and a translation; the identity if the part is
         not placed. `points` differ from it by a few units in the last place of the largest
         coordinate.
     mesh: The part where it goes; where it was, if it is not placed.
@@ -588,9 +587,9 @@ class Packing(Result):
     parts: In the order of the input.
     not_placed: (n,) numbers of parts without a place, ascending.
     plates_used: Plates with a part.
-    tries: Made.
-    density: Share of the plates that the parts on them cover, seen from above, as the raster has
-        it; with `stack`, of the boxes that their solids with what they enclose fill.
+    tries: Number of tries made.
+    density: Share of the area of the used plates that their parts cover, by the raster; with
+        `stack`, share of the volume that the solids fill, cavities included.
     message: Half a sentence for people.
     """
 
@@ -609,51 +608,51 @@ def pack(parts: Iterable[Body], size: ArrayLike, *, corner: ArrayLike = (0.0, 0.
          spacing: float = 2.0, turns: str = "quarter", stack: bool = False, plates: int = 1,
          plate_step: ArrayLike = (0.0, 0.0, 0.0), seed: int = 0, tries: int = 32,
          seconds: float = np.inf, precision: str = "float64", progress: Progress = None) -> Packing:
-    """Puts the parts on plates, each turned about z by one of `turns`. Unless they are stacked,
-    each stands on the bed with its lowest point.
+    """Places the parts on plates, each rotated about z by one of `turns`. Unless stacked, each part
+    stands on the bed with its lowest point.
 
-    For the coordinates in `points`, as written:
-    - The lowest z of a placed part is exactly that of the bed (with float32, the least one not
-      below it); of a stacked part, not below it.
+    For the rounded coordinates in `points`:
+    - The lowest z of a placed part is exactly that of the bed (with float32, the least number not
+      below it); of a stacked part, it is not below the bed.
     - No coordinate is outside the plate or above its height.
     - Any two placed parts of a plate are at least `spacing` apart, by their exact boxes or by
-      `distance` less its error, and none is inside another's solid. With a spacing of 0, parts may
-      touch only in a plane that separates their boxes.
+      `distance` minus its error, and no part is inside another. With a spacing of 0, parts may only
+      touch in a plane that separates their boxes.
 
     A void that is closed all around stays empty.
 
-    This is a search, and a part that is not placed may have had a place. In the first try, parts
-    are taken in the order of the area that they cover (stacked, of their volume). Each goes to the
-    first plate that has room, there to the free place of the least (z, then) y, then x, on a raster
-    of about 512 cells a side (stacked, 96), and is then moved down (z,) y and x until something is
-    in the way. While not all are placed, other orders and turns are tried: at random by the seed,
-    and with parts that found no place brought forward. With several plates, tries also go on while
-    more plates are used than the area asks for. The result is the try with the most parts placed,
-    then with the least area left, then with the fewest plates, then the first.
+    This is a heuristic search: a place may exist for a part that is not placed. In the first try,
+    parts are taken in the order of the area that they cover (stacked: of their volume). Each part
+    goes to the first plate with room, to the free position with the least (stacked: z, then) y,
+    then x, on a raster of about 512 cells a side (stacked: 96). Then it is moved toward lower (z,)
+    y and x until it meets an obstacle. While parts are not placed, other orders and rotations are
+    tried: at random by the seed, and with unplaced parts first. With several plates, tries also go
+    on while more plates are used than the area requires. The result is the try with the most parts
+    placed, then with the least area unplaced, then with the fewest plates, then the earliest.
 
-    Parts without faces take no room: they are placed where they are. Points that no face uses move
+    Parts without faces take no room: they are placed where they are. Points without faces move
     along with their part and are otherwise ignored. Equal parts are prepared once.
 
     size: (2,) or (3,): length, depth and height of a plate.
-    corner: (3,) corner of the first plate with the lowest x and y; its z is the bed.
+    corner: (3,) The corner of the first plate with the lowest x and y; its z is the bed.
     spacing: Least distance of any two parts; parts may touch the plate's rim.
     turns: 'none', 'quarter', 'eighth' or 'any'.
-    stack: Fill the box up to its height: parts also come above, below and inside one another, and
-        hang in the air. Otherwise each stands on the bed. The height has to be finite.
-    plates: Most plates used; at least 1.
+    stack: Fill the box up to its height, which must be finite: parts may be above, below and inside
+        one another, and hang in the air. Otherwise each part stands on the bed.
+    plates: Largest number of plates; at least 1.
     plate_step: (3,) from the corner of a plate to that of the next; its z is ignored.
-    seed: Of the orders and turns that are tried when not all parts fit.
-    tries: At most; at least 1.
-    seconds: No more tries begin after this many seconds. Where that ends the search, the result
+    seed: Seed of the orders and rotations that are tried if not all parts fit.
+    tries: Largest number of tries; at least 1.
+    seconds: Start no more tries after this many seconds. If that ends the search, the result
         depends on the speed of the machine.
     precision: 'float32' or 'float64'. Of the points returned.
 
-    Raises ValueError naming the part with a corner out of range or not finite, and for options that
-    are negative, NaN, or (except for the height and the seconds) not finite.
+    Raises ValueError naming the part with a corner out of range or not finite; for options that are
+    negative, NaN, or (except for the height and the seconds) not finite.
 
-    Cost: for each part and turn a raster, O(F); in each try for each part and turn a few
-    milliseconds to search a free place, and for the place chosen a tree over the part and some
-    `distance` to each neighbor. Tries run in parallel.
+    Cost: O(F) for a raster of each part and rotation; in each try a few milliseconds for each part
+    and rotation to find a free place; for the chosen place a tree over the part and some `distance`
+    to each neighbor. Tries run in parallel.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -676,9 +675,9 @@ def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coo
     vertices: 'by_coordinates': corners with equal coordinates are shared; 'by_index': those with
         the same number.
 
-    Raises ValueError as `measure`, and for a radius that is negative or NaN.
+    Raises ValueError as `measure`; for a radius that is negative or NaN.
 
-    Cost: that of `distance`, and of `measure` where the boxes of the meshes meet.
+    Cost: `distance`, plus `measure` if the boxes of the meshes meet.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -691,13 +690,13 @@ def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coo
 
 
 class Depth(NamedTuple):
-    """The move apart that was found.
+    """The separating translation found.
 
     depth: The length of `move`, rounded.
-    move: (3,) Adding this to every point of `a`, each coordinate rounded, takes `a` out of `b`:
-        then `measure` does not find them penetrating.
-    effort: What the search took. Where some of its questions were cut, one more reason why a
-        shorter way may exist.
+    move: (3,) After adding this to every point of `a`, with each coordinate rounded, `measure` is
+        not `penetrating`.
+    effort: The effort of the search. If `cut` is not 0, a shorter translation is more likely to
+        exist.
     """
 
     depth: float
@@ -710,27 +709,26 @@ class Depth(NamedTuple):
 
 def penetration_depth(a: MeshLike, b: MeshLike, *, directions: int = 256, effort: int = 0,
                       progress: Progress = None) -> Depth | None:
-    """The length of a short translation that takes `a` out of `b`: an upper bound of the depth of
-    penetration, which is the length of the shortest. None when they do not penetrate each other, or
-    one is a cloud.
+    """The length of a short translation that separates `a` from `b`: an upper bound of the
+    penetration depth, which is the length of the shortest one. None if they do not penetrate each
+    other, or one is a cloud.
 
-    The translation is verified exactly, in the coordinates that it leads to. It starts from what
-    `separate` finds, is shortened wherever one of `directions` other directions leads out sooner,
-    and then turned little by little, by less and less, as long as that makes it shorter. Among
-    shapes that are not convex, a shorter one may exist.
+    The translation is verified exactly, in the moved coordinates. The search starts with the result
+    of `separate`, tries `directions` other directions, and then rotates the best one in ever
+    smaller steps as long as it becomes shorter. For nonconvex shapes, a shorter one may exist.
 
-    The search ends by its effort: a place of which it takes more than a 32nd of that to say whether
-    it is out is passed over. So faces whose boxes overlap in great numbers, as those of long thin
-    triangles do, give a longer way, but at least the one along an axis past the box of `b`.
+    The search is limited by its effort: a candidate is skipped if testing it would take more than
+    1/32 of the effort. So if very many boxes of faces overlap, as with long thin triangles, the
+    result may be longer, but at most the translation along an axis past the box of `b`.
 
-    directions: Spread over the sphere, tried beside those of faces that meet.
-    effort: Pairs of faces that the search may look at, a pair in motion counting as two; 0: 20
-        million and 200 for each face.
+    directions: Directions spread over the sphere, tried besides normals of faces that meet.
+    effort: Pairs of faces that the search may test, a pair in motion counting as two; 0: 20 million
+        plus 200 for each face.
 
     Raises ValueError as `measure`.
 
-    Cost: `separate`; an `intersects` for each direction, and a `time_of_impact` for those that lead
-    out sooner; not more than `effort`.
+    Cost: `separate`; an `intersects` for each direction, and a `time_of_impact` for each shorter
+    one; at most `effort`.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -763,23 +761,22 @@ class Impact(NamedTuple):
 def time_of_impact(a: MeshLike, b: MeshLike, motion: ArrayLike, *, move_a: ArrayLike | None = None,
                    move_b: ArrayLike | None = None, latest: float = np.inf,
                    progress: Progress = None) -> Impact:
-    """The least t >= 0 at which `a`, moved by t times `motion`, has a point in common with `b`.
+    """The least t >= 0 at which `a`, moved by t times `motion`, has a common point with `b`.
 
     Exact on the coordinates as given, or as moved by the options. Times of pairs of faces are
-    compared as exact quotients of determinants, so all contacts at equal times are found, even of
+    compared as exact quotients of determinants, so all simultaneous contacts are found, even of
     parallel or coplanar faces. Surfaces count, not solids: inside a closed mesh, `a` moves until it
-    meets the wall. Meshes that only graze each other have a contact.
+    meets the surface. Grazing is a contact.
 
     motion: (3,)
     move_a: (4, 4) an affine map of `a`, applied first.
     move_b: (4, 4) the same of `b`.
     latest: Ignore contacts after this time.
 
-    Raises ValueError for a motion that is zero or not finite, a time that is negative or NaN, and
+    Raises ValueError for a motion that is zero or not finite; a time that is negative or NaN;
     naming the mesh and its lowest face with a corner out of range or not finite.
 
-    Cost: that of `intersects`, and of a search along the motion, which most boxes never enter;
-    serial.
+    Cost: `intersects`, plus a search along the motion, which excludes most boxes; serial.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")

@@ -26,19 +26,18 @@ class SolidDefects(Result):
     """What keeps a mesh from being a solid; `bool()` says whether there is anything.
 
     nonfinite_vertices: With a NaN or infinite coordinate, used or not.
-    unusable_faces: With such a corner, or no vertex: not counted below.
-    without_faces: There are points, but no face that can be used.
-    tetrahedra: That the faces are, as of a volume mesh.
+    unusable_faces: With an invalid corner; not counted below.
+    without_faces: There are points, but no usable face.
+    tetrahedra: Whose sides are faces, as in a volume mesh.
     degenerate: Faces without area.
-    repeated: Faces with the corners of another one.
-    open_edges: Of one face.
-    nonmanifold_edges: Of more than two faces.
-    misoriented_edges: Of two faces that disagree.
+    repeated: Faces with the same corners as another.
+    open_edges: Edges of one face.
+    nonmanifold_edges: Edges of more than two faces.
+    misoriented_edges: Edges of two inconsistently oriented faces.
     nonmanifold_vertices: With more than one fan of faces.
-    meeting_pairs: Of faces that meet beyond their common corners.
-    inverted: Closed components that are inside out, and in no other one.
-    wrongly_nested: Closed components that meet nowhere lie in each other, but not as a solid and
-        its cavities.
+    meeting_pairs: Pairs of faces that meet beyond common corners.
+    inverted: Closed components that are inside out, and inside no other one.
+    wrongly_nested: Disjoint closed components are nested, but not as a solid and its cavities.
     message: 'open at 37 edges, 2 pairs of faces meet'; 'none'.
     """
 
@@ -62,12 +61,11 @@ class SolidDefects(Result):
 
 
 def find_solid_defects(mesh: MeshLike, *, progress: Progress = None) -> SolidDefects:
-    """What `repair` would have to mend, and what it does not take. Nothing without points is a
-    solid.
+    """The defects that `repair` would mend or refuse. A mesh without points is a solid.
 
     Raises ValueError as `self_intersections`, but not for corners.
 
-    Cost: O(V log V + F log F), and as `self_intersections`.
+    Cost: O(V log V + F log F), plus `self_intersections`.
 
     >>> import treeform
     >>> bool(treeform.find_solid_defects(treeform.read("data/cube.stl")))
@@ -85,7 +83,7 @@ class MeshDefects(Result):
     """Points and faces with defects, ascending. A face is in at most one list.
 
     nonfinite_points: (n,) with a NaN or infinite coordinate.
-    nonfinite_faces: (n,) with such a corner.
+    nonfinite_faces: (n,) with a corner that is not finite.
     degenerate_faces: (n,) finite, with exactly collinear corners.
     out_of_range_faces: (n,) with a corner out of range.
     """
@@ -97,15 +95,15 @@ class MeshDefects(Result):
 
 
 def find_defects(mesh: MeshLike, *, progress: Progress = None) -> MeshDefects:
-    """Finds the points and faces that algorithms refuse or treat in a special way.
+    """Finds the points and faces that algorithms refuse or treat specially.
 
-    Whether corners are collinear is exact: they are when a corner is repeated or two are equal;
-    they are not in a sliver, however thin. A face is first tested for corners out of range, then
-    for corners that are not finite.
+    Collinearity is exact: a face with a repeated corner or two equal corners is degenerate, a
+    sliver is not, however thin. A face is first tested for corners out of range, then for corners
+    that are not finite.
 
     Raises ValueError for more than 2^32 - 1 points or faces.
 
-    Cost: O(V + F) time, memory for what is found.
+    Cost: O(V + F) time; memory for the result.
 
     >>> import treeform
     >>> mesh = ([[0, 0, 0], [1, 1, 1], [3, 3, 3], [0, float("nan"), 0]], [[0, 1, 2], [0, 1, 3]])
@@ -126,13 +124,13 @@ class Topology(Result):
     boundary_edges: Used by one face.
     nonmanifold_edges: Used by three or more faces.
     misoriented_edges: Used by two faces in the same direction.
-    nonmanifold_points: Whose faces fall into more than one fan.
+    nonmanifold_points: Points with more than one fan of faces.
     components_by_point: Faces linked by a shared corner.
     components_by_edge: Faces linked by a shared edge.
-    points_used: Corners of at least one such face.
+    points_used: Points that are a corner of a counted face.
     faces: Faces with three different corners.
-    repeated_corner_faces: The others.
-    duplicate_faces: Beyond the first with the same three corners.
+    repeated_corner_faces: Faces that repeat a corner.
+    duplicate_faces: Faces with the same three corners as an earlier one.
     closed: At least one face, no boundary edge, no nonmanifold edge.
     """
 
@@ -154,8 +152,8 @@ def count_topology(mesh: MeshLike, *, progress: Progress = None) -> Topology:
     """Counts edges, components and defects of a mesh. Only corner numbers matter, so corners with
     equal coordinates should be joined first (`join_equal_points`).
 
-    A fan of a point is a set of its faces that are linked by edges at that point, however many
-    faces an edge has. Neither fans nor components depend on the orientation of faces.
+    A fan of a point is a set of its faces linked by edges at that point, for edges of any number of
+    faces. Fans and components do not depend on the orientation of faces.
 
     Raises ValueError naming the lowest face with a corner that is not less than the number of
     vertices, or for more than 2^32 - 1 faces.
@@ -171,15 +169,15 @@ def count_topology(mesh: MeshLike, *, progress: Progress = None) -> Topology:
 
 
 def count_inside_out(mesh: MeshLike, *, progress: Progress = None) -> int:
-    """The components of a closed mesh that are inside out, their volumes negative, and that are in
-    no other one, as cavities are. Components are what edges link, with corners of equal coordinates
-    joined. 0 for an open mesh, which has no inside, and for a cloud. `measure`, `clash` and
-    `locate` take such a component for the same solid; `repair` turns it over.
+    """The number of components of a closed mesh that are inside out (of negative volume) without
+    being cavities, that is, inside no other component. Components are faces linked by edges, with
+    corners of equal coordinates joined. 0 for an open mesh and for a cloud. `measure`, `clash` and
+    `locate` treat such a component as the solid that it bounds; `repair` flips it.
 
     Raises ValueError naming the lowest face with a corner out of range or not finite.
 
-    Cost: O(F log F) for the indexes, which a `Mesh` keeps, and a ray for each component where there
-    are several.
+    Cost: O(F log F) for the indexes, which a `Mesh` keeps; a ray for each component, if there are
+    several.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -195,7 +193,7 @@ def face_components(mesh: MeshLike, *, progress: Progress = None) -> Ids:
 
     Raises ValueError as `count_topology`.
 
-    Cost: O(V + F) time except for an inverse Ackermann factor, about 8 bytes a point.
+    Cost: O(V + F) time, up to an inverse Ackermann factor; about 8 bytes a point.
 
     >>> import treeform
     >>> treeform.face_components(treeform.read("data/two_spheres.stl")).max()
@@ -212,7 +210,7 @@ class Feature(Result):
     origin: (3,) center of the faces, on the plane or the axis.
     direction: (3,) of length 1: the normal, outward; along the axis, either way.
     radius: Of the cylinder.
-    hollow: Of a cylinder: the faces look at the axis, as those of a hole.
+    hollow: For a cylinder: the faces point to the axis, as in a hole.
     area: Of the faces.
     deviation: Largest distance of a corner from the plane or cylinder.
     faces: (n,) ascending.
@@ -232,19 +230,19 @@ def find_features(mesh: MeshLike, kind: str = "plane", *, tolerance: float | Non
                   plane_angle: float = 1.0, facet_angle: float = 46.0, arc: float = 60.0,
                   progress: Progress = None) -> list[Feature]:
     """The flat or cylindrical regions of `mesh`, largest area first. A region grows over edges,
-    from the largest face, or pair of faces with an angle between them, that is not yet in one.
-    Points with equal coordinates have to be one (`join_equal_points`). A cone is none.
+    from the largest face, or pair of faces with an angle between them, that is not yet in a region.
+    Join points with equal coordinates first (`join_equal_points`). Cones are not found.
 
     kind: 'plane' for the flat regions, 'axis' for the cylindrical ones.
     tolerance: Largest distance of a corner from the plane or cylinder. None: 1e-4 of the diagonal.
-    plane_angle: In degrees: what faces of a plane may lean.
-    facet_angle: In degrees: the most between faces of a cylinder side by side.
-    arc: In degrees: the least part of a circle that makes an axis.
+    plane_angle: In degrees: largest angle between a face and the plane.
+    facet_angle: In degrees: largest angle between neighboring faces of a cylinder.
+    arc: In degrees: the least arc of a cylinder.
 
-    Raises ValueError naming a point that is not finite or a face with a corner out of range, and
-    for options that are negative or NaN.
+    Raises ValueError naming a point that is not finite or a face with a corner out of range; for
+    options that are negative or NaN.
 
-    Cost: O(F log F), times the regions that a face is tried for.
+    Cost: O(F log F), times the number of regions for which a face is tried.
 
     >>> import treeform
     >>> [side.area for side in treeform.find_features(treeform.read("data/cube.stl"))]

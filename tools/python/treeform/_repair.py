@@ -51,8 +51,8 @@ def steps_of(steps: Iterable[str]) -> dict[str, bool]:
 class ConvexHull(Result):
     """The convex hull of points: triangles, grouped by flat sides.
 
-    dimension: 3 for points that span space, 2 in a plane, 1 on a line, 0 when all are equal, -1 for
-        none.
+    dimension: The dimension that the points span: 3, 2 in a plane, 1 on a line, 0 if all are equal,
+        -1 for no points.
     faces: (F, 3) numbers of the points, outward.
     first_face: (S,) the first face of each flat side; its faces follow one another.
     areas: (S,) the area of each side.
@@ -120,10 +120,9 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
     max_displacement: For `split` and `outer`: as in `boolean`.
     keep_cuts: For `outer`: as in `boolean`; `split` keeps all cuts.
     touching: For `remove`: delete faces that only touch, too; else they stay.
-    max_loss: For `outer` and `remove`: losing more than this share of the solid's volume, or of the
-        area of a mesh that bounds none, has the status `excessive_loss`. 1 allows any loss. What
-        the solid is, is found by `repair` without filling holes: faces agree, and overlaps count
-        once.
+    max_loss: For `outer` and `remove`: losing more than this share gives the status
+        `excessive_loss`. The share is of the volume of the solid, or of the area if the mesh bounds
+        none. 1 allows any loss. The solid before is that of `repair` without filling holes.
     check: False returns what could not be certified, too, with its `certificate`.
 
     Raises NotSolidError where the mesh is open, NotCertifiedError where the result could not be
@@ -151,43 +150,45 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
     """A solid made of a dirty mesh: closed, oriented, manifold and free of self-intersections. Look
     at the certificate: it says whether this was possible, and where not.
 
-    The steps are `options`, in their order. Each leaves alone what needs nothing: a mesh that is a
-    solid comes back bit for bit. What meets and what is inside is decided exactly. Which cracks
-    close, which way faces point, and what fills a hole are guesses, and counted. Points with equal
-    coordinates are one. Faces of four corners that are tetrahedra become their boundary. Where
-    faces disagree, the cells that they cut space into are labeled inside or outside by a minimum
-    cut, as they and generalized winding numbers disagree least, if less is lost then.
+    The steps are `options`, in this order. Each changes only what is defective: a mesh that is a
+    solid is returned bit for bit. Which faces meet and what is inside is decided exactly. Which
+    cracks are closed, how faces are oriented, and what fills a hole are heuristics, and counted.
+    Points with equal coordinates are one. Faces that are the sides of tetrahedra are replaced by
+    the boundary of the tetrahedra. If faces remain inconsistent, a minimum cut labels cells inside
+    or outside, by the orientations of faces and generalized winding numbers; the result is used if
+    it loses less.
 
-    Holes are filled by triangles between their vertices; large ones of smooth surfaces by new
-    points, so that the surface goes on as it does around them. Sheets are not filled, but said to
-    be open, unless any loss is allowed: parts of less than 1 / 0.6 of the area that would close
-    them, except those that end in a plane and lie to one side of it. Nor is a mesh where at more
-    than a tenth as many edges as it has faces more than two faces meet and disagree.
+    Holes are filled with triangles between their vertices; large holes in smooth surfaces also with
+    new points, which continue the surface smoothly. Sheets are not filled, but reported as open,
+    unless any loss is allowed. A sheet is a part with an area below 1 / 0.6 of the area that would
+    close it, unless its border is in a plane and it is on one side of the plane. Nor is a mesh
+    filled with more than one edge for 10 faces where three or more faces are inconsistent.
 
     steps: those to take. 'join' drops degenerate and repeated faces and closes cracks, 'orient'
         makes faces agree and look outward, 'fill' fills holes, 'resolve' cuts self-intersections,
         'detach' moves apart what touches in an edge or a vertex.
-    gap: Widest crack to close. Where it is not given, the narrowest of 0, a float step, and 1e-6,
-        1e-5, 1e-4, 1e-3 of the diagonal of the bounding box that leaves the fewest open edges.
+    gap: Widest crack to close, in the mesh's length unit. By default the narrowest that leaves the
+        fewest open edges, out of 0, a float step, and 1e-6, 1e-5, 1e-4, 1e-3 of the diagonal of the
+        bounding box.
     largest_hole: Fill holes of at most this many edges.
-    strays: Loose open pieces below this share of the area are dropped, and so are single triangles
-        below 1 %. Where a larger component vanishes since it bounds nothing, the status is
-        `excessive_loss`, unless `max_loss` is 1.
+    strays: Drops loose open pieces below this share of the area, and single triangles below 1 %. If
+        a larger component vanishes since it bounds nothing, the status is `excessive_loss`, unless
+        `max_loss` is 1.
     inside: 'automatic', 'nonzero', 'odd' or 'positive': what is solid.
-    max_loss: Losing more than this share has the status `excessive_loss`: of the volume, or of the
-        area where there were holes. Area is lost of which nothing is left, neither in sight nor
-        hidden in the solid. 1 allows any loss.
-    sheet: The mesh is an open surface: its border is kept, and nothing is filled.
+    max_loss: Losing more than this share of the volume gives the status `excessive_loss`; if there
+        were holes, of the area. Faces that are still there or hidden in the solid are not lost. 1
+        allows any loss.
+    sheet: The mesh is an open surface: keep its border, and fill nothing.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
     max_displacement: As in `boolean`.
     keep_cuts: as in `boolean`; faces that fill holes are merged with each other alone.
     check: False returns what could not be certified, too, with its `certificate`.
 
     Raises NotSolidError where the mesh is open, NotCertifiedError where the result could not be
-    certified; ValueError as `boolean`; for a gap or share that is negative or not finite.
+    certified; ValueError as `boolean`; if a gap or share is negative or not finite.
 
-    Cost: O(V log V + F log F), as `resolve_self_intersections` where faces meet, and for a hole of
-    n edges O(n^3) up to 100, then O(n^2).
+    Cost: O(V log V + F log F), plus `resolve_self_intersections` if faces meet; for a hole of n
+    edges O(n^3) if n <= 100, else O(n^2).
 
     >>> import treeform
     >>> mended = treeform.repair(treeform.read("data/dirty.stl"))
@@ -206,8 +207,8 @@ def convex_hull(points: Body, *, progress: Progress = None) -> ConvexHull:
 
     points: (n, 3), or a mesh.
 
-    Raises ValueError naming the first point that is not finite, and for more points than 32 bits
-    can number.
+    Raises ValueError naming the first point that is not finite; for more points than 32 bits can
+    number.
 
     Cost: O(V log V) time for most inputs, O(V^2) for some; serial.
 

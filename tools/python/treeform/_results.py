@@ -55,13 +55,13 @@ class Certificate(Result):
     open_faces: (n, 2) the operand and the face at each of them.
     boundary_edges: Of the open edges, those of an odd number of faces.
     misoriented_edges: Of the open edges, those of faces that run the same way.
-    max_displacement: Rounding moved no coordinate of a vertex further than this: from where it was,
-        exactly, or, where it is new or gone since rounding broke something, from the nearest place
-        of the surface. Measured; moves on the way do not add up.
+    max_displacement: The largest change of a coordinate by rounding, from the exact position of the
+        vertex. For vertices added or removed by mending, from the nearest point of the exact
+        surface. Measured on the result; intermediate moves do not add up.
     precision: Of the coordinates: 'float32' or 'float64'.
-    vanished_faces: Of `vanished`, the faces of the exact result, all of them thinner than the
-        coordinates tell apart; 0 where there were none.
-    size_before: Of `excessive_loss`: the volume, or the area where there is no solid, before and
+    vanished_faces: For status `vanished`: number of faces of the exact result, all too thin for the
+        coordinates; 0 if it had no faces.
+    size_before: For status `excessive_loss`: the volume (the area, if there is no solid) before and
         after.
     size_after: The same after.
     size_is_volume: Whether these are volumes.

@@ -33,11 +33,11 @@ def drains_of(drains: ArrayLike) -> Floats:
 #   Isolines
 @dataclass(frozen=True, repr=False)
 class Isolines(Result):
-    """Lines of all levels, in the order of the levels as given.
+    """Lines of all levels, in the given order of levels.
 
     lines: One after the other.
     points: (n, 3) on edges of the mesh, rounded.
-    faces: (points,) the face that the side from each point on lies in.
+    faces: (points,) the face that contains the segment after each point.
     """
 
     lines: list[Isoline]
@@ -66,8 +66,8 @@ class OffsetResult(MadeMesh):
     """A solid at a distance from a mesh: around it, hollow, or a wrap.
 
     statistics: What it took, and was measured.
-    blind_drains: (n,) Of `hollow`: numbers of drains that are not known to lead from outside into a
-        cavity: an end of their axis is neither there nor there.
+    blind_drains: (n,) For `hollow`: numbers of drains that do not lead from outside into a cavity,
+        as far as the ends of their axes show.
     """
 
     statistics: dict[str, Any]
@@ -77,30 +77,29 @@ class OffsetResult(MadeMesh):
 def offset(mesh: MeshLike, distance: float, *, resolution: float | None = None,
            precision: str = "float64", check: bool = True,
            progress: Progress = None) -> OffsetResult:
-    """The solid grown by `distance`, or shrunk where it is negative: all points inside or no
-    further from the surface than that; all points inside and no less far.
+    """The solid grown by `distance`: points inside, or at most this far from the surface. If
+    negative, the solid shrunk: points inside, and at least |distance| from the surface.
 
-    Outward, convex edges and corners become round; inward, they stay sharp in truth, but are cut
-    off by no more than a cell, as are all sharp edges of the result. The mesh has to bound a solid,
-    as an operand of `boolean`; where it meets itself, it is the solid that it winds around. What is
-    inside is decided exactly; vertices are at the distance to a thousandth of a cell or so.
+    Convex edges and corners become round outward. Edges that the exact offset keeps sharp are cut
+    off by at most a cell. The mesh must bound a solid, like an operand of `boolean`; if it meets
+    itself, the solid that it winds around is used. What is inside is decided exactly. Vertices are
+    at the distance to about a thousandth of a cell.
 
-    resolution: Edge of the cells that the surface is made in, in the mesh's length unit: at most
-        half of the distance. Every point of space whose distance differs from the one asked for by
-        more than twice this is on the right side of the surface. Details that are smaller may be
-        lost. None: a quarter of the distance, at most a 64th of the diagonal of the result. Where
-        that would make more than some 2^16 cells at the surface (170,000 faces), cells are larger,
-        up to half of the distance. `statistics` has the value used, and the error reached.
+    resolution: Edge length of the cells from which the surface is made, in the mesh's length unit;
+        at most half of the distance. Every point whose distance differs from the given one by more
+        than twice the resolution is on the right side of the surface. Smaller details may be lost.
+        None: a quarter of the distance, at most 1/64 of the diagonal of the result; larger, up to
+        half of the distance, if there would be more than about 2^16 cells at the surface (170,000
+        faces). `statistics` has the value used, and the error.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
     check: False returns what could not be certified, too, with its `certificate`.
 
     Raises NotSolidError where the mesh is open, NotCertifiedError where the result could not be
     certified; ValueError as `boolean`; for a distance that is 0 or not finite; for a resolution
-    that is not positive, more than half of the distance, finer than coordinates of the precision
-    tell apart, or so fine that there would be more than 2^22 cells: the message names one that
-    would do.
+    that is not positive, more than half of the distance, below the spacing of the coordinates, or
+    so fine that there would be more than 2^22 cells: the message names a sufficient one.
 
-    Cost: O(A log F) for A cells, some area / resolution^2 times 3; 600 bytes a cell.
+    Cost: O(A log F) for A cells, about 3 area / resolution^2; 600 bytes a cell.
 
     >>> import treeform
     >>> grown = treeform.offset(treeform.read("data/cube.stl"), 0.25, resolution=0.05)
@@ -114,25 +113,25 @@ def offset(mesh: MeshLike, distance: float, *, resolution: float | None = None,
 def hollow(mesh: MeshLike, wall: float, *, drains: ArrayLike = (), resolution: float | None = None,
            precision: str = "float64", check: bool = True,
            progress: Progress = None) -> OffsetResult:
-    """The solid without what is further inside than `wall`: its surface stays bit for bit, around
-    cavities. Each drain runs through the wall along the shortest way to a cavity, and as far beyond
-    both ends as it is wide, but not more than half of the way to what is next there. `statistics`
-    are those of the cavities. `vanished` where there is none.
+    """The solid without its points deeper inside than `wall`: the surface stays bit for bit, around
+    new cavities. Each drain runs along the shortest segment from the surface to a cavity. It
+    extends beyond both ends by its diameter, but at most half of the way to the next surface.
+    `statistics` are those of the cavities. The status is `vanished` if there is no cavity.
 
     drains: (n, 4) holes through the wall: a point, and the diameter of the hole at the nearest
         point of the surface.
-    resolution: Edge of the cells that the surface is made in, in the mesh's length unit: at most
-        half of the distance. Every point of space whose distance differs from the one asked for by
-        more than twice this is on the right side of the surface. Details that are smaller may be
-        lost. None: a quarter of the distance, at most a 64th of the diagonal of the result. Where
-        that would make more than some 2^16 cells at the surface (170,000 faces), cells are larger,
-        up to half of the distance. `statistics` has the value used, and the error reached.
+    resolution: Edge length of the cells from which the surface is made, in the mesh's length unit;
+        at most half of the distance. Every point whose distance differs from the given one by more
+        than twice the resolution is on the right side of the surface. Smaller details may be lost.
+        None: a quarter of the distance, at most 1/64 of the diagonal of the result; larger, up to
+        half of the distance, if there would be more than about 2^16 cells at the surface (170,000
+        faces). `statistics` has the value used, and the error.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
     check: False returns what could not be certified, too, with its `certificate`.
 
     Raises NotSolidError where the mesh is open, NotCertifiedError where the result could not be
-    certified; ValueError as `offset`, for a wall that is not positive, and for a drain that is not
-    finite or whose diameter is not positive.
+    certified; ValueError as `offset`; for a wall that is not positive; for a drain that is not
+    finite, or with a diameter that is not positive.
 
     Cost: as `offset` and `difference`.
 
@@ -149,28 +148,27 @@ def hollow(mesh: MeshLike, wall: float, *, drains: ArrayLike = (), resolution: f
 def thicken(mesh: MeshLike, thickness: float, *, side: str = "both",
             resolution: float | None = None, precision: str = "float64", check: bool = True,
             progress: Progress = None) -> OffsetResult:
-    """A solid around a surface, which may be anything: all points no further from it than half of
-    `thickness`. Its rim is round.
+    """A solid around any surface: all points at most half of `thickness` away. Its rim is round.
 
-    With `front` and `back` the surface is first moved to that side by half of the thickness, each
-    vertex so that planes of faces around it move that far, on average: exact where it is flat,
-    rounded where it bends. Sharp folds move by no more than twice that. `statistics` are of the
-    surface as moved. Faces have to agree in their orientation.
+    With `front` or `back` the surface is first moved to that side by half of the thickness: each
+    vertex so that the planes of its faces move that far, on average. This is exact where the
+    surface is flat, and rounds it where it bends. Vertices of sharp folds move by at most twice
+    that. `statistics` are those of the moved surface. Faces must be consistently oriented.
 
     side: 'both', or where the thickness goes: 'front' (faces are counter-clockwise there) or
         'back'.
-    resolution: Edge of the cells that the surface is made in, in the mesh's length unit: at most
-        half of the distance. Every point of space whose distance differs from the one asked for by
-        more than twice this is on the right side of the surface. Details that are smaller may be
-        lost. None: a quarter of the distance, at most a 64th of the diagonal of the result. Where
-        that would make more than some 2^16 cells at the surface (170,000 faces), cells are larger,
-        up to half of the distance. `statistics` has the value used, and the error reached.
+    resolution: Edge length of the cells from which the surface is made, in the mesh's length unit;
+        at most half of the distance. Every point whose distance differs from the given one by more
+        than twice the resolution is on the right side of the surface. Smaller details may be lost.
+        None: a quarter of the distance, at most 1/64 of the diagonal of the result; larger, up to
+        half of the distance, if there would be more than about 2^16 cells at the surface (170,000
+        faces). `statistics` has the value used, and the error.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
     check: False returns what could not be certified, too, with its `certificate`.
 
     Raises NotSolidError where the mesh is open, NotCertifiedError where the result could not be
     certified; ValueError as `offset`, with half of the thickness as the distance; for a mesh
-    without faces, or, of one side, naming a face that disagrees with its neighbor.
+    without faces; for one side, naming a face that is inconsistent with its neighbor.
 
     Cost: as `offset`.
 
@@ -193,21 +191,20 @@ def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision:
     that nothing leads to. A smaller size follows the mesh more closely, with more faces, some area
     / `size`^2 of them.
 
-    No face of the mesh meets the wrap, or is outside of it: that is decided exactly, on the
-    coordinates of both. The distance of its vertices is met as far as rounding allows.
+    No face of the mesh meets the wrap or is outside of it: this is verified exactly, on the
+    coordinates of both. Its vertices are at the offset up to rounding.
 
     offset: `wrap`: how far the vertices of the wrap are from the mesh, in its length unit. None: a
         thirtieth of the size.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
     check: False returns what could not be certified, too, with its `certificate`.
 
-    Raises NotCertifiedError where the result could not be certified; ValueError naming the face
-    with a corner out of range or not finite; where the mesh has no faces, where it is larger than
-    2^150 or smaller than 2^-150, for a size or offset that is not positive and finite, or so small
-    that coordinates of the precision do not tell apart what is as near as the offset, or the wrap
-    would have more than 2^30 faces.
+    Raises NotCertifiedError where the result could not be certified; ValueError naming a face with
+    a corner out of range or not finite; for a mesh without faces, larger than 2^150 or smaller than
+    2^-150; for a size or offset that is not positive and finite; for an offset near the spacing of
+    the coordinates; for a wrap of more than 2^30 faces.
 
-    Cost: for n points O(n log n) in most cases, O(n log F) queries of the tree over the faces; some
+    Cost: O(n log n) for n points in most cases, with O(n) queries of a tree over the F faces; about
     400 bytes a point; serial.
 
     >>> import treeform
@@ -223,19 +220,19 @@ def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision:
 class SimplifyResult(MadeMesh):
     """A mesh with fewer faces.
 
-    face_source: (F,) the face of the input that each was.
-    collapses: Edges that became a vertex.
-    refused_by_topology: Edges tried whose collapse would change it.
-    refused_by_turning: Edges whose collapse would turn a face about.
-    refused_by_distance: Edges whose collapse was not proven near.
+    face_source: (F,) the input face of each face.
+    collapses: Edges collapsed.
+    refused_by_topology: Edges whose collapse would change the topology.
+    refused_by_turning: Edges whose collapse would turn a face too far.
+    refused_by_distance: Edges whose collapse was not proven within the distance.
     refused_by_contact: Edges whose collapse would make faces meet.
-    there_at_most: No point of the input is further from the result.
-    back_at_most: No point of the result is further from the input.
-    vertex_source: (V,) vertex of the input that each is; `NONE`: new.
-    face_of_new_vertex: (V,) of a new vertex, the face of the input that is nearest to it, on its
-        side of seams; else `NONE`.
-    corner_source: (3 F,) the corner of the input that each is at (3 f + i for corner i of face f),
-        on its side of seams; none at new vertices.
+    there_at_most: Bound of the distance from any input point to the result.
+    back_at_most: Bound of the distance from any point of the result to the input.
+    vertex_source: (V,) input vertex equal to each vertex; `NONE`: new.
+    face_of_new_vertex: (V,) for a new vertex, the nearest input face on its side of seams; else
+        `NONE`.
+    corner_source: (3 F,) the input corner (3 f + i for corner i of face f) at the vertex of each
+        corner, on its side of seams; none at new vertices.
     """
 
     face_source: Ids
@@ -254,38 +251,39 @@ class SimplifyResult(MadeMesh):
 def simplify(mesh: MeshLike, max_distance: float, *, face_groups: ArrayLike | None = None,
              precision: str = "float64", target_faces: int = 0, feature_angle: float = 180.0,
              check: bool = True, progress: Progress = None) -> SimplifyResult:
-    """The mesh with fewer faces: edges are collapsed, those first that change the surface least.
+    """The mesh with fewer faces, by edge collapses in the order of their quadric error.
 
-    Both surfaces are within `max_distance` of each other: each face is proven so, none is sampled.
-    No two faces are made to meet, exactly, on the coordinates returned; where faces of the input
-    meet, they are left to do so. A closed, oriented manifold stays one. What lies inside of what is
-    looked at in the end alone: the certificate says if that has changed.
+    Input and result are within `max_distance` of each other: this is proven for each face, not
+    sampled. No collapse makes faces meet, exactly, on the coordinates returned; faces of the input
+    that meet may still meet. A closed, oriented manifold stays one. The nesting of components is
+    only checked at the end; the certificate tells if it changed.
 
-    Borders, and edges of features and groups, are simplified along themselves: of their vertices,
-    some stay, and they are within the distance of what they were, too. Where they end, branch or
-    cross, at edges of more than two faces or of faces that do not run both ways, and where faces at
-    a vertex are no fan, vertices stay as they are.
+    Borders, features, and borders of groups are simplified as polylines on their own vertices,
+    within the same distance. Vertices stay where such lines end, branch or cross, at nonmanifold or
+    inconsistently oriented edges, and at vertices whose faces are not one fan.
 
-    A distance below what doubles can prove, some 2^-46 of the largest coordinate, collapses
-    nothing, nor are coordinates whose squares are no doubles. Corners with equal coordinates are
-    one vertex; faces with two equal corners go, and are no part of either surface.
+    Nothing is collapsed if the distance is below about 2^-46 of the largest coordinate, which
+    doubles cannot prove, or if squares of coordinates overflow or underflow. Corners with equal
+    coordinates are one vertex; faces with two equal corners are dropped, and belong to neither
+    surface.
 
     Values of vertices and corners are interpolated; seams, and borders of materials and of values
     of faces, are kept.
 
     face_groups: (F,) numbers; edges between faces of different ones are borders, too.
-    precision: 'float32' or 'float64'. Precision of points. With float32, all are rounded first, and
-        bounds count that; values are stored as doubles.
-    target_faces: Stop at so many faces.
-    feature_angle: Edges whose faces turn by more degrees are features; 180: none.
+    precision: 'float32' or 'float64'. Precision of the points returned. With float32, all points
+        are rounded first, and the bounds include this; values are stored as doubles.
+    target_faces: Stop at this number of faces.
+    feature_angle: Edges are features if the normals of their faces differ by more than this, in
+        degrees; 180: none.
     check: False returns what could not be certified, too, with its `certificate`.
 
     Raises NotCertifiedError where the result could not be certified; ValueError for a distance that
-    is negative or not finite, another number of groups than of faces or corners, or a face with a
-    corner that is out of range or not finite.
+    is negative or not finite, for a number of groups other than that of faces or corners; naming a
+    face with a corner that is out of range or not finite.
 
-    Cost: 50 to 150 microseconds a collapse, serial: O(n log n) for n collapses, more where a face
-    comes to stand for many; 1 kB a face; and `find_solid_defects` before and after.
+    Cost: O(n log n) for n collapses, 50 to 150 microseconds each, serial; more if a face replaces
+    many; 1 kB a face; plus `find_solid_defects` before and after.
 
     >>> import treeform
     >>> few = treeform.simplify(treeform.read("data/two_spheres.stl"), 0.05)
@@ -302,9 +300,9 @@ def simplify(mesh: MeshLike, max_distance: float, *, face_groups: ArrayLike | No
 class Thickness(Result):
     """The thickness at each face, and the least.
 
-    of_face: (F,) Infinite where nothing is behind a face, or it has no area.
+    of_face: (F,) Infinite if there is nothing behind a face, or the face has no area.
     least: Of all faces.
-    thinnest: The lowest face with that.
+    thinnest: The lowest face with the least thickness.
     """
 
     of_face: Floats
@@ -313,16 +311,16 @@ class Thickness(Result):
 
 
 def wall_thickness(mesh: MeshLike, by: str = "ray", *, progress: Progress = None) -> Thickness:
-    """How thick the walls of a solid are, face by face. Which face a ray leaves through is exact,
-    for the center and normal as rounded; lengths are rounded. A ball is found to 2^-20 of its
-    diameter. Near a sharp edge balls are small: there, they measure the edge.
+    """The wall thickness of a solid at each face. The face through which a ray leaves is exact, for
+    the rounded center and normal; lengths are rounded. Balls are accurate to 2^-20 of their
+    diameter. Near a sharp edge balls are small: there they measure the edge.
 
     by: 'ray', along the normal inward from the center of a face; or 'sphere', the diameter of the
         largest ball within that touches the center.
 
     Raises ValueError naming a face with a corner out of range or not finite.
 
-    Cost: a `raycast_all` for each face, and some ten `closest_point` for a ball.
+    Cost: a `raycast_all` for each face, and about ten `closest_point` for each ball.
 
     >>> import treeform
     >>> treeform.wall_thickness(treeform.read("data/cube.stl")).least
@@ -333,11 +331,11 @@ def wall_thickness(mesh: MeshLike, by: str = "ray", *, progress: Progress = None
 
 @dataclass(frozen=True, repr=False)
 class OrientedBox(Result):
-    """A box turned in any way.
+    """A box in any orientation.
 
     center: (3,) of the box.
     axes: (3, 3) of length 1, right-handed: along the longest side, the next, the shortest.
-    size: (3,) along these.
+    size: (3,) lengths along these axes.
     """
 
     center: Floats
@@ -346,10 +344,10 @@ class OrientedBox(Result):
 
 
 def oriented_box(points: Body, *, progress: Progress = None) -> OrientedBox | None:
-    """The box of least volume around points, of those with a side in a side of their convex hull,
-    and another along an edge of it, or along the axes of space. Of flat points, the least area.
-    None without points. Of a hull of more than some thousand sides, those of the largest areas are
-    looked at, as many as 2^26 corners of sides allow.
+    """A box of small volume around points: the smallest among boxes with one side in a side of the
+    convex hull and another along an edge of that side, and the axis-aligned box. For coplanar
+    points, of least area. None without points. For a hull of more than a few thousand sides, only
+    the largest sides are tried, up to 2^26 corners of sides.
 
     Axes, center and size are rounded: a point may be outside by 2^-48 of the largest coordinate.
 
@@ -370,12 +368,13 @@ def oriented_box(points: Body, *, progress: Progress = None) -> OrientedBox | No
 class Isoline(Result):
     """A line on a mesh along which a value has a level.
 
-    level: Of the value, along it.
-    first_point: Its points follow one another; the first is not repeated.
-    point_count: Of its points.
-    closed: Otherwise it ends where the mesh does.
-    oriented: The faces along it agree: seen from outside, higher is to its left.
-    length: Of its sides.
+    level: The value along the line.
+    first_point: Consecutive; the first is not repeated.
+    point_count: Number of its points.
+    closed: Otherwise it ends at borders of the mesh.
+    oriented: Whether the faces along it are consistently oriented: seen from outside, larger values
+        are to its left.
+    length: Sum of its segments.
     """
 
     level: float
@@ -388,21 +387,20 @@ class Isoline(Result):
 
 def isolines(mesh: MeshLike, values: ArrayLike, levels: ArrayLike, *,
              progress: Progress = None) -> Isolines:
-    """Where a value has given levels: `values` has one for each vertex, and is linear in each face.
+    """Lines at given levels of a value: `values` has one value for each vertex, interpolated
+    linearly in each face.
 
-    Which side of a level a vertex is on, and which sides make a line, is exact. A vertex at a level
-    counts as above it, so that lines are those just below, as in `section`: a height as the value
-    gives the sections by planes across z. Points are linear interpolations, rounded. Where
-    neighbors with equal coordinates are vertices of their own, lines go on when the values there
-    are equal; else they end.
+    Lines are decided exactly; their points are interpolated and rounded. A vertex at a level counts
+    as above it, as in `section`: with heights as values, the lines are sections by planes across z.
+    Vertices with equal coordinates are joined if their values are equal; otherwise lines end there.
 
     values: (V,) of the vertices, linear in each face.
     levels: (K,)
 
-    Raises ValueError naming a face with a corner out of range or not finite, a corner or level
-    whose value is not finite, or for another number of values than of vertices.
+    Raises ValueError naming a face with a corner out of range or not finite, a corner or level with
+    a value that is not finite, or if there is not one value for each vertex.
 
-    Cost: O(V log K + F + S log S) for K levels and S sides of lines.
+    Cost: O(V log K + F + S log S) for K levels and S segments of lines.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")

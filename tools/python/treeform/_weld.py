@@ -130,41 +130,39 @@ def weld(mesh_or_points: Body, tolerance: float = 0.0, *, rule: str = "first",
          order_by: str = "", only_borders: bool = False, keep_manifold: bool = False,
          keep_degenerate: bool = False, label: ArrayLike | None = None,
          progress: Progress = None) -> WeldResult:
-    """`mesh`, or a cloud of points, with the points merged that are within the tolerance of each
-    other.
+    """Merges the points of a mesh or point cloud that are within the tolerance of each other.
 
-    Whether two points are within the tolerance is decided exactly on the coordinates as given, and
-    so is which of two points is nearer. Points are in the order of the first points of their
-    groups; faces keep their order. With 'first', points that are kept keep their coordinates bit
-    for bit. A point with a NaN or infinite coordinate is merged with no other, not even with a copy
-    of itself.
+    Distances are compared exactly, on the coordinates as given. Points are in the order of the
+    first points of their groups; faces keep their order. With 'first', kept points keep their
+    coordinates bit for bit. A point with a NaN or infinite coordinate is never merged, not even
+    with a copy of itself.
 
-    Faces that repeat a corner are dropped unless `keep_degenerate` is set, whether they repeated it
-    before (`degenerate`) or not (`collapsed`). So input faces = faces of the result + collapsed +
-    degenerate. Faces that have become equal to others stay. Edges are counted over faces with three
-    different corners.
+    Faces that repeat a corner are dropped unless `keep_degenerate` is set: those that repeated it
+    before (`degenerate`) and those that do now (`collapsed`). So input faces = faces of the result
+    + collapsed + degenerate. Faces that became equal to others stay. Edges are counted over faces
+    with three different corners.
 
     With `keep` other than `first`, kept points may be within the tolerance of each other again, and
     with the rule `first` a point may move by twice the tolerance.
 
-    A mean is the first point's value plus the differences of the others from it, added in the order
-    of points and rounded at each step. For n values that differ by at most d, it is wrong by at
-    most n d 2^-52 and one unit in the last place. It lies between the least and the greatest value;
-    float32 columns round once more. Averaged normals are not scaled to length 1. A mean over a NaN
-    or an infinity is NaN.
+    A mean is the first point's value plus the mean of the differences from it, added in the order
+    of points and rounded at each step. For n values that differ by at most d, its error is at most
+    n d 2^-52 plus one unit in the last place. It is between the least and the greatest value;
+    float32 columns are rounded once more. Averaged normals are not scaled to length 1. A mean with
+    a NaN or an infinity is NaN.
 
     `keep_manifold` merges points of a group only along edges: two edges that would become one edge
-    with at most two faces, or an edge that shrinks to a point. Points of a group that are linked in
-    this way become one point; the other points of the group stay separate. Each such part has its
-    own first, last or mean; points that no face uses join the lowest part that has faces. So a
-    surface that was cut open closes along its seams, while solids that meet in an edge or a corner
-    stay apart. Where merging a group would still make an edge or a point non-manifold, because
-    points were not manifold before or faces shrink, the group is left as single points. This is
-    tried first for points with equal coordinates, and then for what they became; so corners that
-    coincide stay merged where the rest of a group does not. In the result, every edge of more than
-    two faces was one before, and every point with several fans contains a point that had several
-    before. Points of one group may stay within the tolerance of each other, and with the rule
-    `first` a point may move by twice the tolerance.
+    with at most two faces, or an edge that shrinks to a point. Points of a group linked in this way
+    become one point; other points of the group stay separate. Each linked part has its own first,
+    last or mean; points without faces join the lowest part with faces. So a surface that was cut
+    open closes along its seams, while solids that meet in an edge or a corner stay apart. If
+    merging a group would still make an edge or a point nonmanifold, because a point was nonmanifold
+    before or faces collapse, the group is not merged. Points with equal coordinates are merged
+    first, and the results again; so coincident corners stay merged even if the rest of their group
+    does not. In the result, every edge of more than two faces had more than two before, and every
+    point with several fans contains a point that had several before. Points of one group may stay
+    within the tolerance of each other, and with the rule `first` a point may move by twice the
+    tolerance.
 
     mesh_or_points: a mesh, points (n, 3), or anything with `points` or `vertices` and no faces.
     tolerance: Euclidean, inclusive; 0: equal coordinates (-0 equals +0).
@@ -183,14 +181,15 @@ def weld(mesh_or_points: Body, tolerance: float = 0.0, *, rule: str = "first",
     keep_degenerate: Keep faces that repeat a corner.
     label: (n,) numbers; points with different ones are never merged.
 
-    Raises ValueError for a tolerance that is negative or not finite, when there is not one label
-    for each point, for more than 2^32 - 2 points, a corner out of range, a property that is missing
-    or is a list, `order` with another `keep` than `first`, or more than 2^32 / 3 faces with
-    `keep_manifold`; all name the lowest element of the arrays given.
+    Raises ValueError for a tolerance that is negative or not finite; unless there is one label for
+    each point; for more than 2^32 - 2 points; for a corner out of range; for a property that is
+    missing or is a list; for `order` with another `keep` than `first`; for more than 2^32 / 3 faces
+    with `keep_manifold`. The message names the lowest invalid element.
 
-    Cost: Groups take up to 36 bytes a point (50 for chains in dense places, 110 by `tree`), 40 more
-    in an `order`; faces 24 each besides the result, 100 with `keep_manifold`; conditions 8 a point
-    and property.
+    Cost: Parallel, except rule `first` for points with several others within the tolerance, if
+    points come row by row or few are kept. Memory besides the result: up to 36 bytes a point (50
+    for dense chains, 110 with `tree`), 40 more with `order`; 24 bytes a face, 100 with
+    `keep_manifold`; 8 bytes a point for each property in a condition.
 
     >>> import treeform
     >>> thin = treeform.weld([[0, 0, 0], [0, 0, 0.5], [3, 0, 0]], 1.0)
@@ -203,8 +202,8 @@ def weld(mesh_or_points: Body, tolerance: float = 0.0, *, rule: str = "first",
 
 
 def count_nearly_equal(points: ArrayLike, distance: float, *, progress: Progress = None) -> int:
-    """How many points would not be there any more if points within `distance` of each other were
-    joined, beyond those that are equal to another.
+    """By how much the number of points would shrink if points within `distance` of each other were
+    joined, compared with joining equal points only.
 
     >>> import treeform
     >>> treeform.count_nearly_equal([[0, 0, 0], [0, 0, 0], [0, 0, 0.5]], 1.0)

@@ -22,8 +22,8 @@ void add_shared_options(command_line& line, assembly_settings& s) {
 
 void add_clash_options(command_line& line, assembly_settings& s, common_options& o) {
     add_shared_options(line, s);
-    line.flag(s.no_depth, {"--no-depth", "", "find no depths, which take longest"});
-    line.group("What to give back");
+    line.flag(s.no_depth, {"--no-depth", "", "skip depths, which take longest"});
+    line.group("Output");
     line.output(o.output, {"-o, --output", "FILE",
                            "all parts; PLY, GLB: faces that penetrate others are\n"
                            "red, touching yellow"});
@@ -32,12 +32,12 @@ void add_clash_options(command_line& line, assembly_settings& s, common_options&
 void add_check_options(command_line& line, assembly_settings& s) {
     add_shared_options(line, s);
     line.option(s.poses, {"--poses", "FILE", "the poses; see below"});
-    line.flag(s.first_only, {"--first", "", "name the first clash of a pose only"});
+    line.flag(s.first_only, {"--first", "", "only name the first clash of a pose"});
     line.repeatable_option(s.package_folders,
                            {"--package-dir", "DIR",
-                            "where package://... of a URDF file is (repeatable);\n"
-                            "else the file's folder and those above it"});
-    line.group("What to give back");
+                            "folder for package://... in a URDF file (repeatable);\n"
+                            "default: the file's folder and those above it"});
+    line.group("Output");
     line.output(s.results, {"--results", "FILE",
                             "a line of JSON for each pose: its clashes;\n\"-\" = stdout"});
 }

@@ -109,7 +109,7 @@ void warn_of_inside_out(job& work, const tf::prepared_mesh& body, const std::str
             (components == 1 ? "is inside out"
                              : grouped(count) + " of " + grouped(components) + " components " +
                                    (count == 1 ? "is" : "are") + " inside out") +
-            ": its faces look inward; taken for the solid that they bound");
+            ": its faces point inward; treated as the solid that they bound");
 }
 
 void add_deviation_options(command_line& line, deviation_settings& settings) {
@@ -126,7 +126,8 @@ void add_deviation_options(command_line& line, deviation_settings& settings) {
                         refuse("--tolerance-band " + std::string(text) + ": LO is more than HI");
                     settings.band = {v[0], v[1]};
                 });
-    line.flag(settings.no_depth, {"--no-depth", "", "measure: find no depth, which takes longest"});
+    line.flag(settings.no_depth,
+              {"--no-depth", "", "measure: skip the depth, which takes longest"});
 }
 
 exit_status enter_measured(job& work, const deviation_settings& settings,

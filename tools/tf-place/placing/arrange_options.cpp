@@ -39,32 +39,33 @@ unsigned parse_at_most(std::string_view option, std::string_view text, std::uint
 void add_arrange_options(command_line& line, arrange_settings& s) {
     tf::pack_options& o = s.pack;
     line.option({"--size", "X,Y[,Z]",
-                 "arrange: bed; with Z a box, which is filled to its\n"
-                 "height: parts also go above and into one another"},
+                 "arrange: the bed; with Z a box, filled to its height:\n"
+                 "parts also go above and into one another"},
                 [&o](std::string_view text) { o.size = parse_size3(text); });
-    line.flag(s.flat, {"--flat", "", "arrange: Z is a limit; all parts stand on the bed"});
-    line.option({"--spacing", "DIST", "arrange: between parts", "2"}, [&o](std::string_view text) {
-        const distance spacing = parse_distance("--spacing", text);
-        if (spacing.relative) refuse("--spacing: expected a length");
-        o.spacing = spacing.value;
-    });
+    line.flag(s.flat, {"--flat", "", "arrange: all parts stand on the bed; Z is a limit"});
+    line.option({"--spacing", "DIST", "arrange: least distance between parts", "2"},
+                [&o](std::string_view text) {
+                    const distance spacing = parse_distance("--spacing", text);
+                    if (spacing.relative) refuse("--spacing: expected a length");
+                    o.spacing = spacing.value;
+                });
     line.option(o.turns, {"--rotate", "SET", "arrange: none | 90 | 45 | any", "90"}, turns);
     line.repeatable_option(s.counts,
                            {"--count", "FILE:N", "arrange: N copies of this MOVING (repeatable)"});
     line.option(
         {"--plates", "N",
-         "arrange: up to N plates, beside each other along x,\n"
-         "a fifth of their length apart",
+         "arrange: up to N plates, side by side along x, a\n"
+         "fifth of their length apart",
          "1"},
         [&o](std::string_view text) { o.plates = parse_at_most("--plates", text, 10'000); });
     line.option(
         {"--tries", "N",
-         "arrange: orders and turns to try at most, until all\n"
-         "have a place (and few plates are used)",
+         "arrange: most orders and rotations to try, until all\n"
+         "parts are placed (and few plates are used)",
          "32"},
         [&o](std::string_view text) { o.tries = parse_at_most("--tries", text, 1'000'000); });
     line.option({"--time", "SEC",
-                 "arrange: begin no more tries after SEC seconds; the\n"
+                 "arrange: start no more tries after SEC seconds; the\n"
                  "result may then depend on the speed of the machine"},
                 [&o](std::string_view text) { o.seconds = parse_seconds("--time", text); });
     line.option(o.seed, {"--seed", "N", "arrange: same N, same result", "0"});
@@ -93,7 +94,7 @@ std::vector<std::uint64_t> counts_of(const arrange_settings& settings,
             counts[i] = count;
             known = true;
         }
-        if (!known) refuse("--count " + text + ": " + file + " is none of MOVING");
+        if (!known) refuse("--count " + text + ": " + file + " is not one of MOVING");
     }
     return counts;
 }

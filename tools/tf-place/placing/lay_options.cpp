@@ -23,22 +23,22 @@ void add_lay_options(command_line& line, lay_settings& s) {
                     s.options.choose = tf::lay_choice::nearest_normal;
                     s.options.toward = parse_direction("--face-normal", text);
                 });
-    line.option({"--face-point", "X,Y,Z", "lay: on the side that holds this point"},
+    line.option({"--face-point", "X,Y,Z", "lay: on the side that contains this point"},
                 [&s](std::string_view text) {
                     s.options.choose = tf::lay_choice::holding_point;
                     s.options.toward = parse_point("--face-point", text);
                 });
     line.flag(s.stable, {"--stable", "",
-                         "lay: on the side that takes the largest tilt to tip\n"
-                         "over; an open mesh weighs by its surface"});
+                         "lay: on the side with the largest tip angle; the mass\n"
+                         "of an open mesh is its surface"});
     line.option(s.flatness, {"-t, --tolerance", "DIST",
-                             "lay: what is this near to the plane of a side is on\n"
-                             "it, and flat afterwards; 0 = exactly in one plane",
+                             "lay: points this near to the plane of a side belong to\n"
+                             "it, and are made flat; 0 = exactly coplanar only",
                              "0.0001%"});
-    line.flag(s.options.keep_spin, {"--keep-spin", "", "lay: keep the turn about the vertical"});
+    line.flag(s.options.keep_spin, {"--keep-spin", "", "lay: do not rotate about the vertical"});
     line.option({"--overhang-angle", "DEG",
-                 "lay: the report's overhang is what looks down by\n"
-                 "more than this from the vertical",
+                 "lay: the report's overhang has faces that look down,\n"
+                 "by more than this angle from the vertical",
                  "45"},
                 [&s](std::string_view text) {
                     const double angle = parse_number("--overhang-angle", text);

@@ -94,12 +94,12 @@ json feature_entry(const tf::mesh_feature& f) {
 
 void add_turn_options(command_line& line, turn_settings& s) {
     line.option(
-        {"--axis", "X,Y,Z", "turn: about this direction, to the right", "0,0,1"},
+        {"--axis", "X,Y,Z", "turn: direction of the axis; right-handed turn", "0,0,1"},
         [&s](std::string_view text) { s.axis.direction = parse_direction("--axis", text); });
     line.option({"--origin", "X,Y,Z", "turn: a point of the axis", "0,0,0"},
                 [&s](std::string_view text) { s.axis.origin = parse_point("--origin", text); });
     line.option(
-        {"--max-angle", "DEG", "turn: give up beyond this angle (exit 1)", "360"},
+        {"--max-angle", "DEG", "turn: largest angle (exit 1 if it is not enough)", "360"},
         [&s](std::string_view text) {
             s.max_angle = parse_number("--max-angle", text);
             if (!(s.max_angle > 0.0 && s.max_angle <= 360.0))
@@ -114,8 +114,8 @@ std::span<const char* const> turn_option_names() {
 
 void add_feature_options(command_line& line, feature_settings& s) {
     line.option({"--feature", "KIND",
-                 "mate: by a plane or an axis, then slide along it until\n"
-                 "contact: plane | axis, the largest of each mesh"},
+                 "mate: planes or axes, the largest of each mesh, then\n"
+                 "slide along them until contact: plane | axis"},
                 [&s](std::string_view text) {
                     s.kind = static_cast<tf::feature_kind>(parse_choice("--feature", text, kinds));
                 });
@@ -124,7 +124,8 @@ void add_feature_options(command_line& line, feature_settings& s) {
                 [&s](std::string_view text) { s.moving = parse_pick("--pick", text); });
     line.option({"--pick-fixed", "FACE|X,Y,Z", "mate: that of --fixed"},
                 [&s](std::string_view text) { s.fixed = parse_pick("--pick-fixed", text); });
-    line.flag(s.flip, {"--flip", "", "mate: planes look the same way; axes are turned\naround"});
+    line.flag(s.flip,
+              {"--flip", "", "mate: normals of planes point the same way; axes are\nreversed"});
 }
 
 std::span<const char* const> feature_option_names() {
@@ -142,7 +143,7 @@ std::optional<mating> mate_by_features(const feature_settings& s, const tf::body
     if (!of_moving || !of_fixed) {
         const bool picked =
             of_moving ? s.fixed.face || s.fixed.point : s.moving.face || s.moving.point;
-        reason = std::string(of_moving ? "what is fixed has no " : "has no ") + kind +
+        reason = std::string(of_moving ? "the fixed mesh has no " : "has no ") + kind +
                  (picked ? " there" : "");
         return std::nullopt;
     }

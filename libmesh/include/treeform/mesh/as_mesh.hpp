@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Makes meshes of files, ready for every operation: drops unusable faces, joins equal points,
-/// joins several files.
+/// Converts files to meshes for all operations: drops unusable faces, joins equal points, joins
+/// several files.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
@@ -19,9 +19,9 @@ namespace treeform {
 /// A mesh without NaN or infinite coordinates, and the file's number of each face.
 struct usable_mesh {
     treeform::mesh mesh{};
-    /// [F] the file's triangle that each face is; empty: numbers are the same.
+    /// [F] the triangle in the file of each face; empty: the same numbers.
     std::vector<std::uint32_t> triangle_of_face{};
-    /// [triangles] the file's face that each triangle is part of; empty: numbers are the same.
+    /// [triangles] the face in the file of each triangle; empty: the same numbers.
     std::vector<std::uint32_t> stored_face{};
     std::uint64_t dropped = 0;  ///< triangles with a coordinate that is not finite
     /// From `usable_part`: [F] the connected component of the whole mesh that each face is in.
@@ -42,11 +42,11 @@ struct usable_mesh {
     operator mesh_view() const { return mesh; }  // NOLINT: meant to be implicit
 };
 
-/// The mesh of `file`. Triangles with a NaN or infinite coordinate are left out. Corners with equal
-/// coordinates become one vertex. Vertices keep the numbers of the file; of equal ones, faces use
-/// the lowest. Coordinates that are not finite become 0; no face uses them.
+/// The mesh of `file`. Triangles with a NaN or infinite coordinate are dropped. Corners with equal
+/// coordinates become one vertex. Vertices keep the numbers of the file; of equal vertices, faces
+/// use the lowest. Coordinates that are not finite become 0; no face uses them.
 ///
-/// \throws std::invalid_argument naming a face with a corner that is no vertex
+/// \throws std::invalid_argument naming a face with a corner out of range
 /// \cost   O(V + F)
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API usable_mesh as_mesh(mesh_file file);
@@ -58,15 +58,15 @@ struct usable_mesh {
 struct part_options {
     /// Whether points with equal coordinates are one vertex.
     vertex_identity vertices = vertex_identity::by_coordinates;
-    /// If greater than 0, equal points are joined first, then points within this distance, as by
-    /// `weld`.
+    /// If greater than 0, points within this distance are joined, as by `weld`, after equal points.
     double tolerance = 0.0;
     std::optional<box3> box{};  ///< only faces that meet it
-    bool details = false;       ///< find `component` and `distinct`, too
+    bool details = false;       ///< also compute `component` and `distinct`
 };
 
-/// The part of a file's mesh to work on: its finite faces; with a box, only those that meet it. The
-/// result knows the number of each face in the file. Points that only faces left out use go, too.
+/// The usable part of a file's mesh: its finite faces; with a box, only those that meet the box.
+/// The result has the number of each face in the file. Points that only dropped faces use are
+/// dropped, too.
 ///
 /// `stored_face` is the file's.
 ///
@@ -77,17 +77,17 @@ struct part_options {
                                                    std::vector<std::uint32_t> stored_face,
                                                    const part_options& options = {});
 
-/// Leaves out the faces of `mesh` with a corner that is not finite or no vertex. [F] the number
-/// before of each face that stays; empty where all do.
+/// Drops the faces of `mesh` with a corner that is not finite or out of range. Returns [F] the
+/// previous number of each kept face; empty if all are kept.
 TREEFORM_API std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh);
 
 /// One file with the points and faces of all `files`, one after the other, in the format of the
 /// first.
 ///
-/// Columns of "vertex" and "face" are matched by name. Where a file lacks a column, its rows get
-/// NaN, 0 or empty lists. Types are widened until they hold every value. Corners keep their texture
-/// coordinates, normals and texture files. Other elements are left out (warning "left-out").
-/// `names` has one name for each file, for the warnings.
+/// Columns of "vertex" and "face" are matched by name. If a file lacks a column, its rows get NaN,
+/// 0 or empty lists. Types are widened until they hold every value. Corners keep their texture
+/// coordinates, normals and texture files. Other elements are dropped (warning "left-out"). `names`
+/// has one name for each file, for the warnings.
 ///
 /// Columns of points that formats call by different names get that of the first file's format
 /// (`normal_x` of PCD, `nx` of PLY). The header of LAS is that of the first file. Where scales or
@@ -115,7 +115,7 @@ TREEFORM_API std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh);
                                               std::span<const std::string> names,
                                               std::span<const std::string> labels);
 
-/// The faces of `meshes` one after the other. A point that is not finite becomes 0.
+/// The faces of all `meshes`, one mesh after the other. A point that is not finite becomes 0.
 ///
 /// \pre    no face has a corner that is not finite
 /// \throws std::invalid_argument as `join_equal_points`

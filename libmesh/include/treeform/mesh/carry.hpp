@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Carries attributes of input meshes over to the mesh that an operation has made of them; marks
-/// faces that meet in their file.
+/// Transfers attributes of input files to results of operations; marks faces that meet, in their
+/// file.
 
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/certificate.hpp>
@@ -25,22 +25,23 @@ namespace treeform {
 /// `file->mesh`.
 struct carry_source {
     const mesh_file* file = nullptr;
-    /// [F] the file's triangle that each face of `file->mesh` is; empty: numbers are the same.
+    /// [F] the triangle in the file of each face of `file->mesh`; empty: the same numbers.
     std::span<const std::uint32_t> triangle_of_face{};
 
-    /// The file's triangle that face `f` is.
+    /// The triangle in the file of face `f`.
     [[nodiscard]] std::uint32_t triangle(std::uint32_t f) const {
         return triangle_of_face.empty() ? f : triangle_of_face[f];
     }
-    /// The number that face `f` has in the file.
+    /// The number of face `f` in the file.
     [[nodiscard]] std::uint32_t stored_face(std::uint32_t f) const {
         const std::uint32_t t = triangle(f);
         return file->stored_face.empty() ? t : file->stored_face[t];
     }
-    /// Gives the corners of caps (`cut_piece::cap`) texture coordinates, where this, the mesh that
-    /// was cut, has any: coordinates in their planes, by the axes of `oriented_plane::frame`
-    /// across the mean normal of a cap, turned so that its largest part is positive: the same on
-    /// both sides of a cut. One unit of length is as many of texture as in this one, on average.
+    /// Gives corners of caps (`cut_piece::cap`) planar texture coordinates, if this source, the
+    /// mesh that was cut, has texture coordinates. The axes are those of `oriented_plane::frame`
+    /// for the mean normal of a cap, signed so that its largest component is positive: so both
+    /// sides of a cut have the same. The scale is the average of this source, in texture units per
+    /// length.
     ///
     /// \pre `cap` has a number for each face of `piece`, or is empty
     TREEFORM_API void texture_caps(mesh_file& piece, std::span<const std::uint32_t> cap) const;
@@ -55,16 +56,16 @@ class carry_sources {
 
     [[nodiscard]] const std::vector<carry_source>& all() const { return all_; }
 
-    /// Gives `file`, whose mesh was made of the inputs, their attributes: columns of vertices and
-    /// faces with one value a row, texture coordinates and normals of corners, materials and the
-    /// files of materials and textures; of a single input, also the names of its parts.
+    /// Gives `file`, whose mesh is the result, the attributes of the inputs: columns of vertices
+    /// and faces with one value a row, texture coordinates and normals of corners, materials and
+    /// the files of materials and textures; from a single input, also the names of its parts.
     ///
-    /// A face gets the values of its source, the face that it lies in; a vertex those of its
-    /// source. For a new vertex on a cut, values are interpolated between the corners of the face
-    /// that it lies in (`face_of_cut_vertex`, or else the lowest source of its faces), and so are
-    /// values of corners. Where an input lacks a column, or a face has no source, the value is 0 or
-    /// NaN. Normals are flipped where the surface is, and interpolated ones are scaled to length 1.
-    /// Lists and other elements are not carried.
+    /// A face gets the values of its source face, a vertex those of its source vertex. For a new
+    /// vertex on a cut, values are interpolated between the corners of the face that contains it
+    /// (`face_of_cut_vertex`, or else the lowest source of its faces); likewise values of corners.
+    /// The value is 0 or NaN if an input lacks the column, or a face has no source. Normals are
+    /// flipped with the surface, and interpolated normals scaled to length 1. Lists and other
+    /// elements are not transferred.
     ///
     /// \pre  sources are in range
     /// \cost O(V + F) for each column
@@ -75,39 +76,39 @@ class carry_sources {
     /// The same for what was made of a single input, with sources as in `repair_result`:
     /// `operand_element::none` stands for no source.
     ///
-    /// With those of `simplify_result`, faces may reach beyond their sources. Values of corners are
-    /// those of `corner_source`, and at new vertices in between; a face whose corners had one
-    /// normal gets that of its plane.
+    /// With sources of `simplify_result`, faces may reach beyond their sources. Values of corners
+    /// are those of `corner_source`, and interpolated at new vertices; a face whose corners had
+    /// equal normals gets its own normal.
     TREEFORM_API void carry(mesh_file& file, std::span<const std::uint32_t> face_source,
                             std::span<const std::uint32_t> vertex_source,
                             std::span<const std::uint32_t> face_of_new_vertex = {},
                             std::span<const std::uint32_t> corner_source = {}) const;
 
-    /// [3 F] Groups for `simplify_options::corner_groups`, of a single input: of the corners at a
-    /// point, those are in one that are linked by faces of one material, with equal values in all
-    /// columns that are carried and, at both ends of the edge between them, equal texture
-    /// coordinates and normals. Two faces that have one normal each count as if it were the same.
-    /// Empty where all corners at each point would be in one group.
+    /// [3 F] Groups for `simplify_options::corner_groups`, of a single input. Two corners at a
+    /// point are in one group if they are linked by faces of one material, with equal values in all
+    /// transferred columns and, at both ends of each edge between, equal texture coordinates and
+    /// normals. Normals of two flat-shaded faces count as equal. Empty if all corners at each point
+    /// would be in one group.
     /// \cost O(V log V + F log F), and O(F) for each column
     [[nodiscard]] TREEFORM_API std::vector<std::uint32_t> corner_groups() const;
 
     /// [F of all inputs, in order] A group for each face, for `boolean_options::face_groups`. With
-    /// `by_values`, a group has one material and equal values in all columns that are carried; a
-    /// face whose corners differ in texture coordinates or normals is a group of its own. With
-    /// `by_input`, a group has faces of one input only. Empty when all would be in one group.
+    /// `by_values`, a group has one material and equal values in all transferred columns; a face
+    /// whose corners differ in texture coordinates or normals is a group by itself. With
+    /// `by_input`, a group has faces of one input only. Empty if all faces would be in one group.
     /// \cost O(V + F) for each column
     [[nodiscard]] TREEFORM_API std::vector<std::uint32_t> face_groups(bool by_values,
                                                                       bool by_input) const;
 
-    /// Whether vertices of an input have values that are carried.
+    /// Whether vertices of an input have values that are transferred.
     [[nodiscard]] TREEFORM_API bool has_vertex_values() const;
 
-    /// Whether merging faces, as `boolean_options::keep_cuts` prevents, may mix values that are
-    /// carried: vertices have some, or not all faces have the same.
+    /// Whether merging faces (see `boolean_options::keep_cuts`) may mix transferred values:
+    /// vertices have values, or faces have different ones.
     /// \cost as `face_groups`
     [[nodiscard]] TREEFORM_API bool merging_mixes_values() const;
 
-    /// Whether an input has values that are not carried.
+    /// Whether an input has values that are not transferred.
     [[nodiscard]] TREEFORM_API bool has_values_left_out() const;
 
     /// Names of materials, ascending, that occur in inputs with different material files. An OBJ
@@ -118,20 +119,20 @@ class carry_sources {
     std::vector<carry_source> all_;
 };
 
-/// Gives faces the uint32 columns NAME_mesh and NAME_face: the operand that each comes from, and
-/// its number there. A comment for each of `inputs` says which one a number stands for. Columns and
-/// comments of these names from an earlier result go; without `inputs`, none take their place.
+/// Gives faces the uint32 columns NAME_mesh and NAME_face: the operand and the face number of each
+/// source. A comment names the input for each operand number. Replaces columns and comments of an
+/// earlier result; without `inputs`, only removes them.
 ///
 /// \pre `face_source` has an element for each face, unless `inputs` is empty
 TREEFORM_API void set_source_columns(mesh_file& file, const std::string& name,
                                      std::span<const operand_element> face_source,
                                      std::span<const std::string> inputs);
 
-/// A part of a scene as a file of its own.
+/// A part of a scene as a separate file.
 struct file_part {
     std::string name{};                        ///< "object", "object/group", "group" or empty
     mesh_file file{};                          ///< with the attributes of its faces and points
-    std::vector<std::uint32_t> stored_face{};  ///< [F] the number of each face in the whole file
+    std::vector<std::uint32_t> stored_face{};  ///< [F] the number of each face in the given file
 };
 
 /// The parts of a file by its objects, groups or nodes, each with the points and faces that are its
@@ -142,33 +143,33 @@ struct file_part {
 /// \cost   O(V log V + F log F), and O(V + F) for each part and column
 [[nodiscard]] TREEFORM_API std::vector<file_part> split_parts(const carry_source& whole);
 
-/// What of a file is mended at a time.
+/// What is repaired as one mesh.
 enum class repair_scope : std::uint8_t {
-    /// Each part of a scene is a solid of its own. Parts may overlap before and after.
+    /// Each part of a scene becomes a solid. Parts may overlap before and after.
     each_part,
     whole_file  ///< overlapping parts become one solid
 };
 
-/// A part of a file, mended.
+/// A repaired part of a file.
 struct repaired_part {
     std::string name{};            ///< "object", "object/group", "group" or empty
     std::uint32_t first_face = 0;  ///< in the mended mesh; its faces follow one another
     std::uint32_t faces = 0;
-    treeform::certificate certificate{};  ///< with numbers of the mended mesh and the input file
+    treeform::certificate certificate{};  ///< with numbers of the repaired mesh and the input file
     repair_statistics statistics{};
 };
 
-/// A file whose mesh was mended.
+/// A repaired file.
 struct repaired_file {
     mesh_file file{};  ///< in the format of the input, with its attributes (`carry_sources`)
-    /// [F'] the number in the input file of the face that each lies in, or `repair_result::none`.
+    /// [F'] the number in the input file of the source of each face, or `repair_result::none`.
     std::vector<std::uint32_t> face_source{};
     std::vector<std::uint8_t> is_left{};  ///< [F] of the input's mesh, as in `repair_result`
-    /// Of the first part that is not what was asked for; where all are, of all together.
-    /// Numbers in `open` are those of the input file.
+    /// That of the first part that failed; if none failed, of all together. Numbers in `open` are
+    /// those of the input file.
     treeform::certificate certificate{};
     repair_statistics statistics{};      ///< of all parts
-    std::vector<repaired_part> parts{};  ///< empty where all was mended as one
+    std::vector<repaired_part> parts{};  ///< empty if all was repaired as one mesh
 };
 
 /// `repair` of a file's mesh, or of each of its parts.
@@ -185,8 +186,8 @@ struct repaired_file {
                                                      const repair_options& options = {},
                                                      repair_scope scope = repair_scope::each_part);
 
-/// What keeps the parts from being solids, of all together; faces that the input has left out are
-/// not counted. Nothing is changed.
+/// The defects of all parts together; faces that the input left out are not counted. Changes
+/// nothing.
 ///
 /// \throws std::invalid_argument as `self_intersections`
 /// \cost   as `find_solid_defects` of a mesh
@@ -195,14 +196,14 @@ struct repaired_file {
 find_solid_defects(const carry_source& input, repair_scope scope = repair_scope::each_part,
                    const progress_callback& progress = {});
 
-/// Gives all `files` one common list of texture files, and their faces int32 numbers in it
-/// ("texnumber"). The list is that of the first file, then the names that further ones add. `names`
-/// has one name for each file, for the warnings.
+/// Gives all `files` one common list of texture files, and their faces int32 indices into it
+/// ("texnumber"). The list is that of the first file, followed by further names of the other files.
+/// `names` has one name for each file, for the warnings.
 ///
-/// Faces of a file without numbers get that of its first texture file, or -1 when it names none.
-/// Faces without a texture file get -1; numbers other than -1 that name none are warned of. No
-/// numbers are added when there is only one name in all, no file has numbers, and none has texture
-/// coordinates without a name. A single file stays as it is, and so do files without names.
+/// Faces of a file without indices get that of its first texture file, or -1 if it has none. Faces
+/// without a texture file get -1; a warning names other indices out of range. No indices are added
+/// if there is only one name in all files, no file has indices, and no file has texture coordinates
+/// without a name. A single file and files without names are unchanged.
 [[nodiscard]] TREEFORM_API std::vector<io_warning> unite_textures(
     std::span<mesh_file* const> files, std::span<const std::string> names);
 
@@ -210,7 +211,7 @@ find_solid_defects(const carry_source& input, repair_scope scope = repair_scope:
 inline constexpr std::array<const char*, 1 + pair_kind_count> mark_colors{
     "#b4bac2", "#e02020", "#f08c00", "#ecd000", "#d81fbf", "#7432d6", "#00a0c0", "#6b4a2b"};
 
-/// Faces that meet, marked by the kind of pair and by region.
+/// Marks of faces that meet, by kind of pair and by region.
 struct face_marks {
     std::vector<std::uint8_t> kind{};    ///< [F] 0: in no pair; else 1 + the gravest `pair_kind`
     std::vector<std::int32_t> region{};  ///< [F] -1: in no pair
@@ -223,12 +224,12 @@ struct face_marks {
     TREEFORM_API face_marks(std::size_t face_count, std::span<const face_pair> pairs,
                             const intersection_regions& regions);
 
-    /// Gives `file` these marks of `looked_at`, its faces that were looked at: colors of faces and
-    /// of vertices (at a vertex, of its first face that is in a pair), and the properties tf_class
-    /// and tf_region of faces. Polygons become triangles; a file without numbers of vertices gets
-    /// some, and its other properties are left out.
+    /// Gives `file` these marks of `looked_at`, the searched faces of the file: colors of faces and
+    /// vertices (a vertex gets the color of its first face in a pair), and the properties tf_class
+    /// and tf_region of faces. Polygons become triangles. A file that does not number its vertices
+    /// is indexed, and its other properties are dropped.
     ///
-    /// \pre  `looked_at` is of this file, and the marks are of its faces
+    /// \pre    `looked_at` is a part of this file, and the marks are those of its faces
     /// \cost O(V + F)
     TREEFORM_API void color(mesh_file& file, const usable_mesh& looked_at) const;
 

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Which parts of an assembly penetrate each other, touch, or are too close; where, and how deep.
-/// The same meshes in many poses.
+/// Clashes: parts of an assembly that penetrate, touch, or are too close; where, and how deep. Also
+/// for many poses.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/intersections.hpp>
@@ -29,9 +29,10 @@ using part_pair = std::array<std::uint32_t, 2>;
 
 /// How to look for clashes. `volumes` to `limit` are of `clash` alone.
 struct clash_options {
-    double clearance = 0.0;                ///< parts that are nearer than this are too close
-    bool volumes = true;                   ///< of what two closed parts have in common
-    bool depths = true;                    ///< of penetrating parts
+    double clearance = 0.0;  ///< parts that are nearer than this are too close
+    /// Compute the volume of the intersection of closed parts.
+    bool volumes = true;
+    bool depths = true;                    ///< compute depths of penetrating parts
     std::uint64_t effort = 0;              ///< for each depth, as in `depth_options`
     std::size_t limit = 1000;              ///< faces listed for each region and part
     bool first_only = false;               ///< `check_poses`: only the first clash of each pose
@@ -40,10 +41,10 @@ struct clash_options {
     progress_callback progress{};
 };
 
-/// A place where two parts meet: pairs of faces that hang together, by corners of faces of either
-/// part that meet the same face of the other.
+/// A connected contact of two parts: pairs of faces, linked by common corners of faces of one part
+/// that meet the same face of the other.
 struct contact_region {
-    box3 box{};  ///< holds all points that the surfaces have in common here
+    box3 box{};  ///< contains all common points of the surfaces in this region
     std::uint64_t face_pairs = 0;
     std::vector<std::uint32_t> faces_a{};  ///< ascending; the first `limit`
     std::vector<std::uint32_t> faces_b{};
@@ -51,58 +52,59 @@ struct contact_region {
 
 /// Two parts that are not clear of each other.
 struct part_clash {
-    std::uint32_t a = 0;                             ///< the lower number
-    std::uint32_t b = 0;                             ///< number of the second part
-    mesh_relation how = mesh_relation::touching;     ///< or penetrating, closer_than_clearance
-    bool a_inside_b = false;                         ///< as in `mesh_relation_result`
-    bool b_inside_a = false;                         ///< the same with `a` and `b` swapped
-    double distance = 0.0;                           ///< of the surfaces; 0 where they meet
-    std::optional<std::array<point3, 2>> nearest{};  ///< of those that are too close: on a, on b
-    std::uint64_t face_pairs = 0;                    ///< that meet
-    std::vector<contact_region> regions{};           ///< by their lowest faces
-    /// Of penetrating parts that are closed: the volume of what is inside both, by the exact
-    /// arrangement, as `operand_volumes::both`.
+    std::uint32_t a = 0;                          ///< the lower number
+    std::uint32_t b = 0;                          ///< number of the second part
+    mesh_relation how = mesh_relation::touching;  ///< or penetrating, closer_than_clearance
+    bool a_inside_b = false;                      ///< as in `mesh_relation_result`
+    bool b_inside_a = false;                      ///< the same with `a` and `b` swapped
+    double distance = 0.0;                        ///< distance of the surfaces; 0 if they meet
+    /// Nearest points on a and on b, of parts that are too close.
+    std::optional<std::array<point3, 2>> nearest{};
+    std::uint64_t face_pairs = 0;           ///< that meet
+    std::vector<contact_region> regions{};  ///< by their lowest faces
+    /// For closed parts that penetrate: the volume of their intersection, as
+    /// `operand_volumes::both`.
     std::optional<double> volume{};
-    /// Of penetrating parts: `penetration_depth`, the length of `move`, which takes `a` out of `b`.
+    /// For penetrating parts: `penetration_depth`, the length of `move`.
     std::optional<double> depth{};
-    point3 move{};                 ///< a short translation that takes `a` out of `b`
+    point3 move{};                 ///< a short translation that separates `a` from `b`
     search_effort depth_effort{};  ///< of `depth`, as in `penetration_depth_result`
 };
 
-/// All that is not clear.
+/// All pairs that are not clear of each other.
 struct clash_result {
     std::vector<part_clash> pairs{};        ///< that are not clear, ascending
-    std::array<std::uint64_t, 5> counts{};  ///< of pairs that were looked at, by `mesh_relation`
-    std::uint64_t boxes_apart = 0;          ///< pairs that their boxes keep apart: not looked at
-    std::uint64_t ignored = 0;              ///< pairs left out whose boxes are not apart
+    std::array<std::uint64_t, 5> counts{};  ///< number of tested pairs, by `mesh_relation`
+    std::uint64_t boxes_apart = 0;          ///< pairs excluded by their boxes
+    std::uint64_t ignored = 0;              ///< ignored pairs that boxes do not exclude
     std::uint64_t parts_indexed = 0;
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing else is set
 
-    /// Pairs that penetrate or are closer than the clearance; with a clearance, those that touch,
-    /// too.
+    /// Number of pairs that penetrate or are closer than the clearance; with a clearance, also
+    /// pairs that touch.
     std::uint64_t clashes = 0;
 };
 
-/// How all parts of an assembly lie to each other, two by two.
+/// The relations of all pairs of parts of an assembly.
 ///
-/// Exact, as `relation`: parts penetrate, touch, or are separate. Boxes decide nothing but which
-/// pairs need not be looked at: rings in each other, or an L around a corner, whose boxes overlap,
-/// are clear if they do not meet. Parts without faces are clear of all. A distance is that of
-/// `distance`, and only looked for with a clearance. A part is indexed when its box comes near
-/// another's.
+/// Exact, like `relation`: parts penetrate, touch, or are separate. Boxes only exclude pairs:
+/// linked rings are clear if they do not meet, although their boxes overlap. Parts without faces
+/// are clear of all. Distances are those of `distance`, and only computed with a clearance. A part
+/// is only indexed if its box is near that of another.
 ///
 /// \throws std::invalid_argument naming the part and its lowest face with a corner out of range or
-///         not finite, for a clearance that is negative or not finite, an ignored pair with a
+///         not finite; for a clearance that is negative or not finite; for an ignored pair with a
 ///         number out of range
-/// \cost   O(N log N + P) for N parts, P pairs of them whose boxes are within the clearance; and
-///         for each of these `relation`, `distance` with a clearance, `mesh_intersections` where
-///         they meet, `intersection` and `penetration_depth` where they penetrate
+/// \cost   O(N log N + P) for N parts and the P pairs of parts whose boxes are within the
+///         clearance; for each of these pairs `relation`, `distance` with a clearance,
+///         `mesh_intersections` if they meet, `intersection` and `penetration_depth` if they
+///         penetrate
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API clash_result clash(const mesh_refs& parts,
                                               const clash_options& options = {});
 
-/// All pairs of different parts of which one's name matches the first pattern, and the other's the
-/// second; ascending, each once, the lower number first.
+/// All pairs of different parts such that the name of one part matches the first pattern, and that
+/// of the other the second; ascending, each once, with the lower number first.
 [[nodiscard]] TREEFORM_API std::vector<part_pair> pairs_named(std::span<const std::string> names,
                                                               std::string_view first,
                                                               std::string_view second);
@@ -126,33 +128,34 @@ struct pose_clash {
     std::uint32_t a = 0;  ///< the lower number
     std::uint32_t b = 0;
     mesh_relation how = mesh_relation::touching;  ///< or penetrating, closer_than_clearance
-    double distance = 0.0;  ///< of those that are closer than the clearance; else 0
+    double distance = 0.0;                        ///< of parts closer than the clearance; else 0
     friend bool operator==(const pose_clash&, const pose_clash&) = default;
 };
 
 struct pose_result {
-    /// [P] the parts that are not clear, ascending. With `first_only` at most one: the lowest pair
-    /// that penetrates, is too close or, with a clearance, touches; those that only touch otherwise
-    /// are left out.
+    /// [P] for each pose the pairs that are not clear, ascending. With `first_only` at most one:
+    /// the lowest pair that penetrates, is too close or, with a clearance, touches; without a
+    /// clearance, pairs that touch are omitted.
     std::vector<std::vector<pose_clash>> poses{};
     std::uint64_t clashing = 0;     ///< poses with a pair that penetrates or is too close
-    std::uint64_t boxes_apart = 0;  ///< pairs that their boxes keep apart, over all poses
+    std::uint64_t boxes_apart = 0;  ///< pairs excluded by their boxes, over all poses
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing else is set
 };
 
-/// What clashes in each of many poses. `poses` has a transform for each part, pose after pose:
+/// The clashes in each of many poses. `poses` has a transform for each part, pose after pose:
 /// `poses[p * parts.size() + i]` moves part i in pose p.
 ///
-/// Exact, as `clash` and `relation`, for the corners that the transforms give, rounded to double
-/// (`transform::operator()`). No part is copied or indexed anew, except where two moved parts
-/// touch, or a corner of one is so near the surface of another that rounding might put it on the
-/// other side, or a transform is no motion: then these two are looked at as they are moved.
+/// Exact, like `clash` and `relation`, for the moved corners, rounded to double
+/// (`transform::operator()`). Parts are not copied or indexed again for a pose, with these
+/// exceptions, in which two parts are tested as moved copies: they touch, a corner of one is so
+/// near the surface of the other that rounding might change its side, or a transform is not a rigid
+/// motion.
 ///
 /// \throws std::invalid_argument naming the part and its lowest face with a corner out of range or
-///         not finite, the pose with a transform that is not finite, for a number of transforms
-///         that is no multiple of that of parts, and as `clash`
-/// \cost   the indexes of the parts; then, for each pose, O(N^2) comparisons of boxes, and an
-///         `intersects` for pairs whose boxes overlap
+///         not finite, the pose with a transform that is not finite; for a number of transforms
+///         that is not a multiple of the number of parts; as `clash`
+/// \cost   the indexes of the parts; for each pose O(N^2) comparisons of boxes, and an `intersects`
+///         for each pair whose boxes overlap
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API pose_result check_poses(const mesh_refs& parts,
                                                    std::span<const transform<3>> poses,

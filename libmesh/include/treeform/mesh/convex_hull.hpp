@@ -16,12 +16,12 @@
 
 namespace treeform {
 
-/// A flat side of a convex hull: all of the hull that lies in one plane.
+/// A flat side of a convex hull: all coplanar faces of one plane.
 struct hull_side {
     /// The first of its faces, in `convex_hull_result::faces`; any three corners span its plane.
     std::uint32_t first_face = 0;
     std::uint32_t face_count = 0;
-    double area = 0.0;  ///< rounded; infinite where no double holds it
+    double area = 0.0;  ///< rounded; infinite on overflow
     point3 normal;      ///< outward, of length 1, rounded
     point3 center;      ///< of area, rounded
     friend bool operator==(const hull_side&, const hull_side&) = default;
@@ -29,12 +29,12 @@ struct hull_side {
 
 /// The hull as triangles, grouped by side.
 struct convex_hull_result {
-    /// 3 for points that span space, 2 in a plane, 1 on a line, 0 when all are equal, -1 for none.
+    /// The dimension that the points span: 3, 2 in a plane, 1 on a line, 0 if all are equal, -1 for
+    /// no points.
     int dimension = -1;
-    /// [F] triangles of the hull, outward, by point numbers; those of one side after those of the
-    /// side before it in `sides`. No two share more than an edge, and none is degenerate. Points in
-    /// a plane have two sides of the same triangles, one facing each way. Points on a line, or
-    /// equal ones, have none.
+    /// [F] triangles of the hull, outward, by point numbers, in the order of `sides`. No two share
+    /// more than an edge, and none is degenerate. Points in a plane have two sides of the same
+    /// triangles, one facing each way. Points on a line, or equal ones, have none.
     std::vector<face> faces{};
     std::vector<hull_side> sides{};
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is empty
@@ -45,7 +45,7 @@ struct convex_hull_result {
     }
 
     /// The corners of a side in order around it, counter-clockwise seen from outside, starting at
-    /// the lowest number. Corners at which the rim goes straight on are left out.
+    /// the lowest number. Corners on a straight part of the rim are omitted.
     ///
     /// \pre `side` is one of `sides`, and this is the hull of `points`
     [[nodiscard]] TREEFORM_API std::vector<std::uint32_t> corners_of(const hull_side& side,
@@ -61,28 +61,28 @@ struct convex_hull_result {
 /// a face, and faces belong to one side if and only if they are exactly coplanar. Of equal points,
 /// the lowest number is used. Corners of triangles may lie on an edge or inside a side of the hull.
 ///
-/// \throws std::invalid_argument naming the first point that is not finite, and for more points
-///         than 32 bits can number
+/// \throws std::invalid_argument naming the first point that is not finite; for more points than 32
+///         bits can number
 /// \cost   O(V log V) time for most inputs, O(V^2) for some; serial
 /// \same   on every machine
 /// \source Barber, Dobkin and Huhdanpaa, The Quickhull Algorithm for Convex Hulls, TOMS 22 (1996);
-///         a point sees a face when it is strictly above it, so that coplanar faces need no care
+///         a point sees a face if it is strictly above it, which covers coplanar faces
 [[nodiscard]] TREEFORM_API convex_hull_result convex_hull(points_view points,
                                                           const progress_callback& progress = {});
 
-/// A box turned in any way.
+/// A box in any orientation.
 struct oriented_box {
     point3 center{};  ///< of the box
-    /// Of length 1, right-handed, rounded: along the longest side, the next, the shortest.
+    /// Unit axes, right-handed, rounded: along the longest, middle and shortest side.
     std::array<point3, 3> axes{point3{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
-    point3 size{};  ///< along these
+    point3 size{};  ///< lengths along these axes
     friend bool operator==(const oriented_box&, const oriented_box&) = default;
 };
 
-/// The box of least volume around points, of those with a side in a side of their convex hull, and
-/// another along an edge of it, or along the axes of space. Of flat points, the least area.
-/// None without points. Of a hull of more than some thousand sides, those of the largest areas are
-/// looked at, as many as 2^26 corners of sides allow.
+/// A box of small volume around points: the smallest among boxes with one side in a side of the
+/// convex hull and another along an edge of that side, and the axis-aligned box. For coplanar
+/// points, of least area. None without points. For a hull of more than a few thousand sides, only
+/// the largest sides are tried, up to 2^26 corners of sides.
 ///
 /// Axes, center and size are rounded: a point may be outside by 2^-48 of the largest coordinate.
 ///

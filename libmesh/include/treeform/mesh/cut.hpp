@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Solids cut by planes, in halves or in many pieces, each closed by caps. Parts of a mesh as
-/// meshes of their own; meshes one after the other; meshes moved.
+/// Solids cut by planes into halves or pieces, closed by caps. Parts of a mesh, concatenated
+/// meshes, and transformed meshes.
 ///
 ///     tf::cut_result halves = tf::cut(solid, {{0, 0, 5}, {0, 0, 1}});
 
@@ -25,28 +25,29 @@ namespace treeform {
 struct cut_options {
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
-    /// As in `boolean_options`: how far what rounding has broken is joined.
+    /// As in `boolean_options`.
     double max_displacement = std::numeric_limits<double>::infinity();
-    /// Otherwise pieces end at the planes, and the mesh may end anywhere: it is cut as a surface.
+    /// Close pieces by caps. If false, the mesh is cut as a surface, which may be open, and pieces
+    /// are open at the planes.
     bool caps = true;
-    /// Of a mesh that meets itself, as in `boolean_options`: where merging would mix values
-    /// (`carry_sources::merging_mixes_values`), faces that were cut are to stay apart.
+    /// As in `boolean_options`, for a mesh that meets itself. Set it if merging would mix values
+    /// (`carry_sources::merging_mixes_values`).
     bool keep_cuts = false;
     progress_callback progress{};
 };
 
-/// What is between two planes.
+/// The part of the mesh between two neighboring planes.
 struct TREEFORM_API cut_piece {
     static constexpr std::uint32_t none = operand_element::none;
 
     treeform::mesh mesh;
     std::vector<std::uint32_t>
-        face_source;  ///< [F] face of the input that each lies in; none: a cap
-    std::vector<std::uint32_t> vertex_source;  ///< [V] vertex of the input that each is; none: new
+        face_source;  ///< [F] input face that contains each face; none: a cap
+    std::vector<std::uint32_t> vertex_source;  ///< [V] input vertex equal to each vertex; none: new
     std::vector<std::uint32_t>
-        cap;  ///< [F] of a cap, the number of its plane, from the lowest; else none
-    /// Status ok says what it says of `boolean_result`; without caps, edges are not looked at. A
-    /// piece without faces is ok, too: there is nothing between these planes.
+        cap;  ///< [F] for faces of a cap, the number of its plane, from the lowest; else none
+    /// Status ok means the same as in `boolean_result`; without caps, edges are not checked. A
+    /// piece without faces is ok: the mesh has no part between these planes.
     treeform::certificate certificate{};
 
     /// The mesh.
@@ -55,33 +56,34 @@ struct TREEFORM_API cut_piece {
     [[nodiscard]] treeform::mesh value() &&;
 };
 
-/// Pieces, and what was checked.
+/// The pieces, and their certificate.
 struct cut_result {
-    /// Of K planes, in their order along the normal, K + 1 pieces from the lowest up. None where
-    /// the certificate says why.
+    /// For K planes, K + 1 pieces in order along the normal, from the lowest up. Empty if the
+    /// certificate tells why.
     std::vector<cut_piece> pieces{};
-    /// That of the first piece that is not ok, or of the mesh where it bounds no solid.
+    /// That of the first piece that is not ok, or of the mesh if it bounds no solid.
     treeform::certificate certificate{};
-    /// Faces of the mesh met: what was cut is the solid that it winds around, where parts that
-    /// overlap are one; without caps, the faces cut along each other. Not of `cut_along`.
+    /// True if faces of the mesh meet. Then the solid that the mesh winds around was cut, with
+    /// overlapping parts merged; without caps, the faces cut along each other. Not used by
+    /// `cut_along`.
     bool resolved = false;
 };
 
-/// The mesh below, between and above planes at `heights` above `plane`
+/// The pieces of a mesh below, between and above planes at `heights` above `plane`
 /// (`oriented_plane::parallel`).
 ///
-/// Which side of a plane a vertex is on is decided exactly, on the coordinates as given. A face
-/// that lies in a plane belongs to the side that its solid is on. What the solid has in the plane
-/// is then closed by a cap, the same for both sides. Only points on cuts are rounded, once; each
-/// piece is checked as results of `boolean` are. Caps between axes stay flat and alike when
-/// rounded; others may bend by a step of the precision.
+/// The side of each vertex is decided exactly, on the coordinates as given. A face in a plane
+/// belongs to the side of its solid. The section of the solid in a plane becomes a cap, the same on
+/// both sides. Only points on cuts are rounded, once; each piece is checked like a result of
+/// `boolean`. Caps across an axis stay flat and equal when rounded; others may bend by a step of
+/// the precision.
 ///
-/// `carry_sources` gives pieces the attributes of a file, by their sources, and
-/// `carry_source::texture_caps` gives caps texture coordinates in their planes.
+/// `carry_sources` transfers the attributes of a file to pieces; `carry_source::texture_caps` gives
+/// caps planar texture coordinates.
 ///
-/// The mesh has to bound a solid, as an operand of `boolean` has to. Where it meets itself, or has
-/// parts that are inside out or hidden in others, it is first made the solid that it winds around,
-/// rounded: then all that is said here is of that one. Equal planes are one.
+/// With caps, the mesh must bound a solid, like an operand of `boolean`. If it meets itself, or has
+/// parts that are inside out or hidden in others, it is first replaced by the solid that it winds
+/// around, rounded; the statements above then hold for that solid. Equal planes count once.
 ///
 /// \throws std::invalid_argument as `section` and `boolean`
 /// \cost   as `boolean` of the mesh with itself, and O(n log n) for the n faces that are cut; caps
@@ -91,30 +93,31 @@ struct cut_result {
                                           std::span<const double> heights,
                                           const cut_options& options = {});
 
-/// Both halves: what is below the plane, and what is above.
+/// Both halves: the part below the plane, then the part above.
 [[nodiscard]] inline cut_result cut(const mesh_ref& mesh, const oriented_plane& plane,
                                     const cut_options& options = {}) {
     return cut(mesh, plane, std::array{0.0}, options);
 }
 
-/// Pieces that fit into a box of this size: cut by planes across x, then y, then z, as few along
-/// each axis as there can be, and equally far apart, to rounding. A size that is infinite is not
-/// cut along. Pieces are those with faces, by x, then y, then z; numbers of planes count across x
-/// first, then y, then z. Cuts across y and z are of the rounded pieces of the cuts before.
+/// Pieces that fit into a box of this size. They are cut by planes across x, then y, then z: as few
+/// as possible for each axis, equally spaced up to rounding, and none for an axis with infinite
+/// size. Pieces without faces are omitted; the others are ordered by x, then y, then z. Planes are
+/// numbered across x first, then y, then z. Cuts across y and z cut the rounded pieces of the cuts
+/// before.
 ///
-/// \throws std::invalid_argument as `cut`, for a size that is not positive, or where there would be
-///         more than 2^16 planes across an axis, or might be more than 2^20 pieces
+/// \throws std::invalid_argument as `cut`; for a size that is not positive; for more than 2^16
+///         planes across an axis, or possibly more than 2^20 pieces
 [[nodiscard]] TREEFORM_API cut_result cut_to_fit(const mesh_ref& mesh, const point3& size,
                                                  const cut_options& options = {});
 
-/// The mesh cut along its isolines (`isolines`): pieces with values below, between and from the
-/// levels on, K + 1 for K levels in ascending order, equal ones counted once. Pieces are open
-/// surfaces that end in the same points; together they are the mesh, for it is not moved: only new
-/// points are rounded, by less than a step of their largest coordinate.
+/// The mesh cut along its isolines (`isolines`): K + 1 pieces for K different levels in ascending
+/// order. A piece has the values from one level, inclusive, to the next. Pieces are open surfaces
+/// with common border points, and together cover the mesh. Only new points are rounded, by less
+/// than a step of their largest coordinate.
 ///
-/// The certificate says whether faces meet beyond common corners and edges in what is returned, all
-/// pieces together: where those of the mesh do, or rounding makes some do. `faces` of its pairs are
-/// numbered through all pieces. Of `options`, `caps`, `precision` and `keep_cuts` do not count.
+/// The certificate tells whether faces of all pieces together meet beyond common corners and edges,
+/// because faces of the mesh do, or by rounding. Its face numbers count through all pieces. `caps`,
+/// `precision` and `keep_cuts` of `options` are ignored.
 ///
 /// \throws std::invalid_argument as `isolines`
 /// \cost   as `isolines` and `self_intersections`
@@ -124,13 +127,14 @@ struct cut_result {
                                                 std::span<const double> levels,
                                                 const cut_options& options = {});
 
-/// Faces of a mesh by themselves, with the points that they use.
+/// Some faces of a mesh, with the points that they use.
 struct mesh_part {
     treeform::mesh mesh;
-    std::vector<std::uint32_t> face_source;    ///< [F] the number of each face in the whole
-    std::vector<std::uint32_t> vertex_source;  ///< [V] that of each point; ascending
-    double volume = 0.0;                       ///< as `signed_volume`
-    double area = 0.0;                         ///< as `surface_area`
+    std::vector<std::uint32_t> face_source;  ///< [F] the number of each face in the given mesh
+    /// [V] the number of each point in the given mesh; ascending
+    std::vector<std::uint32_t> vertex_source;
+    double volume = 0.0;  ///< as `signed_volume`
+    double area = 0.0;    ///< as `surface_area`
 };
 
 /// The faces that corners link, as meshes, in the order of their lowest faces. Corners with equal
@@ -142,27 +146,28 @@ struct mesh_part {
 /// \pre    every coordinate of a corner is finite
 /// \throws std::invalid_argument naming the lowest face with a corner out of range, and for a
 ///         `min_volume` that is negative or NaN
-/// \cost   O(V + F); for cavities, as `contains`
+/// \cost   O(V + F); with cavities, plus `contains`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::vector<mesh_part> components(const mesh_ref& mesh,
                                                              double min_volume = 0.0,
                                                              std::size_t largest = 0);
 
-/// The faces of these numbers, in this order, and the points that they use, in the order of `mesh`.
+/// The faces with these numbers, in this order, and the points that they use, in the order of
+/// `mesh`.
 ///
-/// \throws std::invalid_argument naming the number that is no face of the mesh, or a face with a
-///         corner out of range
+/// \throws std::invalid_argument naming a number that is out of range, or a face with a corner out
+///         of range
 /// \cost   O(V + F)
 [[nodiscard]] TREEFORM_API mesh_part submesh(const mesh_ref& mesh,
                                              std::span<const std::uint32_t> faces);
 
-/// Points and faces of all meshes, one after the other; nothing is joined.
+/// The points and faces of all meshes, one mesh after the other; points are not joined.
 ///
 /// \throws std::length_error for more points or faces than 32 bits can number
 [[nodiscard]] TREEFORM_API mesh concatenate(const mesh_refs& meshes);
 
-/// The mesh with its points moved. Where `by` mirrors, faces are turned over, so that they look
-/// outward as before.
+/// The mesh with transformed points. If `by` mirrors, faces are flipped, so that they still point
+/// outward.
 [[nodiscard]] TREEFORM_API mesh transform_mesh(const mesh_ref& mesh, const transform<3>& by);
 
 }  // namespace treeform

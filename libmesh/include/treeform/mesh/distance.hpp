@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Distances of two meshes, and of points from a mesh; no distance is squared. Which faces rays
-/// hit, exactly.
+/// Distances of two meshes, and of points from a mesh; no distance is squared. Ray casting with
+/// exact verdicts.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
@@ -28,37 +28,37 @@ struct mesh_positions {
 
 /// The nearest points of two meshes.
 struct closest_points_result {
-    std::uint32_t face_a = 0;  ///< the face of `a` that `on_a` is on
-    std::uint32_t face_b = 0;  ///< that of `b`
+    std::uint32_t face_a = 0;  ///< the face of `a` that contains `on_a`
+    std::uint32_t face_b = 0;  ///< the face of `b` that contains `on_b`
     double distance = 0.0;     ///< exactly 0 if and only if the meshes meet
     point3 on_a;               ///< the point on the surface of `a`, rounded, as is `on_b`
     point3 on_b;               ///< the point on the surface of `b`
     friend bool operator==(const closest_points_result&, const closest_points_result&) = default;
 };
 
-/// The nearest points of the surfaces `a` and `b`; none when one has no faces, or when they are
-/// further apart than the radius. Surfaces count, not solids: a mesh inside a closed one has the
-/// distance to its surface.
+/// The nearest points of the surfaces `a` and `b`; none if one has no faces, or if they are further
+/// apart than the radius. Surfaces count, not solids: inside a closed mesh, the distance is that to
+/// its surface.
 ///
-/// Whether the meshes meet is decided exactly, on the coordinates as given or as moved. If they do
-/// not, the distance is within 16 u L of the true one, where u = 2^-53 and L is the largest
-/// distance of two corners of the faces named. Of several pairs of faces at the same computed
-/// distance, the lowest numbers are named. When the meshes meet, it may be any pair that meets, but
-/// the same one in every run.
+/// Whether the meshes meet is decided exactly, on the coordinates as given or as moved. If not, the
+/// error of the distance is at most 16 u L, where u = 2^-53 and L is the largest distance of two
+/// corners of the returned faces. Of several pairs of faces at the same computed distance, the
+/// lowest numbers are returned. If the meshes meet, any pair that meets may be returned, but the
+/// same one in every run.
 ///
-/// Prepared meshes keep tight bounds of their surfaces. That makes later calls several times as
-/// fast where surfaces are nearly flat and not along the axes. A transform other than a rotation,
-/// uniform scaling or mirror makes a call slower, not wrong.
+/// Prepared meshes cache tight bounds of their surfaces, which make later calls several times
+/// faster for nearly flat surfaces that are not axis-aligned. Transforms other than rotations,
+/// uniform scalings and reflections are slower.
 ///
 /// \throws std::invalid_argument naming the mesh and its lowest face with a corner out of range or
-///         not finite, when a transform is not finite, or the radius is negative or NaN
+///         not finite; for a transform that is not finite; for a radius that is negative or NaN
 /// \cost   O(F log F) for indexes that are not built yet; then as `nearest_pair`: most pairs of
 ///         faces are skipped by the direction between the nearest points so far
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<closest_points_result> closest_points(
     const mesh_ref& a, const mesh_ref& b, const mesh_positions& positions = {});
 
-/// The distance of the surfaces `a` and `b`; infinite when `closest_points` finds none.
+/// The distance of the surfaces `a` and `b`; infinite if `closest_points` returns none.
 [[nodiscard]] TREEFORM_API double distance(const mesh_ref& a, const mesh_ref& b,
                                            const mesh_positions& positions = {});
 
@@ -70,19 +70,19 @@ struct closest_point_result {
     friend bool operator==(const closest_point_result&, const closest_point_result&) = default;
 };
 
-/// The point of the surface of `mesh` that is nearest to `query`; none when the mesh has no faces,
-/// or when all are further away than `radius` (inclusive).
+/// The point of the surface of `mesh` nearest to `query`; none if the mesh has no faces, or if all
+/// are further away than `radius` (inclusive).
 ///
-/// The distance is within 16 u L of the true one, where u = 2^-53 and L is the larger of the
-/// distance and the diagonal of the face's box; in any case there is a rounding of the coordinates
-/// times u. A degenerate face is treated as the segment or point that it is. Of several faces at
-/// the same computed distance, the lowest number is named.
+/// The error of the distance is at most 16 u L, where u = 2^-53 and L is the larger of the distance
+/// and the diagonal of the face's box, plus u times the coordinates. A degenerate face is treated
+/// as the segment or point that it is. Of several faces at the same computed distance, the lowest
+/// is returned.
 ///
-/// \throws std::invalid_argument naming the face with a corner out of range or not finite, or the
-///         query that is not finite; for a radius that is negative or NaN
+/// \throws std::invalid_argument naming a face with a corner out of range or not finite, or a query
+///         that is not finite; for a radius that is negative or NaN
 /// \cost   O(F log F) and 128 bytes a face for the index, which a prepared mesh keeps. A query
-///         opens O(log F) nodes in most cases; more when much of the mesh is about equally far;
-///         many when the query is further away than 1e5 times the extent of the mesh
+///         opens O(log F) nodes in most cases; more if much of the mesh is about equally far, or if
+///         the query is further away than 1e5 times the extent of the mesh
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<closest_point_result> closest_point(
     const mesh_ref& mesh, const point3& query,
@@ -96,25 +96,26 @@ struct closest_point_result {
 /// A face that a ray hits. The point hit is origin + t direction.
 struct mesh_hit {
     std::uint32_t face = 0;
-    feature at = feature::interior;  ///< corner, edge or interior that holds the first common point
-    bool coplanar = false;           ///< the ray runs in the face's plane, or the face has no area
-    double t = 0.0;                  ///< of the first common point; relative error below 2^-40
-    double t_end = 0.0;              ///< of the last common point; equal to t unless coplanar
+    /// corner, edge or interior that contains the first common point
+    feature at = feature::interior;
+    bool coplanar = false;  ///< the ray runs in the face's plane, or the face has no area
+    double t = 0.0;         ///< of the first common point; relative error below 2^-40
+    double t_end = 0.0;     ///< of the last common point; equal to t unless coplanar
     friend bool operator==(const mesh_hit&, const mesh_hit&) = default;
 };
 
 /// The face that a ray hits first; none when it hits nothing. Of several faces at one point, the
 /// lowest number.
 ///
-/// Which faces a ray hits, on which corner, edge or interior, and in which order, is exact. Only
-/// the numbers t are rounded. A ray that hits an edge or a corner hits every face that has it:
-/// through a vertex of six faces it has six hits at equal t, and each names the vertex as a corner
-/// of its own face. Faces include their edges and are hit from both sides.
+/// The faces that a ray hits, their order, and the corner, edge or interior hit are exact. Only the
+/// parameters t are rounded. A ray that hits an edge or a corner hits every face there: through a
+/// vertex of six faces it has six hits at equal t, each with the vertex as a corner of its face.
+/// Faces include their edges and are hit from both sides.
 ///
-/// \throws std::invalid_argument for a ray with a direction of zero or a number that is not finite
+/// \throws std::invalid_argument for a ray with a zero direction or a number that is not finite
 ///         (t_min and t_max may be infinite); naming a face with a corner out of range or not
 ///         finite
-/// \cost   O(F log F) for the index, which a prepared mesh keeps; for most rays O(log F) and the
+/// \cost   O(F log F) for the index, which a prepared mesh keeps; for most rays O(log F) plus the
 ///         faces at the hit
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<mesh_hit> raycast(const mesh_ref& mesh, const ray3& ray);
@@ -127,7 +128,7 @@ struct mesh_hit {
 [[nodiscard]] TREEFORM_API answer_lists<mesh_hit> raycast_all(const mesh_ref& mesh,
                                                               std::span<const ray3> rays);
 
-/// [R] 1 when a ray hits any face, else 0.
+/// [R] 1 if a ray hits any face, else 0.
 [[nodiscard]] TREEFORM_API std::vector<std::uint8_t> raycast_any(const mesh_ref& mesh,
                                                                  std::span<const ray3> rays);
 

@@ -1,8 +1,7 @@
 #pragma once
 /// \file
-/// Intersections of two meshes, and of a mesh with a box. The curves along which faces meet: as
-/// segments, and joined into paths, where each point says which edges and faces meet there. Files
-/// of curves.
+/// Intersections of two meshes, and of a mesh with a box. Intersection curves, as segments or
+/// joined into paths whose points are named by edges and faces. Writing curves to files.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/distance.hpp>
@@ -33,8 +32,8 @@ namespace treeform {
 /// it gives no pair. `a` and `b` may be the same mesh. Of meshes that are not prepared, only faces
 /// that reach, as moved, into the intersection of both bounding boxes are indexed.
 ///
-/// \throws std::invalid_argument when a transform is not finite, or naming the mesh and its face
-///         with a corner out of range or, as moved, not finite
+/// \throws std::invalid_argument if a transform is not finite; naming the mesh and its face with a
+///         corner out of range or, after the move, not finite
 /// \cost   O(F log F) for indexes that are not built yet; O(B) time for the B pairs whose boxes
 ///         overlap and the nodes above them. Of prepared meshes up to twice as fast
 /// \same   on any number of threads
@@ -65,16 +64,16 @@ mesh_intersections(const mesh_ref& a, const mesh_ref& b, const intersection_opti
                                                                    const point3& min,
                                                                    const point3& max);
 
-/// What two faces have in common, or one side of it.
+/// The intersection of two faces, or one side of it.
 struct curve_segment {
     std::array<point3, 2> ends{};  ///< equal when the faces meet in a point
     std::uint32_t pair = 0;        ///< index into the pairs given
     friend bool operator==(const curve_segment&, const curve_segment&) = default;
 };
 
-/// What the two faces of each pair have in common, as segments, in the order of `pairs`: one
-/// segment for a crossing, the 3 to 6 sides of the common area for faces that overlap, a segment of
-/// length 0 for a single point.
+/// The intersection of each pair as segments, in the order of `pairs`: one segment for a crossing,
+/// the 3 to 6 sides of the common area for faces that overlap, a segment of length 0 for a single
+/// point.
 ///
 /// Whether there is a segment is exact. Its ends are rounded, and finite.
 ///
@@ -109,16 +108,16 @@ struct curve_path {
 /// All curves of a mesh.
 struct curve_network {
     std::vector<curve_point> points;  ///< no two are equal as exact points
-    /// First the paths between points where one segment, or more than two, end. Then closed paths.
-    /// Last single points, where faces meet in one point and no segment ends.
+    /// First open paths, between points where one segment or more than two end. Then closed paths.
+    /// Last single points, where faces meet in a point that is on no segment.
     std::vector<curve_path> paths;
 };
 
 /// The segments of `intersection_curves`, joined into paths where their ends are equal as exact
 /// points.
 ///
-/// A segment that several pairs have is listed once. Paths are in the order of the numbers of their
-/// first points, and points in the order of their names.
+/// A segment common to several pairs is listed once. Paths are ordered by the number of their first
+/// point, points by their name.
 ///
 /// \throws std::invalid_argument as `intersection_curves`, and for a face without area
 /// \cost O(P log P) for P pairs
@@ -136,8 +135,8 @@ using pair_column = std::pair<std::string, std::vector<std::uint32_t>>;
 /// none is given. "-" is standard output.
 ///
 /// \pre    faces of `pairs` and their corners are in range, coordinates finite
-/// \throws io_error for another format, or when the file cannot be written: then there is none, or
-///         the one that was there. std::invalid_argument when there is not a number for each pair
+/// \throws io_error for another format, or if the file cannot be written: then a previous file is
+///         unchanged; std::invalid_argument if `numbers` does not have one for each pair
 /// \same   bytes on any number of threads
 TREEFORM_API void write_curves(const std::filesystem::path& path, mesh_view mesh,
                                std::span<const face_pair> pairs,

@@ -1,8 +1,7 @@
 #pragma once
 /// \file
-/// Points, triangle meshes, the views of them that algorithms take, and the box around them; a mesh
-/// with the indexes that queries ask for, each built on first use, once; and what functions take:
-/// any mesh, or several.
+/// Points, triangle meshes, views of them, and bounding boxes; prepared meshes, which cache the
+/// indexes of queries; and the argument types of functions: any mesh, or several.
 
 #include <treeform/tree/detail/export.hpp>
 
@@ -52,26 +51,26 @@ struct point3 {
 
 using points_view = std::span<const point3>;  ///< [V]
 
-/// The corners of a triangle as numbers of points; counter-clockwise seen from outside.
+/// The corners of a triangle: numbers of points, counter-clockwise seen from outside.
 using face = std::array<std::uint32_t, 3>;
 
-/// What algorithms take: somebody else's arrays. Every corner is less than `points.size()`.
+/// A mesh that refers to the caller's arrays. Every corner is less than `points.size()`.
 struct mesh_view {
     std::span<const point3> points;  ///< [V]
     std::span<const face> faces;     ///< [F]
 };
 
-/// The numbers that coordinates are written as.
+/// The floating-point format of coordinates.
 enum class precision : std::uint8_t {
-    float32,  ///< as a binary STL holds them
+    float32,  ///< 32-bit floats, as in binary STL
     float64   ///< doubles
 };
 
 /// Which corners of faces are the same vertex. This decides whether a mesh is closed, and which of
 /// its faces are neighbors.
 enum class vertex_identity : std::uint8_t {
-    by_coordinates,  ///< those with equal coordinates: also right for files that repeat them (STL)
-    by_index         ///< those with the same number
+    by_coordinates,  ///< corners with equal coordinates; suits files that repeat points (STL)
+    by_index         ///< corners with the same point number
 };
 
 /// A triangle mesh that owns its arrays. Every corner is less than `points.size()`.
@@ -88,13 +87,13 @@ struct box3 {
     point3 min;
     point3 max;
 
-    /// Length of the diagonal, rounded. Where it would be infinite, the largest double.
+    /// Length of the diagonal, rounded; the largest double if it overflows.
     [[nodiscard]] TREEFORM_API double diagonal() const;
 
     friend bool operator==(const box3&, const box3&) = default;
 };
 
-/// The smallest box around all finite points; none when there is no such point.
+/// The smallest box around all finite points; empty if there is no finite point.
 ///
 /// \cost O(V) time
 /// \same on any number of threads
@@ -106,14 +105,14 @@ namespace detail::base {
 class prepared_slots;
 }
 
-/// A mesh for many queries. Every query of meshes takes one in place of a `mesh_view` and gives the
-/// same answers. The first query that needs an index (a tree over the faces, triangles in the order
-/// of that tree, joined corners, whether the mesh is closed) builds it; later queries use it again.
+/// A mesh for many queries. Every function of meshes takes a prepared mesh as well, with the same
+/// results. The first query that needs an index (a tree over the faces, triangles in the order of
+/// that tree, joined corners, whether the mesh is closed) builds it; later queries reuse it.
 ///
-/// Queries are const and may run on any threads at once. One of them builds an index; others that
-/// need it in the meantime help. A build that is cancelled or fails leaves nothing behind.
+/// Queries are const and may run on several threads at once. One thread builds an index; threads
+/// that need it meanwhile help. A build that is cancelled or throws leaves no partial index.
 ///
-/// Move-only. After a move, the source may only be destroyed or assigned to.
+/// Move-only. A moved-from object may only be destroyed or assigned to.
 class TREEFORM_API prepared_mesh {
   public:
     /// No faces.
@@ -123,14 +122,14 @@ class TREEFORM_API prepared_mesh {
     explicit prepared_mesh(usable_mesh&& owned);
     explicit prepared_mesh(const mesh&) = delete;  // std::move it, or `borrow` it
     explicit prepared_mesh(const usable_mesh&) = delete;
-    /// Refers to the caller's arrays, which must stay unchanged as long as this lives.
+    /// Refers to the caller's arrays, which must stay unchanged during the lifetime of the result.
     [[nodiscard]] static prepared_mesh borrow(mesh_view view);
     static prepared_mesh borrow(mesh&&) = delete;  // gone before it is asked: let this own it
 
-    /// A cloud of points, to be measured, slid and separated as meshes are. Each point is a
+    /// A point cloud, which can be measured, slid and separated like a mesh. Each point is a
     /// degenerate face, so face numbers are point numbers. A cloud bounds no solid. It penetrates a
-    /// mesh when a point lies strictly inside the solid that the mesh bounds, and touches the mesh
-    /// when a point is on a face.
+    /// mesh if a point is strictly inside the solid that the mesh bounds, and touches it if a point
+    /// is on a face.
     [[nodiscard]] static prepared_mesh cloud(std::vector<point3>&& owned);
     /// The same, but refers to the caller's points, as `borrow` does.
     [[nodiscard]] static prepared_mesh borrow_cloud(points_view points);
@@ -142,7 +141,7 @@ class TREEFORM_API prepared_mesh {
     [[nodiscard]] mesh_view view() const { return view_; }
     [[nodiscard]] bool is_cloud() const { return cloud_; }
 
-    /// Number of indexes built so far. A second query of the same kind does not change it.
+    /// Number of indexes built so far. It does not grow when a query reuses its indexes.
     [[nodiscard]] std::uint64_t indexes_built() const;
 
   private:
@@ -154,17 +153,18 @@ class TREEFORM_API prepared_mesh {
     std::shared_ptr<state> state_;
 };
 
-/// Refers to a mesh, a prepared one, a view, what `as_mesh` returns, or points and faces. For
-/// parameters only: it is made by itself where a function takes one. A temporary mesh lives until
-/// the call returns, so that `unite(as_mesh(f), as_mesh(g))` is right.
+/// Refers to a mesh, a prepared mesh, a view, a result of `as_mesh`, or points and faces. For
+/// parameters only; arguments convert implicitly. A temporary mesh lives until the call returns, so
+/// `unite(as_mesh(f), as_mesh(g))` is safe.
 ///
-/// A prepared mesh keeps the indexes that a function builds; any other is indexed for the call.
+/// A prepared mesh keeps the indexes that a function builds; for any other mesh they are discarded
+/// after the call.
 class mesh_ref {
   public:
     mesh_ref(const mesh& mesh TREEFORM_LIFETIMEBOUND) : view_(mesh) {}  // NOLINT: all are implicit
     mesh_ref(mesh_view mesh) : view_(mesh) {}                           // NOLINT
     mesh_ref(points_view points, std::span<const face> faces) : view_{points, faces} {}
-    /// A cloud: points without faces.
+    /// A point cloud: no faces.
     template <std::ranges::contiguous_range Points>
     requires std::same_as<std::ranges::range_value_t<const Points&>, point3> mesh_ref(
         const Points& points TREEFORM_LIFETIMEBOUND)
@@ -174,7 +174,7 @@ class mesh_ref {
     TREEFORM_API mesh_ref(const usable_mesh& mesh TREEFORM_LIFETIMEBOUND);  // NOLINT
 
     [[nodiscard]] mesh_view view() const { return view_; }
-    /// Null where the mesh is not prepared.
+    /// Null if the mesh is not prepared.
     [[nodiscard]] const prepared_mesh* prepared() const { return prepared_; }
 
   private:
@@ -182,7 +182,7 @@ class mesh_ref {
     const prepared_mesh* prepared_ = nullptr;
 };
 
-/// Refers to several meshes of any kinds: `{a, b}`, a vector or span of meshes, prepared meshes or
+/// Refers to several meshes of any type: `{a, b}`, a vector or span of meshes, prepared meshes or
 /// views, or a single mesh.
 class mesh_refs {
   public:

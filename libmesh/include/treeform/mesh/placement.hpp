@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the placement functions (`slide`, `drop`, `mate`, `separate`) take and return.
+/// Arguments and results of the placement functions (`slide`, `drop`, `mate`, `separate`).
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/measure.hpp>
@@ -23,40 +23,40 @@ namespace treeform {
 
 /// Why a placement ended where it did.
 enum class placement_end : std::uint8_t {
-    contact,             ///< it met a fixed mesh, or the clearance from it
-    bed,                 ///< it met the bed, or the clearance above it
-    stays,               ///< it may stay where it is
-    moved_apart,         ///< for `separate`: it is out of what was in its way
-    nothing_met,         ///< no place: nothing is in the way, or within `max_travel`
+    contact,             ///< stopped by a fixed mesh, or at the clearance from it
+    bed,                 ///< stopped by the bed, or at the clearance above it
+    stays,               ///< it need not move
+    moved_apart,         ///< for `separate`: it was moved out of the fixed meshes
+    nothing_met,         ///< no place: it meets nothing, or nothing within `max_travel`
     too_far,             ///< no place: the place is further away than `max_travel`
-    starts_penetrating,  ///< no place: it penetrates something where it is
-    starts_too_near,     ///< no place: it is nearer than the clearance to something where it is
-    starts_touching,     ///< no place: it touches something where it is, and a clearance is asked
-    starts_below_bed,    ///< no place: it would have to go up to the bed, past fixed meshes
-    no_coordinates,      ///< no place in coordinates that can be written
-    too_many_steps,      ///< not found out, for `turn`: it goes past something very near
-    out_of_range,        ///< no place: coordinates are beyond the range of the precision asked for
-    cancelled            ///< `progress` asked to stop; the rest means nothing
+    starts_penetrating,  ///< no place: it penetrates a fixed mesh at the start
+    starts_too_near,     ///< no place: it is nearer than the clearance at the start
+    starts_touching,     ///< no place: it touches at the start, and a clearance is given
+    starts_below_bed,    ///< no place: it is below the bed at the start, and there are fixed meshes
+    no_coordinates,      ///< no place in coordinates of the precision
+    too_many_steps,      ///< undecided, for `turn`: it passes a fixed mesh too closely
+    out_of_range,        ///< no place: coordinates overflow the precision
+    cancelled            ///< stopped by `progress`; the rest is invalid
 };
 
-/// A pair of faces that meet at the place, or keep the clearance there.
+/// A pair of faces that meet, or are at the clearance, at the place.
 struct placement_contact {
     point3 point{};
-    point3 normal{};  ///< of length 1, from the fixed to the moving mesh; 0 when there is none
+    point3 normal{};  ///< unit normal from the fixed to the moving mesh; 0 if there is none
     std::uint32_t moving = 0;                   ///< face of the moving mesh
-    std::optional<std::uint32_t> fixed_face{};  ///< none when it is the bed
+    std::optional<std::uint32_t> fixed_face{};  ///< none for the bed
     std::size_t fixed = 0;                      ///< number of the fixed mesh
 };
 
-/// The fixed mesh that matters most to the moving one: one that it penetrates, else one that it
-/// touches, else the nearest.
+/// The most relevant fixed mesh: one that the moving mesh penetrates, else one that it touches,
+/// else the nearest.
 struct nearest_fixed {
-    std::size_t fixed = 0;  ///< its number; of several the lowest
+    std::size_t fixed = 0;  ///< its number; the lowest if several qualify
     mesh_measure how{};     ///< `a` is the moving mesh
 };
 
 struct placement_statistics {
-    unsigned backed_off = 0;          ///< steps back, where rounding made the mesh penetrate
+    unsigned backed_off = 0;          ///< steps back, since rounding made the mesh penetrate
     std::uint64_t fixed_culled = 0;   ///< fixed meshes skipped because of their box
     std::uint64_t pairs_tested = 0;   ///< pairs of faces, in motion
     std::uint64_t steps = 0;          ///< of `turn`
@@ -65,31 +65,31 @@ struct placement_statistics {
 
 struct body_set;
 
-/// Where a mesh goes. "At the place" is where it goes, or where it is if it does not move.
+/// The result of a placement. "The place" is the new position, or the present one if the mesh does
+/// not move.
 struct placement {
-    /// ok: the mesh has a place, and `points` were checked exactly as they are. Otherwise
-    /// `no_place`, `not_certified` (no_coordinates), `out_of_range` or `cancelled`. It lists no
-    /// faces.
+    /// ok: the mesh has a place, and `points` were checked exactly. Otherwise `no_place`,
+    /// `not_certified` (no_coordinates), `out_of_range` or `cancelled`. It lists no faces.
     treeform::certificate certificate{};
     placement_end end = placement_end::stays;
     std::vector<point3> points{};  ///< [V] at the place, as they are to be written
     /// new = M * old: a translation; of `turn` and `mate_features` a turn, too. `points` are moved
     /// by it and rounded once, except for those that are set on the bed.
     transform<3> matrix{};
-    point3 direction{};           ///< of the travel, of length 1; 0 when there is none
-    double travel = 0.0;          ///< a length; for `too_far` the one that would be needed
-    double clearance = 0.0;       ///< the clearance asked for
-    std::optional<double> bed{};  ///< lowest z allowed, as written: the bed plus the clearance
-    double below_bed = 0.0;       ///< how far it reached below that at the start
+    point3 direction{};           ///< unit direction of the travel; 0 if there is none
+    double travel = 0.0;          ///< a length; for `too_far` the length needed
+    double clearance = 0.0;       ///< the given clearance
+    std::optional<double> bed{};  ///< least z allowed, rounded: the bed plus the clearance
+    double below_bed = 0.0;       ///< how far the mesh was below `bed` at the start
     bool on_bed = false;          ///< the bed stopped it
     mesh_relation at_start = mesh_relation::separate;  ///< exact
     mesh_relation at_place = mesh_relation::separate;  ///< the same at the place
-    std::optional<nearest_fixed> nearest{};  ///< at the place; none when all are too far to matter
+    std::optional<nearest_fixed> nearest{};  ///< at the place; none if all are too far away
     std::vector<placement_contact> contacts{};
-    std::uint64_t contact_count = 0;     ///< of all, listed or not
-    std::optional<double> max_travel{};  ///< that was allowed
-    /// Of `separate`: what its search took. Where some of its questions were cut, a shorter way may
-    /// exist; without a place, one that was not found.
+    std::uint64_t contact_count = 0;     ///< number of all contacts, listed or not
+    std::optional<double> max_travel{};  ///< the given limit
+    /// For `separate`: the effort of its search. If `cut` is not 0, a shorter translation may
+    /// exist; or, if no place was found, a place.
     search_effort effort{};
     double angle = 0.0;      ///< of `turn` and `mate_features`: in degrees, of the turn
     double tolerance = 0.0;  ///< of `turn`: the gap, beyond the clearance, that counts as contact
@@ -99,11 +99,12 @@ struct placement {
     placement_statistics statistics{};
 
     explicit operator bool() const { return static_cast<bool>(certificate); }
-    /// Why there is no place: half a sentence about the mesh that moves, without a stop at its end.
-    /// `names` are those of the fixed meshes. Empty when there is one.
+    /// Why there is no place: a clause about the moving mesh, without a full stop. Empty if there
+    /// is a place. `names` are those of the fixed meshes.
     [[nodiscard]] TREEFORM_API std::string message(std::span<const std::string> names = {}) const;
-    /// How the one body of `moving` lies to `fixed` at its place, in words: "touching bed.stl (1
-    /// pair of faces, the first 3 and 7)", "separate, 0.5 from bed.stl". Faces are those of files.
+    /// The relation of the only body of `moving` to `fixed` at the place, in words: "touching
+    /// bed.stl (1 pair of faces, the first 3 and 7)", "separate, 0.5 from bed.stl". Face numbers
+    /// are those of the files.
     [[nodiscard]] TREEFORM_API std::string relation_in_words(const body_set& moving,
                                                              const body_set& fixed) const;
 };
@@ -113,27 +114,29 @@ enum class contact_class : std::uint8_t {
     none,
     penetrating,
     touching,
-    near  ///< closer than the clearance, or where the mesh stopped at it
+    near  ///< closer than the clearance, or where the mesh stopped at the clearance
 };
 
 struct contact_color_options {
-    /// Make each triangle a face of its own, as pictures need it. Otherwise polygons stay, and have
-    /// the worst class of their triangles.
+    /// Split polygons into triangles, for pictures. Otherwise a polygon has the worst class of its
+    /// triangles.
     bool split_polygons = false;
-    bool keep_colors = false;  ///< keep the colors that the file has
-    /// Faces with no edge longer than twice this length, and all corners within it of faces with a
-    /// class, have a tint of that: contacts of a few small faces are seen. Their class stays none.
+    bool keep_colors = false;  ///< keep existing colors of the file
+    /// Tints small faces around contacts, so that contacts of a few small faces can be seen: faces
+    /// with edges of at most twice this length, and all corners within this length of a face with a
+    /// class. Their own class stays none.
     double halo = 0.0;
 };
 
 /// The class of each face.
 struct contact_classes {
-    std::vector<contact_class> moving{};              ///< [F] of the moving mesh
-    std::vector<std::vector<contact_class>> fixed{};  ///< by mesh: [F], or empty when all are none
+    std::vector<contact_class> moving{};  ///< [F] of the moving mesh
+    /// For each mesh: [F], or empty if all are none.
+    std::vector<std::vector<contact_class>> fixed{};
 
-    /// The classes of all triangles of the files, of one cloud of all its points; for
-    /// `color`. With `fixed`, its files follow that of `moving`, which has one body. Clouds
-    /// are then left out, as in `scene_of`.
+    /// The classes of all triangles of the files (of a single cloud, of all its points), for
+    /// `color`. `moving` has one body; the files of `fixed` follow. With `fixed`, clouds are
+    /// omitted, as in `scene_of`.
     ///
     /// \cost O(V + F)
     [[nodiscard]] TREEFORM_API std::vector<contact_class> in_files(const body_set& moving,
@@ -141,11 +144,11 @@ struct contact_classes {
     /// The same without `fixed`.
     [[nodiscard]] TREEFORM_API std::vector<contact_class> in_files(const body_set& moving) const;
 
-    /// The class of each face, with `moving` at the place. Contacts of the placement are contacts
-    /// here, even where rounding has left a gap.
+    /// The class of each face, with `moving` at the place. Contacts of the placement count as
+    /// contacts, even if rounding left a gap.
     ///
     /// \pre    `at` was returned by a placement of `moving` among `fixed`
-    /// \cost   all pairs of faces within the clearance of each other
+    /// \cost   O(P) for the P pairs of faces within the clearance of each other
     /// \same   on any number of threads
     [[nodiscard]] TREEFORM_API static contact_classes of(const mesh_ref& moving,
                                                          const mesh_refs& fixed,
@@ -163,22 +166,22 @@ struct contact_classes {
                                    const contact_color_options& options = {});
 };
 
-/// A file, and what it is called.
+/// A file with its names.
 struct body_file {
     mesh_file content{};
-    std::string label{};        ///< for people: its path
-    std::string name{};         ///< of its faces in a scene (`scene_of`)
+    std::string label{};        ///< name in messages: its path
+    std::string name{};         ///< name of its faces in a scene (`scene_of`)
     bool cloud = false;         ///< it has no faces
     std::size_t left_out = 0;   ///< triangles, or points of a cloud, that are not finite
-    std::optional<box3> box{};  ///< of its bodies; none when it has no finite face or point
+    std::optional<box3> box{};  ///< box of its bodies; none without a finite face or point
 };
 
 /// A body of a file: its whole mesh, a part of it, or a cloud.
 struct file_body {
     std::size_t file = 0;  ///< number of the file
-    std::string name{};    ///< of the part; empty when the file has only one
-    /// [F] the triangle in the file's mesh, or the point of a cloud, that each face is; empty: the
-    /// same number.
+    std::string name{};    ///< of the part; empty if the file has only one
+    /// [F] the triangle in the file's mesh (the point of a cloud) of each face; empty: the same
+    /// number.
     std::vector<std::uint32_t> triangle_of_face{};
 
     [[nodiscard]] std::uint32_t triangle(std::uint32_t f) const {
@@ -188,29 +191,28 @@ struct file_body {
 
 /// Files and their bodies, ready for placement.
 struct TREEFORM_API body_set {
-    std::deque<body_file> files{};    ///< references to them stay valid when one is added
+    std::deque<body_file> files{};    ///< references stay valid when files are added
     std::vector<file_body> bodies{};  ///< [B]
     /// [B] The mesh of each body: the finite triangles of the file, with equal corners joined, and
     /// only the points that they use. For a cloud, its finite points.
     std::vector<prepared_mesh> shapes{};
 
-    /// Adds a file, all of it as one body, and returns it. Without a finite face or point it has
-    /// no body.
+    /// Adds a file as one body, and returns it. Without a finite face or point it has no body.
     ///
     /// \cost O(V + F)
     body_file& add(mesh_file file, std::string label = {}, std::string name = {});
     /// The same with a body for each part of the file (as `split_parts` has them) where it has
     /// several.
     body_file& add_parts(mesh_file file, std::string label = {}, std::string name = {});
-    /// The same with a body for each part that has a name of its own (OBJ o and g, nodes of a
-    /// scene), or one body where there are no names. Unlike `add_parts`, parts that have points in
-    /// common stay apart, so that they may touch.
+    /// The same with a body for each named part (OBJ o and g, nodes of a scene), or one body
+    /// without names. Unlike in `add_parts`, parts with points in common are separate bodies, so
+    /// that they may touch.
     body_file& add_named_parts(mesh_file file, std::string label = {}, std::string name = {});
 
     [[nodiscard]] const body_file& file_of(std::size_t body) const;
-    /// The number that face `f` of a body has in its file.
+    /// The number of a body's face `f` in its file.
     [[nodiscard]] std::uint32_t stored_face(std::size_t body, std::uint32_t f) const;
-    /// For people: the file, and the part.
+    /// For messages: the file, and the part.
     [[nodiscard]] std::string label(std::size_t body) const;
     [[nodiscard]] std::vector<std::string> labels() const;  ///< [B] for `placement::message`
 

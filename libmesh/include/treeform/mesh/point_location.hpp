@@ -15,15 +15,15 @@
 
 namespace treeform {
 
-/// Where a point is with respect to a surface or curve.
+/// The position of a point relative to a surface or curve.
 enum class location : std::uint8_t { outside, inside, boundary };
 
-/// The answer of `locate`.
+/// The result of `locate`.
 struct point_location {
     location where = location::outside;
     /// How often the surface or curve winds around the point; a mesh with outward faces, or a
-    /// counter-clockwise curve, counts +1. 0 is outside, anything else inside. On the boundary,
-    /// where it is not defined, 0.
+    /// counter-clockwise curve, counts +1. 0 is outside, anything else inside. 0 on the boundary,
+    /// where it is undefined.
     std::int32_t winding = 0;
     /// On the boundary, the lowest face or edge that contains the point; else 0.
     std::uint32_t on = 0;
@@ -31,9 +31,9 @@ struct point_location {
 };
 
 /// An open edge of the mesh, as its lower and higher point number: the lowest edge whose signed
-/// face count is not zero. None when the mesh is closed, so that winding numbers are defined; it
-/// may still consist of parts, be non-manifold, fold, and pass through itself. Faces that repeat a
-/// corner are ignored. Corners are compared by number: join equal ones first (`join_equal_points`).
+/// face count is not zero. None if the mesh is closed; then winding numbers are defined. A closed
+/// mesh may consist of parts, be nonmanifold, and intersect itself. Faces that repeat a corner are
+/// ignored. Corners are compared by number: join equal ones first (`join_equal_points`).
 ///
 /// \throws std::invalid_argument naming the lowest face with a corner out of range
 /// \cost   O(V + F log d) time for at most d faces at a point
@@ -41,9 +41,9 @@ struct point_location {
 [[nodiscard]] TREEFORM_API std::optional<std::array<std::uint32_t, 2>> find_open_edge(
     mesh_view mesh);
 
-/// The number of the first of `tolerances` that closes `mesh` when points are joined as by
-/// `usable_part`: faces with three corners are left, and no open edge. None where joining equal
-/// points does so already, or nothing does.
+/// The index of the first of `tolerances` that closes `mesh` if points are joined as by
+/// `usable_part`: at least one face with three corners is left, and no edge is open. None if
+/// joining equal points already closes the mesh, or if no tolerance does.
 ///
 /// \pre    the coordinates of corners are finite
 /// \throws std::invalid_argument as `usable_part`
@@ -52,14 +52,14 @@ struct point_location {
 [[nodiscard]] TREEFORM_API std::optional<std::size_t> closing_tolerance(
     mesh_view mesh, std::span<const double> tolerances);
 
-/// Where a point is with respect to a closed mesh.
+/// The position of a point relative to a closed mesh.
 ///
 /// Exact on the coordinates as given, for every point. The crossings of one ray along x are
 /// counted. An edge that the ray grazes is treated as lying to one side, by a rule that all faces
 /// share, so no second ray is needed. Points with equal coordinates are one vertex.
 ///
-/// \throws std::invalid_argument when the mesh is open, naming an open edge (`find_open_edge`), or
-///         naming a face with a corner out of range or not finite, or the point that is not finite
+/// \throws std::invalid_argument if the mesh is open, naming an open edge (`find_open_edge`);
+///         naming a face with a corner out of range or not finite, or a point that is not finite
 /// \cost   O(F log F) for the indexes, which a prepared mesh keeps; O(log F + B) a point, for the B
 ///         faces whose boxes meet the ray from the point along +x
 /// \same   on any number of threads
@@ -75,7 +75,7 @@ struct point_location {
 /// number is not 0 (`fill_rule::nonzero`). For errors and cost, see `locate`.
 [[nodiscard]] TREEFORM_API bool contains(const mesh_ref& mesh, const point3& point);
 
-/// How often the surface winds around the point; 0 on the surface. For errors and cost, see
+/// The winding number of the surface around the point; 0 on the surface. Errors and cost: see
 /// `locate`.
 [[nodiscard]] TREEFORM_API int winding_number(const mesh_ref& mesh, const point3& point);
 
@@ -83,17 +83,17 @@ struct point_location {
 using curve_edge = std::array<std::uint32_t, 2>;
 
 /// Locates points with respect to closed curves in the plane: any number of curves, even crossing
-/// or repeated ones. Exact as `locate` is.
+/// or repeated ones. Exact, like `locate`.
 class TREEFORM_API curve_locator {
   public:
     /// Curves of `points` [V] and `edges` [E]; both must outlive the locator.
     ///
-    /// \throws std::invalid_argument naming the lowest point where a curve is open (more edges lead
-    ///         to it than from it, or fewer), or an edge with an end out of range or not finite
+    /// \throws std::invalid_argument naming the lowest point where a curve is open (the numbers of
+    ///         edges to it and from it differ), or an edge with an end out of range or not finite
     /// \cost   a tree over the edges
     curve_locator(std::span<const point2> points, std::span<const curve_edge> edges);
 
-    /// \throws std::invalid_argument when a coordinate is not finite; likewise below
+    /// \throws std::invalid_argument if a coordinate is not finite; likewise below
     /// \cost   O(log E + B) for the B edges whose boxes meet the ray from the point along +x
     [[nodiscard]] point_location locate(const point2& point) const;
 

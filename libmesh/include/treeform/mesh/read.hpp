@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Reading a mesh or point file, whatever its format. Robots as URDF files describe them.
+/// Reading mesh and point files of all formats. Robots in URDF files.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
@@ -22,77 +22,74 @@
 namespace treeform {
 
 /// Reads the file at `path`; "-" is standard input. `format` is an extension without its dot
-/// ("stl", "obj", "ply", "off", "pcd", "xyz", "csv", "3mf", "glb", ...). When it is empty, the
-/// content decides, then the extension.
+/// ("stl", "obj", "ply", "off", "pcd", "xyz", "csv", "3mf", "glb", ...). If empty, the format is
+/// detected by content first, then by extension.
 ///
 /// Coordinates are as stored: float32 widened to double, decimal text rounded once to the nearest
 /// double. NaN and infinity are kept, so that the caller can report them (`find_defects`).
 ///
-/// - OBJ: `vt` and `vn` are in `attributes::corners`. The material files that it names are read
-///   where they are there and the OBJ has a path: the diffuse colors of its materials become
-///   columns red, green, blue and, where one is not opaque (`d`), alpha of faces; faces without one
-///   are white.
-/// - STL: a binary file with a wrong count of triangles is read where all of it is whole triangles,
-///   and one with bytes behind those of the header. Text may have zero bytes between words, and
-///   words after `endloop` and `endfacet`. `mesh_file::warnings` says so.
-/// - PLY: triangle strips, the element "tristrips", come as faces, those that repeat a vertex too.
+/// - OBJ: `vt` and `vn` are in `attributes::corners`. Material files are read if they exist and the
+///   OBJ has a path: the diffuse colors of its materials become columns red, green, blue and, where
+///   one is not opaque (`d`), alpha of faces; faces without a material are white.
+/// - STL: a binary file with a wrong count of triangles is read if its size is that of whole
+///   triangles; bytes after the counted triangles are ignored. ASCII may have zero bytes between
+///   words, and words after `endloop` and `endfacet`. `mesh_file::warnings` reports all of these.
+/// - PLY: triangle strips, the element "tristrips", become faces, also those that repeat a vertex.
 /// - PLY: the list "texcoord" of faces is in `attributes::corners` when it has two numbers a
 ///   corner, or none. Lines `comment TextureFile NAME` are in `attributes::texture_files`.
 /// - Text without a header (XYZ, CSV): the first line may name the columns. Then x, y and z may be
-///   any columns, also such as easting, northing and elevation, which a warning says; latitude and
-///   longitude are refused. `read_options::columns` says which is which. An empty cell, or one with
-///   a word, is NaN. Whole numbers beyond 2^53 are 64-bit integers where a column has nothing else.
-///   Colors are of 8 or 16 bits where they are whole numbers of these.
-/// - PTS: as XYZ. Where the first line is the number of points, 4 columns are x y z intensity, 6
-///   are x y z red green blue, and 7 have both. More points than it says are read with a warning;
-///   fewer are an error. The format is then called "xyz".
+///   any columns; names such as easting, northing and elevation are accepted with a warning,
+///   latitude and longitude are refused. `read_options::columns` assigns columns explicitly. An
+///   empty cell, or one with text, is NaN. A column of integers beyond 2^53 has 64-bit integers.
+///   Columns of colors have 8 or 16 bits if all values are integers in that range.
+/// - PTS: as XYZ. If the first line is the number of points, 4 columns are x y z intensity, 6 are x
+///   y z red green blue, and 7 have both. More points than announced are read with a warning; fewer
+///   are an error. The format is reported as "xyz".
 /// - PCD: a field of several values becomes columns "name[0]", "name[1]", ... WIDTH, HEIGHT and
 ///   VIEWPOINT of an organized cloud become lines of `attributes::obj_info`: "num_cols 640",
 ///   "num_rows 480", "viewpoint 0 0 0 1 0 0 0".
-/// - LAS and LAZ: columns as `las_header` says. LAZ of LASzip 1 to 3, COPC included; extra bytes as
+/// - LAS and LAZ: columns as in `las_header`. LAZ of LASzip 1 to 3, COPC included; extra bytes as
 ///   described in the file.
-/// - 3MF: the build. Each mesh that an item shows, itself or through components, is a part with a
-///   name of its own ("gear", "gear (2)"), where the transforms put it; mirrored ones have their
-///   faces turned, so that they are not inside out. Supports and surfaces are read as models are,
-///   objects of the type "other" and those outside the build are not. Items and components may be
-///   in other model parts of the package. Base materials are materials of parts, and their colors
-///   and those of color groups become columns red, green, blue and alpha of faces, or of points
-///   where corners have colors of their own. Texture coordinates are in `attributes::corners`;
-///   images are not read. Coordinates are in the unit of the file, which is a line of
-///   `attributes::obj_info`: "unit millimeter". Extensions that a file requires and that would
-///   change its shape are refused.
+/// - 3MF: the build. Each mesh of an item, directly or through components, is a part with a unique
+///   name ("gear", "gear (2)"), transformed; faces of mirrored parts are flipped, so that they are
+///   not inside out. Supports and surfaces are read like models; objects of type "other" and
+///   objects outside the build are not read. Items and components may be in other model parts of
+///   the package. Base materials are materials of parts, and their colors and those of color groups
+///   become columns red, green, blue and alpha of faces, or of points where corners have colors of
+///   their own. Texture coordinates are in `attributes::corners`; images are not read. Coordinates
+///   are in the unit of the file, which is a line of `attributes::obj_info`: "unit millimeter".
+///   Extensions that a file requires and that would change its shape are refused.
 /// - glTF 2.0 and GLB, also packed by draco where treeform was built with it: the default scene.
-///   Each mesh that a node shows, also as an instance of EXT_mesh_gpu_instancing, is a part with a
-///   name of its own, that of the node or of the mesh, where the transforms, composed in double,
-///   put it; mirrored ones have their faces turned. Strips and fans are triangles. COLOR_0 becomes
-///   columns red, green, blue and alpha of points, in the type and with the numbers of the file;
-///   NORMAL nx, ny and nz, turned with the node; the texture coordinates that the color of the
-///   material takes, with KHR_texture_transform, s and t = 1 - v, since t counts from the lower
-///   edge elsewhere. Colors of materials become columns red, green, blue and alpha of faces, of 8
-///   bits. Textures, other attributes and lines are not read, morph targets and skins not applied.
-///   Files that a glTF names are read from its folder and those in it. Extensions that a file
-///   requires are refused by name, except for KHR_mesh_quantization and those that only change how
-///   a surface looks. glTF 1.0 is left to assimp.
+///   Each mesh of a node, also as an instance of EXT_mesh_gpu_instancing, is a part with a unique
+///   name, from the node or the mesh, transformed by matrices composed in double; faces of mirrored
+///   parts are flipped. Strips and fans are triangles. COLOR_0 becomes columns red, green, blue and
+///   alpha of points, in the type and with the numbers of the file; NORMAL nx, ny and nz, turned
+///   with the node; the texture coordinates that the color of the material takes, with
+///   KHR_texture_transform, s and t = 1 - v, since t counts from the lower edge elsewhere. Colors
+///   of materials become columns red, green, blue and alpha of faces, of 8 bits. Textures, other
+///   attributes and lines are not read, morph targets and skins not applied. Files that a glTF
+///   names are read from its folder and those in it. Extensions that a file requires are refused by
+///   name, except for KHR_mesh_quantization and those that only change how a surface looks. glTF
+///   1.0 is left to assimp.
 ///
 /// \throws io_error naming path, line or byte, and reason
 [[nodiscard]] TREEFORM_API mesh_file read(const std::filesystem::path& path,
                                           std::string_view format = {},
                                           const read_options& options = {});
 
-/// The same for bytes in memory. Errors say `name` in place of the path.
+/// The same for bytes in memory. Errors have `name` instead of the path.
 [[nodiscard]] TREEFORM_API mesh_file read(std::span<const std::byte> bytes, std::string_view name,
                                           std::string_view format,
                                           const read_options& options = {});
 
-/// Which files of a folder are meant.
+/// Which files of a folder are included.
 enum class file_content : std::uint8_t {
     meshes,            ///< STL, OBJ, PLY, OFF, 3MF, GLB, glTF
     meshes_and_points  ///< also PCD, LAS, LAZ, XYZ, CSV, PTS, ASC
 };
 
-/// `paths` with each folder replaced by the files in it of such a format, by extension, in the
-/// order of their names. What is in folders of the folder is not looked at. A folder without such
-/// files stays, and so does "-".
+/// `paths` with each folder replaced by its files of these formats, by extension, in the order of
+/// their names. Subfolders are not searched. A folder without such files is kept, and so is "-".
 [[nodiscard]] TREEFORM_API std::vector<std::string> files_of(std::span<const std::string> paths,
                                                              file_content content);
 
@@ -111,18 +108,19 @@ struct urdf_joint {
     transform<3> origin{};
     point3 axis{1.0, 0.0, 0.0};                     ///< of length 1, in the joint's frame
     std::optional<std::array<double, 2>> limits{};  ///< of revolute and prismatic ones
-    /// The joint that it follows, and by what: value = first * that of the other + second.
+    /// The joint that this one mimics, and the coefficients: value = first * (value of that joint)
+    /// + second.
     std::string mimics{};
     std::array<double, 2> mimic_line{1.0, 0.0};
 };
 
-/// A mesh of a link, in a file, or made here: `place` takes its points into the link's frame.
+/// A mesh of a link, from a file or a shape; `place` maps its points to the link's frame.
 struct urdf_mesh {
     std::uint32_t link = 0;
     std::filesystem::path file{};  ///< empty for a box, a cylinder, a sphere
     transform<3> place{};          ///< the origin, and the scale of the mesh
-    /// A box exactly, a cylinder or sphere by triangles around it, so that no clash is missed: 96
-    /// sides, up to 0.054 % of the radius too far out; 5,120 triangles, up to 0.13 %.
+    /// A box is exact. A cylinder or sphere is replaced by triangles around it, so that no clash is
+    /// missed: 96 sides, at most 0.054 % of the radius too large; 5,120 triangles, at most 0.13 %.
     mesh shape{};
 };
 
@@ -142,12 +140,12 @@ struct urdf_robot {
     std::vector<std::string> approximated{};  ///< cylinders and spheres, one sentence each
     std::vector<std::string> skipped{};       ///< what else is no mesh, one sentence each
 
-    /// Pairs of links that a joint connects, and of links with meshes between which there are only
-    /// joints and links without; the lower number first, ascending.
+    /// Pairs of links connected by a joint, or by joints and links without meshes; the lower number
+    /// first, ascending.
     [[nodiscard]] TREEFORM_API std::vector<std::array<std::uint32_t, 2>> adjacent() const;
 
-    /// Its links that have faces. `mesh_of_file` gives the mesh of a file, and is asked in the
-    /// order of `meshes`, once for each that has one.
+    /// The links that have faces. `mesh_of_file` returns the mesh of a file; it is called in the
+    /// order of `meshes`, once for each mesh with a file.
     [[nodiscard]] TREEFORM_API robot_parts
     parts(const std::function<mesh(const std::filesystem::path&)>& mesh_of_file) const;
 
@@ -155,26 +153,26 @@ struct urdf_robot {
     /// at 0, fixed ones stay, and those that mimic another follow it unless they have a value of
     /// their own. `values` are angles in radians, or lengths, by joint. Limits are not looked at.
     ///
-    /// \throws std::invalid_argument for a joint that is not there or fixed, or a value that is not
-    ///         finite
+    /// \throws std::invalid_argument for a joint that does not exist or is fixed, or a value that
+    ///         is not finite
     [[nodiscard]] TREEFORM_API std::vector<transform<3>> link_transforms(
         const std::map<std::string, double>& values) const;
 };
 
 /// How to read a robot.
 struct urdf_options {
-    bool visual = false;  ///< the meshes that are for show, not those for collisions
-    /// Where packages are: `package://name/rest` is FOLDER/name/rest or FOLDER/rest for one of
-    /// these; else it is looked for in the file's folder and those above it in the same way.
+    bool visual = false;  ///< use visual meshes instead of collision meshes
+    /// Folders of packages: `package://name/rest` is FOLDER/name/rest or FOLDER/rest for one of
+    /// these, else for the file's folder or one above it.
     std::vector<std::filesystem::path> package_folders{};
 };
 
 /// Reads the robot at `path`. Joints are fixed, revolute, continuous or prismatic. Boxes, cylinders
-/// and spheres become meshes. Files of meshes are not read, but have to exist.
+/// and spheres become meshes. Mesh files are not read, but must exist.
 ///
-/// \throws io_error naming the path and the reason: no XML, no robot, a joint of another kind, a
-///         link that is not there, has two parents or is its own ancestor, names that repeat,
-///         numbers that are none, sizes that are not above 0, a mesh whose file is not found
+/// \throws io_error naming the path and the reason: not XML, no robot, an unsupported joint, a link
+///         that is missing, has two parents or is its own ancestor, repeated names, invalid
+///         numbers, sizes that are not positive, a missing mesh file
 [[nodiscard]] TREEFORM_API urdf_robot read_urdf(const std::filesystem::path& path,
                                                 const urdf_options& options = {});
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Meshes mended: solids made of dirty meshes, and self-intersections resolved.
+/// Repair: solids made of defective meshes, and self-intersections resolved.
 ///
 ///     tf::mesh solid = tf::repair(mesh).value();
 
@@ -35,16 +35,16 @@ struct resolve_options {
     bool keep_cuts = false;   ///< for `outer`: as in `boolean_options`; `split` keeps all cuts
     bool touching = false;    ///< for `remove`: delete faces that only touch, too; else they stay
     int removal_rounds = 16;  ///< for `remove`: give up after making or widening holes this often
-    /// For `outer` and `remove`: losing more than this share of the solid's volume, or of the area
-    /// of a mesh that bounds none, has the status `excessive_loss`. 1 allows any loss. What the
-    /// solid is, is found by `repair` without filling holes: faces agree, and overlaps count once.
+    /// For `outer` and `remove`: losing more than this share gives the status `excessive_loss`. The
+    /// share is of the volume of the solid, or of the area if the mesh bounds none. 1 allows any
+    /// loss. The solid before is that of `repair` without filling holes.
     double max_loss = 0.05;
     progress_callback progress{};
 };
 
 /// What is inside, for `repair`.
 enum class repair_rule : std::uint8_t {
-    automatic,  ///< `positive` where each shell is outward after `orient`, else `nonzero` or labels
+    automatic,  ///< `positive` if each shell is outward after `orient`, else `nonzero` or labels
     nonzero,
     odd,
     positive
@@ -52,36 +52,36 @@ enum class repair_rule : std::uint8_t {
 
 /// How to repair. All steps are on by default.
 struct repair_options {
-    bool join = true;     ///< drop degenerate and repeated faces; close cracks and T-junctions
-    bool orient = true;   ///< make faces agree and shells outward; drop strays
+    bool join = true;     ///< drop degenerate and duplicate faces; close cracks and T-junctions
+    bool orient = true;   ///< orient faces consistently and shells outward; drop strays
     bool fill = true;     ///< fill holes
-    bool resolve = true;  ///< cut self-intersections; drop what bounds nothing
-    bool detach = true;   ///< move apart what touches in an edge or a vertex
-    /// Widest crack to close. Where it is not given, the narrowest of 0, a float step, and 1e-6,
-    /// 1e-5, 1e-4, 1e-3 of the diagonal of the bounding box that leaves the fewest open edges.
+    bool resolve = true;  ///< cut self-intersections; drop faces that bound nothing
+    bool detach = true;   ///< separate parts that touch in an edge or a vertex
+    /// Widest crack to close, in the mesh's length unit. By default the narrowest that leaves the
+    /// fewest open edges, out of 0, a float step, and 1e-6, 1e-5, 1e-4, 1e-3 of the diagonal of the
+    /// bounding box.
     std::optional<double> gap{};
     /// Fill holes of at most this many edges.
     std::uint64_t largest_hole = std::numeric_limits<std::uint64_t>::max();
-    /// Loose open pieces below this share of the area are dropped, and so are single triangles
-    /// below 1 %. Where a larger component vanishes since it bounds nothing, the status is
-    /// `excessive_loss`, unless `max_loss` is 1.
+    /// Drops loose open pieces below this share of the area, and single triangles below 1 %. If a
+    /// larger component vanishes since it bounds nothing, the status is `excessive_loss`, unless
+    /// `max_loss` is 1.
     double strays = 0.001;
     repair_rule inside = repair_rule::automatic;
-    /// Losing more than this share has the status `excessive_loss`: of the volume, or of the area
-    /// where there were holes. Area is lost of which nothing is left, neither in sight nor hidden
-    /// in the solid. 1 allows any loss.
+    /// Losing more than this share of the volume gives the status `excessive_loss`; if there were
+    /// holes, of the area. Faces that are still there or hidden in the solid are not lost. 1 allows
+    /// any loss.
     double max_loss = 0.05;
-    /// The mesh is an open surface: its border is kept, and nothing is filled.
-    bool sheet = false;
+    bool sheet = false;  ///< the mesh is an open surface: keep its border, and fill nothing
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
     /// As in `boolean_options`.
     double max_displacement = std::numeric_limits<double>::infinity();
-    bool keep_cuts = false;  ///< likewise; faces that fill holes are merged with each other alone
+    bool keep_cuts = false;  ///< likewise; filled faces only merge with each other
     progress_callback progress{};
 };
 
-/// What each step has done. Gaps closed, sides chosen and holes filled are guesses.
+/// Counts of each step's changes. Closed gaps, chosen orientations and filled holes are heuristic.
 struct repair_statistics {
     std::uint64_t tetrahedra = 0;     ///< tetrahedra that the faces were; their boundary was kept
     std::uint64_t degenerate = 0;     ///< faces without area, dropped; with such, slivers
@@ -120,10 +120,10 @@ struct repair_statistics {
     double volume_after = 0.0;
     double area_before = 0.0;
     double area_after = 0.0;
-    double area_lost = 0.0;  ///< as `repair_options::max_loss` counts it
+    double area_lost = 0.0;  ///< as in `repair_options::max_loss`
 };
 
-/// The mended mesh, where its parts came from, and what was checked.
+/// The repaired mesh, its sources, and its certificate.
 struct TREEFORM_API repair_result {
     /// Instead of a source: the face fills a hole, or the vertex is new.
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -141,7 +141,6 @@ struct TREEFORM_API repair_result {
     repair_statistics statistics{};
 
     /// The mesh.
-    ///
     /// \throws not_certified_error unless the certificate's status is ok
     [[nodiscard]] const treeform::mesh& value() const&;
     [[nodiscard]] treeform::mesh value() &&;
@@ -173,52 +172,53 @@ resolve_self_intersections(const mesh_ref& mesh, resolve_mode mode = resolve_mod
 /// A solid made of a dirty mesh: closed, oriented, manifold and free of self-intersections. Look at
 /// the certificate: it says whether this was possible, and where not.
 ///
-/// The steps are those of `repair_options`, in their order. Each leaves alone what needs nothing: a
-/// mesh that is a solid comes back bit for bit. What meets and what is inside is decided exactly.
-/// Which cracks close, which way faces point, and what fills a hole are guesses, and counted.
-/// Points with equal coordinates are one. Faces of four corners that are tetrahedra become their
-/// boundary. Where faces disagree, the cells that they cut space into are labeled inside or outside
-/// by a minimum cut, as they and generalized winding numbers disagree least, if less is lost then.
+/// The steps are those of `repair_options`, in this order. Each changes only what is defective: a
+/// mesh that is a solid is returned bit for bit. Which faces meet and what is inside is decided
+/// exactly. Which cracks are closed, how faces are oriented, and what fills a hole are heuristics,
+/// and counted. Points with equal coordinates are one. Faces that are the sides of tetrahedra are
+/// replaced by the boundary of the tetrahedra. If faces remain inconsistent, a minimum cut labels
+/// cells inside or outside, by the orientations of faces and generalized winding numbers; the
+/// result is used if it loses less.
 ///
-/// Holes are filled by triangles between their vertices; large ones of smooth surfaces by new
-/// points, so that the surface goes on as it does around them. Sheets are not filled, but said to
-/// be open, unless any loss is allowed: parts of less than 1 / 0.6 of the area that would close
-/// them, except those that end in a plane and lie to one side of it. Nor is a mesh where at more
-/// than a tenth as many edges as it has faces more than two faces meet and disagree.
+/// Holes are filled with triangles between their vertices; large holes in smooth surfaces also with
+/// new points, which continue the surface smoothly. Sheets are not filled, but reported as open,
+/// unless any loss is allowed. A sheet is a part with an area below 1 / 0.6 of the area that would
+/// close it, unless its border is in a plane and it is on one side of the plane. Nor is a mesh
+/// filled with more than one edge for 10 faces where three or more faces are inconsistent.
 ///
-/// \throws std::invalid_argument as `boolean`; for a gap or share that is negative or not finite
-/// \cost   O(V log V + F log F), as `resolve_self_intersections` where faces meet, and for a hole
-///         of n edges O(n^3) up to 100, then O(n^2)
+/// \throws std::invalid_argument as `boolean`; if a gap or share is negative or not finite
+/// \cost   O(V log V + F log F), plus `resolve_self_intersections` if faces meet; for a hole of n
+///         edges O(n^3) if n <= 100, else O(n^2)
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API repair_result repair(const mesh_ref& mesh,
                                                 const repair_options& options = {});
 
-/// What keeps a mesh from being a solid. Points with equal coordinates are one.
+/// The defects that keep a mesh from being a solid. Points with equal coordinates are one.
 struct TREEFORM_API solid_defects {
-    std::uint64_t nonfinite_vertices = 0;  ///< with a NaN or infinite coordinate, used or not
-    std::uint64_t unusable_faces = 0;      ///< with such a corner, or no vertex: not counted below
-    bool without_faces = false;            ///< there are points, but no face that can be used
-    std::uint64_t tetrahedra = 0;          ///< that the faces are, as of a volume mesh
-    std::uint64_t degenerate = 0;          ///< faces without area
-    std::uint64_t repeated = 0;            ///< faces with the corners of another one
-    std::uint64_t open_edges = 0;          ///< of one face
-    std::uint64_t nonmanifold_edges = 0;   ///< of more than two faces
-    std::uint64_t misoriented_edges = 0;   ///< of two faces that disagree
+    std::uint64_t nonfinite_vertices = 0;    ///< with a NaN or infinite coordinate, used or not
+    std::uint64_t unusable_faces = 0;        ///< with an invalid corner; not counted below
+    bool without_faces = false;              ///< there are points, but no usable face
+    std::uint64_t tetrahedra = 0;            ///< whose sides are faces, as in a volume mesh
+    std::uint64_t degenerate = 0;            ///< faces without area
+    std::uint64_t repeated = 0;              ///< faces with the same corners as another
+    std::uint64_t open_edges = 0;            ///< edges of one face
+    std::uint64_t nonmanifold_edges = 0;     ///< edges of more than two faces
+    std::uint64_t misoriented_edges = 0;     ///< edges of two inconsistently oriented faces
     std::uint64_t nonmanifold_vertices = 0;  ///< with more than one fan of faces
-    std::uint64_t meeting_pairs = 0;         ///< of faces that meet beyond their common corners
-    std::uint64_t inverted = 0;  ///< closed components that are inside out, and in no other one
-    /// Closed components that meet nowhere lie in each other, but not as a solid and its cavities.
+    std::uint64_t meeting_pairs = 0;         ///< pairs of faces that meet beyond common corners
+    std::uint64_t inverted = 0;  ///< closed components that are inside out, and inside no other one
+    /// Disjoint closed components are nested, but not as a solid and its cavities.
     bool wrongly_nested = false;
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is known
     [[nodiscard]] bool any() const;
-    /// "open at 37 edges, 2 pairs of faces meet"; "none" where there are none.
+    /// "open at 37 edges, 2 pairs of faces meet"; "none" if there are no defects.
     [[nodiscard]] std::string message() const;
 };
 
-/// What `repair` would have to mend, and what it does not take. Nothing without points is a solid.
+/// The defects that `repair` would mend or refuse. A mesh without points is a solid.
 ///
 /// \throws std::invalid_argument as `self_intersections`, but not for corners
-/// \cost   O(V log V + F log F), and as `self_intersections`
+/// \cost   O(V log V + F log F), plus `self_intersections`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API solid_defects find_solid_defects(const mesh_ref& mesh,
                                                             const progress_callback& progress = {});

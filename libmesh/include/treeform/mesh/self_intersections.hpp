@@ -115,15 +115,16 @@ struct intersection_result {
 /// segment or point that it is; its pairs have a kind of their own.
 ///
 /// \pre    every corner is less than `mesh.points.size()`, every coordinate is finite
-/// \throws std::invalid_argument naming the face or point that breaks this, when
-///         `component_of_face` has not one entry a face, or for `between` together with `within`
+/// \throws std::invalid_argument naming the face or point that violates this; if
+///         `component_of_face` does not have one entry for each face; for `between` together with
+///         `within`
 /// \cost   O(F log F + B) time for the B pairs whose boxes overlap, about 100 bytes a face
 /// \same   on any number of threads
 /// \source candidate pairs: Sajovic, Knez and Korez, tf::tree, section III-C
 [[nodiscard]] TREEFORM_API intersection_result
 self_intersections(const mesh_ref& mesh, const intersection_options& options = {});
 
-/// Faces that meet, in one place of the mesh.
+/// A connected set of faces that meet.
 struct intersection_region {
     std::vector<std::uint32_t> faces;  ///< ascending
     point3 min;                        ///< box of these faces
@@ -143,14 +144,14 @@ struct intersection_regions {
     friend bool operator==(const intersection_regions&, const intersection_regions&) = default;
 };
 
-/// Groups the faces in `pairs` into regions. Two of these faces are in one region when a pair or a
-/// shared corner links them, directly or through other such faces.
+/// Groups the faces in `pairs` into regions. Two of these faces are in one region if a pair or a
+/// shared corner links them, directly or through other faces of `pairs`.
 ///
 /// \pre    coordinates of the faces in `pairs` are finite
 /// \throws std::invalid_argument naming a pair with a face out of range, or the lowest face with a
 ///         corner out of range
-/// \cost   O(V + F + pairs) time except for an inverse Ackermann factor, about 8 bytes a face and 4
-///         a point
+/// \cost   O(V + F + pairs) time, up to an inverse Ackermann factor; about 8 bytes a face and 4 a
+///         point
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API intersection_regions group_pairs(mesh_view mesh,
                                                             std::span<const face_pair> pairs);
@@ -161,64 +162,63 @@ struct stream_search_options {
     pair_kinds kinds = pair_kinds::all;
     std::optional<box3> box{};       ///< only faces that meet it
     std::string format{};            ///< of the input, as for `read`
-    std::uint64_t memory = 0;        ///< bytes to take; 0: three quarters of the machine's
-    std::filesystem::path folder{};  ///< for the tiles; empty: the input's name and ".search-tiles"
-    std::uint64_t faces_per_tile = 0;       ///< at most about this many; 0: as the memory allows
+    std::uint64_t memory = 0;        ///< limit in bytes; 0: three quarters of the machine's memory
+    std::filesystem::path folder{};  ///< of the tiles; empty: the input's name and ".search-tiles"
+    std::uint64_t faces_per_tile = 0;       ///< approximate limit; 0: as the memory allows
     treeform::communicator communicator{};  ///< not for `stream_search`
-    /// Called with the step ("scatter", "pairs") and the share of it that is done. Returning false
+    /// Called with the step ("scatter", "pairs") and its completed share, 0 to 1. Returning false
     /// cancels.
     std::function<bool(std::string_view, double)> progress{};
-    /// Called after each step that need not be repeated when the run is interrupted.
-    std::function<void()> step_done{};
+    std::function<void()> step_done{};  ///< called after each step that a restart would skip
 };
 
 /// What was found in the file.
 struct stream_search_result {
-    /// Only the faces that meet others, in the order of the file; its `degenerate` and `dropped`
-    /// are those of all faces.
+    /// Only the faces that meet others, in the order of the file; `degenerate` and `dropped` count
+    /// all faces.
     usable_mesh part{};
     /// Pairs of faces of `part`. Its counters are sums over the tiles.
     intersection_result found{};
     std::uint64_t stored_faces = 0;  ///< faces of the file
-    std::uint64_t triangles = 0;     ///< that they are cut into
-    std::uint64_t searched = 0;      ///< triangles that are finite, and meet the box
-    std::uint64_t points = 0;        ///< of the file; three a face for STL
+    std::uint64_t triangles = 0;     ///< triangles of these faces
+    std::uint64_t searched = 0;      ///< finite triangles that meet the box
+    std::uint64_t points = 0;        ///< points of the file; for STL three for each face
     std::optional<box3> bounds{};    ///< of all finite points of the file
     mesh_file header{};              ///< format, precision and warnings; no mesh
     std::size_t tiles = 0;
-    std::size_t finished_tiles = 0;  ///< by an earlier run
-    bool started_anew = false;       ///< what the folder held was of other options or another input
+    std::size_t finished_tiles = 0;  ///< tiles finished by an earlier run
+    bool started_anew = false;       ///< the folder held tiles of other options or another input
 };
 
 /// The pairs that `self_intersections` finds in the usable part of a file, for files larger than
-/// memory: binary STL, and PLY whose vertices come ahead of its faces. Space is cut into tiles;
-/// each gets a copy, on the disk, of the faces that reach into it, which must fit into memory. A
-/// pair counts in the tile that holds the lowest corner of the common part of the boxes of its
-/// faces, so it counts once.
+/// memory: binary STL, and PLY with vertices before faces. Space is cut into tiles. Each tile gets
+/// a copy, on the disk, of the faces that reach into it; they must fit into memory. A pair counts
+/// once: in the tile that contains the lowest corner of the intersection of its faces' boxes.
 ///
-/// The folder stays when the process is killed, and the same call goes on from there. With several
-/// ranks, rank 0 makes the tiles, all search them, and rank 0 gets the result.
+/// If the process is killed, the folder stays, and the same call resumes there. With several ranks,
+/// rank 0 makes the tiles, all ranks search them, and rank 0 gets the result.
 ///
-/// \throws io_error when the file cannot be read or is of another format; stream_error for the
-///         folder; std::length_error for more than 2^32 - 1 triangles
-/// \cost   time as `self_intersections`; memory as the options say, plus what is found; 60 to 100
-///         bytes on the disk for each tile that a face reaches into, and 24 a vertex of a PLY
+/// \throws io_error if the file cannot be read or has another format; stream_error for the folder;
+///         std::length_error for more than 2^32 - 1 triangles
+/// \cost   time as `self_intersections`; memory as in the options, plus the result; on the disk 60
+///         to 100 bytes for each tile that a face reaches into, and 24 bytes for each vertex of a
+///         PLY
 /// \same   on any number of threads, with any memory and any folder
 [[nodiscard]] TREEFORM_API stream_search_result self_intersections_of_file(
     const std::filesystem::path& input, const stream_search_options& options = {});
 
-/// The same step by step, for many processes, of one machine or of several that see the folder: one
-/// calls `scatter`; then each calls `search_tile` for its share of the tiles; and when all have
-/// ended, one calls `finish` and `remove_folder`. A tile that is finished is not searched again,
-/// and two that search one tile at the same time write the same.
+/// The same step by step, for many processes on one machine or on several that share the folder:
+/// one process calls `scatter`; then each calls `search_tile` for its share of the tiles; after all
+/// have ended, one calls `finish` and `remove_folder`. Steps are idempotent: finished tiles are
+/// skipped, and two processes that search the same tile write the same bytes.
 ///
-/// All give the same input and options. Steps throw as `self_intersections_of_file`. They return
-/// status::cancelled where `progress` said so, else status::ok.
+/// All processes must use the same input and options. Steps throw as `self_intersections_of_file`.
+/// They return status::cancelled if `progress` returned false, else status::ok.
 class TREEFORM_API stream_search {
   public:
-    /// Whether the file is of a format that is searched in tiles.
+    /// Whether the file has a format that can be searched in tiles.
     ///
-    /// \throws io_error when the file cannot be read, or its header is damaged
+    /// \throws io_error if the file cannot be read, or its header is damaged
     [[nodiscard]] static bool accepts(const std::filesystem::path& input,
                                       std::string_view format = {});
 
@@ -227,16 +227,16 @@ class TREEFORM_API stream_search {
     stream_search(stream_search&&) noexcept;
     stream_search& operator=(stream_search&&) noexcept;
 
-    /// Gives each tile its faces, unless they have them.
+    /// Writes the faces of each tile, unless already done.
     [[nodiscard]] status scatter();
     /// Number of tiles.
     ///
-    /// \throws stream_error before `scatter` has ended, here or elsewhere; so do the steps below
+    /// \throws stream_error before `scatter` has ended in any process; likewise the steps below
     [[nodiscard]] std::size_t tiles();
     [[nodiscard]] std::vector<std::size_t> unfinished();  ///< tiles
-    /// \throws std::out_of_range for a tile that is not there
+    /// \throws std::out_of_range for a tile out of range
     [[nodiscard]] status search_tile(std::size_t tile);
-    /// Puts together what was found.
+    /// Combines the results of all tiles.
     ///
     /// \throws stream_error naming tiles that are not finished, at most a hundred
     [[nodiscard]] stream_search_result finish();

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Fewer faces for a surface, within a distance that is proven both ways.
+/// Edge collapse within a distance that is proven in both directions.
 ///
 ///     tf::simplify_result fewer = tf::simplify(scan, 0.05);
 
@@ -16,44 +16,48 @@
 
 namespace treeform {
 
-/// How to leave faces out.
+/// How to simplify.
 struct simplify_options {
-    /// Precision of points. With float32, all are rounded first, and bounds count that; values are
-    /// stored as doubles.
+    /// Precision of the points returned. With float32, all points are rounded first, and the bounds
+    /// include this; values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
-    std::size_t target_faces = 0;  ///< stop at so many faces
-    /// Edges whose faces turn by more degrees are features; 180: none.
+    std::size_t target_faces = 0;  ///< stop at this number of faces
+    /// Edges are features if the normals of their faces differ by more than this, in degrees; 180:
+    /// none.
     double feature_angle = 180.0;
     /// [F] or empty: edges between faces of different groups are borders of both.
     std::span<const std::uint32_t> face_groups{};
     /// [3 F] or empty: groups of corners. An edge is a seam, and so a border of both faces, unless
-    /// their corners at each of its ends are of one group. `carry_sources` has those of a file.
+    /// at each end the corners of both faces are in one group. `carry_sources` has the groups of a
+    /// file.
     std::span<const std::uint32_t> corner_groups{};
     progress_callback progress{};
 };
 
-/// The mesh with fewer faces, and what was proven and checked.
+/// The simplified mesh, proven distances, and its certificate.
 struct simplify_result {
     static constexpr std::uint32_t none = operand_element::none;
 
     treeform::mesh mesh;
-    std::vector<std::uint32_t> face_source;    ///< [F] the face of the input that each was
-    std::vector<std::uint32_t> vertex_source;  ///< [V] vertex of the input that each is; none: new
-    /// [V] of a new vertex, the face of the input that is nearest to it, on its side of seams; else
-    /// none
+    std::vector<std::uint32_t> face_source;    ///< [F] the input face of each face
+    std::vector<std::uint32_t> vertex_source;  ///< [V] input vertex equal to each vertex; none: new
+    /// [V] for a new vertex, the nearest input face on its side of seams; else none
     std::vector<std::uint32_t> face_of_new_vertex;
-    /// [3 F] the corner of the input that each is at (3 f + i for corner i of face f), on its side
-    /// of seams; none at new vertices
+    /// [3 F] the input corner (3 f + i for corner i of face f) at the vertex of each corner, on its
+    /// side of seams; none at new vertices
     std::vector<std::uint32_t> corner_source;
-    std::uint64_t collapses = 0;            ///< edges that became a vertex
-    std::uint64_t refused_by_topology = 0;  ///< edges tried whose collapse would change it
-    std::uint64_t refused_by_turning = 0;   ///< edges whose collapse would turn a face about
-    std::uint64_t refused_by_distance = 0;  ///< edges whose collapse was not proven near
-    std::uint64_t refused_by_contact = 0;   ///< edges whose collapse would make faces meet
-    double there_at_most = 0.0;             ///< no point of the input is further from the result
-    double back_at_most = 0.0;              ///< no point of the result is further from the input
-    /// Status ok: the result was looked at, and of what `find_solid_defects` counts nothing is more
-    /// than it was. So a solid is one still. Else `not_certified`, or `cancelled`.
+    std::uint64_t collapses = 0;            ///< edges collapsed
+    std::uint64_t refused_by_topology = 0;  ///< edges whose collapse would change the topology
+    std::uint64_t refused_by_turning = 0;   ///< edges whose collapse would turn a face too far
+    /// Edges whose collapse was not proven within the distance.
+    std::uint64_t refused_by_distance = 0;
+    std::uint64_t refused_by_contact = 0;  ///< edges whose collapse would make faces meet
+    /// Bound of the distance from any input point to the result.
+    double there_at_most = 0.0;
+    /// Bound of the distance from any point of the result to the input.
+    double back_at_most = 0.0;
+    /// Status ok: no count of `find_solid_defects` is larger than for the input. So a solid is
+    /// still a solid. Otherwise `not_certified` or `cancelled`.
     treeform::certificate certificate{};
 
     /// The mesh.
@@ -64,27 +68,27 @@ struct simplify_result {
     }
 };
 
-/// The mesh with fewer faces: edges are collapsed, those first that change the surface least.
+/// The mesh with fewer faces, by edge collapses in the order of their quadric error.
 ///
-/// Both surfaces are within `max_distance` of each other: each face is proven so, none is sampled.
-/// No two faces are made to meet, exactly, on the coordinates returned; where faces of the input
-/// meet, they are left to do so. A closed, oriented manifold stays one. What lies inside of what is
-/// looked at in the end alone: the certificate says if that has changed.
+/// Input and result are within `max_distance` of each other: this is proven for each face, not
+/// sampled. No collapse makes faces meet, exactly, on the coordinates returned; faces of the input
+/// that meet may still meet. A closed, oriented manifold stays one. The nesting of components is
+/// only checked at the end; the certificate tells if it changed.
 ///
-/// Borders, and edges of features and groups, are simplified along themselves: of their vertices,
-/// some stay, and they are within the distance of what they were, too. Where they end, branch or
-/// cross, at edges of more than two faces or of faces that do not run both ways, and where faces at
-/// a vertex are no fan, vertices stay as they are.
+/// Borders, features, and borders of groups are simplified as polylines on their own vertices,
+/// within the same distance. Vertices stay where such lines end, branch or cross, at nonmanifold or
+/// inconsistently oriented edges, and at vertices whose faces are not one fan.
 ///
-/// A distance below what doubles can prove, some 2^-46 of the largest coordinate, collapses
-/// nothing, nor are coordinates whose squares are no doubles. Corners with equal coordinates are
-/// one vertex; faces with two equal corners go, and are no part of either surface.
+/// Nothing is collapsed if the distance is below about 2^-46 of the largest coordinate, which
+/// doubles cannot prove, or if squares of coordinates overflow or underflow. Corners with equal
+/// coordinates are one vertex; faces with two equal corners are dropped, and belong to neither
+/// surface.
 ///
-/// \throws std::invalid_argument for a distance that is negative or not finite, another number of
-///         groups than of faces or corners, or a face with a corner that is out of range or not
-///         finite
-/// \cost   50 to 150 microseconds a collapse, serial: O(n log n) for n collapses, more where a face
-///         comes to stand for many; 1 kB a face; and `find_solid_defects` before and after
+/// \throws std::invalid_argument for a distance that is negative or not finite, for a number of
+///         groups other than that of faces or corners; naming a face with a corner that is out of
+///         range or not finite
+/// \cost   O(n log n) for n collapses, 50 to 150 microseconds each, serial; more if a face replaces
+///         many; 1 kB a face; plus `find_solid_defects` before and after
 /// \same   on any number of threads
 /// \source Garland and Heckbert, Surface Simplification Using Quadric Error Metrics, SIGGRAPH 1997
 [[nodiscard]] TREEFORM_API simplify_result simplify(const mesh_ref& mesh, double max_distance,

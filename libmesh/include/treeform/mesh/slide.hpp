@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Moves a mesh against others: slide, drop, mate (by nearest points, planes or axes), separate.
+/// Moves a mesh relative to others: slide, drop, mate (by nearest points, planes or axes),
+/// separate.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/placement.hpp>
@@ -43,23 +44,23 @@ struct placement_options {
     progress_callback progress{};
 };
 
-/// Moves `moving` along `direction` (of any length) until it first meets one of `fixed`, or comes
-/// as near to one as the clearance.
+/// Moves `moving` along `direction` (of any length) until it first meets one of `fixed`, or is at
+/// the clearance from one.
 ///
-/// Without a clearance, the time of the contact is exact (`time_of_impact`); with one, it is as
-/// `time_to_distance` says. The coordinates returned are checked again. Where rounding made them
-/// penetrate, or come nearer than the clearance, they are moved back by units in the last place.
-/// A mesh that touches at the start stays there. One that penetrates has no place. Points that no
-/// face uses move along and are otherwise ignored.
+/// Without a clearance, the time of contact is exact (`time_of_impact`); with a clearance, it is
+/// that of `time_to_distance`. The returned coordinates are checked again: if rounding made the
+/// mesh penetrate, or come nearer than the clearance, it is moved back by units in the last place.
+/// A mesh that touches at the start stays there. A mesh that penetrates at the start has no place.
+/// Points without faces move along and are otherwise ignored.
 ///
-/// Only fixed meshes on the way are looked at and indexed. For many calls, keep them as prepared
-/// meshes. Clouds are `prepared_mesh::cloud`.
+/// Only fixed meshes on the way are tested and indexed. For many calls, pass prepared meshes. Make
+/// point clouds with `prepared_mesh::cloud`.
 ///
-/// \throws std::invalid_argument for a direction that is zero or not finite, a clearance that is
-///         negative or not finite, a bed that is not finite or beyond float32, and naming the
-///         operand and its lowest face with a corner out of range or not finite
-/// \cost   O(V + F) of all to check the input; the search in motion; and for each attempt at
-///         coordinates a tree over `moving` and a `relation` to what is near
+/// \throws std::invalid_argument for a direction that is zero or not finite; a clearance that is
+///         negative or not finite; a bed that is not finite or beyond float32; naming the operand
+///         and its lowest face with a corner out of range or not finite
+/// \cost   O(V + F) of all meshes to check the input; the search in motion; for each attempt at
+///         rounding a tree over `moving` and a `relation` to the meshes nearby
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API placement slide(const mesh_ref& moving, const mesh_refs& fixed,
                                            const point3& direction,
@@ -68,7 +69,7 @@ struct placement_options {
 /// Moves `moving` down until it rests on the bed. From below the bed it goes up, back along the
 /// direction.
 ///
-/// \throws std::invalid_argument as `slide`, and for a direction that does not lead down
+/// \throws std::invalid_argument as `slide`; for a direction that does not point down
 /// \cost   O(V)
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API placement drop(const mesh_ref& moving,
@@ -76,14 +77,14 @@ struct placement_options {
                                           const point3& direction = {0.0, 0.0, -1.0});
 
 /// Moves `moving` down until it rests on one of `fixed`, or on the bed if there is one, as `slide`
-/// does. A mesh that reaches below the bed has no place.
+/// does. A mesh that starts below the bed has no place.
 [[nodiscard]] TREEFORM_API placement drop(const mesh_ref& moving, const mesh_refs& fixed,
                                           const placement_options& options = {},
                                           const point3& direction = {0.0, 0.0, -1.0});
 
-/// Translates `moving` so that its nearest points to `fixed` come together, or to the clearance.
-/// Coordinates are checked as in `slide`. A mesh that touches stays; one that penetrates has no
-/// place.
+/// Translates `moving` so that the nearest points of `moving` and `fixed` meet, or are at the
+/// clearance. Coordinates are checked as in `slide`. A mesh that touches stays; a mesh that
+/// penetrates has no place.
 ///
 /// \throws std::invalid_argument as `slide`
 /// \cost   `measure` for the fixed meshes that may be the nearest, and a `slide`
@@ -91,20 +92,21 @@ struct placement_options {
 [[nodiscard]] TREEFORM_API placement mate(const mesh_ref& moving, const mesh_refs& fixed,
                                           const placement_options& options = {});
 
-/// Translates `moving` to where it penetrates none of `fixed` and keeps the clearance. It stays
-/// when it already does.
+/// Translates `moving` to a place where it penetrates none of `fixed` and keeps the clearance. It
+/// stays if it already does.
 ///
-/// Some fifty directions are tried: the axes, away from the nearest points, the normals of faces
-/// that meet, and others around the best. Of the places found, the nearest is returned whose
-/// coordinates pass the check of `slide`. It need not be the nearest place of all: that one is on
-/// the boundary of a set with O(n^2 m^2) faces. The search ends by its effort, and passes over
-/// places that take much of it, as that of `penetration_depth` does: `placement::effort` says so.
+/// About fifty directions are tried: the axes, away from the nearest points, normals of faces that
+/// meet, and others around the best. The nearest of the places found is returned, if its
+/// coordinates pass the check of `slide`. It need not be the globally nearest place, which is on
+/// the boundary of a set with O(n^2 m^2) faces. The search is limited by `effort`, and skips
+/// candidates that would take much of it, as in `penetration_depth`; `placement::effort` tells how
+/// many.
 ///
 /// \throws std::invalid_argument as `slide`
-/// \cost   for each direction up to a dozen `intersects` or `distance`, a tree over `moving` and a
+/// \cost   for each direction up to about 12 `intersects` or `distance`, a tree over `moving` and a
 ///         search in motion
 /// \same   on any number of threads
-/// \source why the least translation is no target: Dobkin, Hershberger, Kirkpatrick and Suri,
+/// \source on the cost of the least translation: Dobkin, Hershberger, Kirkpatrick and Suri,
 ///         Computing the Intersection-Depth of Polyhedra, Algorithmica 9 (1993)
 [[nodiscard]] TREEFORM_API placement separate(const mesh_ref& moving, const mesh_refs& fixed,
                                               const placement_options& options = {});
@@ -118,18 +120,18 @@ struct placement_options {
 [[nodiscard]] TREEFORM_API placement measure_among(const mesh_ref& moving, const mesh_refs& fixed,
                                                    const placement_options& options = {});
 
-/// Turns `moving` by the least angle that makes the two features' directions opposite (planes) or
-/// parallel (axes), puts center above center, and slides it from outside along the direction of the
-/// fixed feature until first contact with any of `fixed`, or the clearance, exactly as `slide`
-/// does. Planes come from the side that the fixed one looks to; axes from the side where `moving`
+/// Rotates `moving` by the least angle that makes the features' directions opposite (planes) or
+/// parallel (axes), aligns their centers, and slides `moving` from outside along the direction of
+/// the fixed feature until first contact with any of `fixed`, or the clearance, exactly like
+/// `slide`. Planes approach from the front of the fixed plane; axes from the side where `moving`
 /// is.
 ///
 /// A shaft may go through its bore and meet nothing: then its center stays at that of the bore, if
 /// that penetrates nothing and keeps the clearance. The place is looked at exactly, in the
 /// coordinates returned. `travel` is 0.
 ///
-/// \throws std::invalid_argument for features of two kinds, or with a direction that is not of
-///         length 1 or an origin that is not finite, and as `slide`
+/// \throws std::invalid_argument as `slide`; for features of different kinds, with a direction that
+///         is not of length 1, or with an origin that is not finite
 /// \cost   that of `slide`, and two trees over `moving`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API placement mate_features(const mesh_ref& moving, const mesh_refs& fixed,

@@ -10,16 +10,16 @@
 
 namespace treeform {
 
-/// A solid bounded by a mesh, or made of others by `+` (union), `*` (intersection), `-`
-/// (difference) and `^` (exclusive or).
+/// A solid bounded by a mesh, or made from others by `+` (union), `*` (intersection), `-`
+/// (difference) and `^` (symmetric difference).
 ///
-/// Cheap to copy: copies share what they hold. Operators only collect the formula. The first call
-/// of `result` or `mesh` computes all of it at once, exactly, and keeps the result. Const functions
-/// may be called from any threads.
+/// Cheap to copy: copies share their data. Operators only build a formula. The first call of
+/// `result` or `mesh` evaluates all of it at once, exactly, and caches the result. Const functions
+/// may be called from several threads.
 class TREEFORM_API solid {
   public:
-    /// \throws not_certified_error saying where the mesh is open, if it does not bound a solid as
-    ///         an operand of `boolean` has to; std::invalid_argument as `boolean`
+    /// \throws not_certified_error if the mesh does not bound a solid, as operands of `boolean`
+    ///         must, with the open edges; std::invalid_argument as `boolean`
     /// \cost   as `check_solid`
     explicit solid(treeform::mesh&& owned);
     /// The same for a copy.
@@ -33,8 +33,8 @@ class TREEFORM_API solid {
     friend TREEFORM_API solid operator^(const solid& a, const solid& b);
 
     /// The result of `boolean` for the formula, certified or not. For a single mesh, the solid that
-    /// it winds around. Sources number the meshes of the formula from left to right; a mesh that
-    /// occurs several times has one number.
+    /// it winds around. In sources, the meshes of the formula are numbered from left to right; a
+    /// mesh that occurs several times has one number.
     /// \cost   as `boolean` of all meshes in the formula, once
     [[nodiscard]] const boolean_result& result() const;
     /// The surface.

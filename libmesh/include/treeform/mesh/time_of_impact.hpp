@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// How far a mesh can be moved in a direction, or turned about an axis, until it meets another, or
-/// comes near it.
+/// How far a mesh can be moved in a direction, or rotated about an axis, until it meets another or
+/// comes within a distance.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -20,16 +20,16 @@
 
 namespace treeform {
 
-/// Where the meshes start, and how far to look.
+/// Start positions of the meshes, and limits.
 struct impact_options {
-    /// Applied to each mesh before the motion. A moved corner is what `transform::operator()`
-    /// gives, rounded; the answer is exact for these coordinates. A prepared mesh itself is not
-    /// changed.
+    /// Applied to each mesh before the motion. Moved corners are computed by
+    /// `transform::operator()` and rounded; the result is exact for these coordinates. A prepared
+    /// mesh is not changed.
     transform<3> move_a{};
     transform<3> move_b{};
     /// Ignore contacts after this time.
     double latest = std::numeric_limits<double>::infinity();
-    /// List at most this many contacts, those of the lowest face numbers.
+    /// List at most this many contacts, those with the lowest face numbers.
     std::size_t limit = 1000;
     progress_callback progress{};
 };
@@ -53,23 +53,21 @@ struct impact {
     double time = 0.0;
     std::vector<face_contact> contacts{};  ///< pairs that meet at t, ascending; empty at the start
     std::uint64_t contact_count = 0;       ///< all pairs that meet at t, listed or not
-    std::uint64_t pairs_tested = 0;        ///< pairs of faces looked at; the rest was skipped
-    predicate_counters predicates{};       ///< used for these and for the order of their times
+    std::uint64_t pairs_tested = 0;        ///< pairs of faces tested; the rest was skipped
+    predicate_counters predicates{};       ///< used for these pairs, and to compare their times
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is known
 };
 
-/// The least t >= 0 at which `a`, moved by t times `motion`, has a point in common with `b`.
+/// The least t >= 0 at which `a`, moved by t times `motion`, has a common point with `b`.
 ///
 /// Exact on the coordinates as given, or as moved by the options. Times of pairs of faces are
-/// compared as exact quotients of determinants, so all contacts at equal times are found, even of
+/// compared as exact quotients of determinants, so all simultaneous contacts are found, even of
 /// parallel or coplanar faces. Surfaces count, not solids: inside a closed mesh, `a` moves until it
-/// meets the wall. Meshes that only graze each other have a contact.
+/// meets the surface. Grazing is a contact.
 ///
-/// \throws std::invalid_argument for a motion that is zero or not finite, a time that is negative
-///         or NaN, and naming the mesh and its lowest face with a corner out of range or not
-///         finite
-/// \cost   that of `intersects`, and of a search along the motion, which most boxes never enter;
-///         serial
+/// \throws std::invalid_argument for a motion that is zero or not finite; a time that is negative
+///         or NaN; naming the mesh and its lowest face with a corner out of range or not finite
+/// \cost   `intersects`, plus a search along the motion, which excludes most boxes; serial
 /// \same   on every machine
 [[nodiscard]] TREEFORM_API impact time_of_impact(const mesh_ref& a, const mesh_ref& b,
                                                  const point3& motion,
@@ -79,9 +77,9 @@ struct impact {
 /// `distance` (not squared).
 ///
 /// Not exact: whether a pair comes nearer than the distance is decided to 2^-48 of the largest
-/// coordinate, so a mesh that slides along a wall at just the distance moves on. The time has
-/// rounding errors of that size along the motion, and larger ones where the motion nearly grazes.
-/// `slide` checks the place itself. For the distance 0, use `time_of_impact`, which is exact.
+/// coordinate, so a mesh that slides along a wall at exactly the distance is free. The time has
+/// errors of that size along the motion, and larger ones if the motion nearly grazes. `slide`
+/// checks its result. For the distance 0, use `time_of_impact`, which is exact.
 ///
 /// The impact is a contact if they are nearer right after its time, and at the start if they are
 /// nearer there. Contacts are the pairs of faces at the distance, as computed: their points are on
@@ -90,9 +88,10 @@ struct impact {
 /// The distance of two triangles is a convex function of t. So tangents from the left never pass
 /// the time at which it falls to a value, and Newton's method finds that time from below.
 ///
-/// \throws std::invalid_argument for a distance that is not finite or not positive, and as
-///         `time_of_impact`
-/// \cost   as `time_of_impact`, a tree over `a`, and some 5 distances of triangles a pair
+/// \throws std::invalid_argument as `time_of_impact`; for a distance that is not finite or not
+///         positive
+/// \cost   as `time_of_impact`, plus a tree over `a`, and about 5 distances of triangles for each
+///         pair
 /// \same   on every machine
 /// \source convex distance in motion: Cameron, Enhancing GJK, ICRA 1997, and Mirtich's conservative
 ///         advancement, here for pairs of faces
@@ -100,7 +99,7 @@ struct impact {
                                                    const point3& motion, double distance,
                                                    const impact_options& options = {});
 
-/// A line to turn about, to the right (counter-clockwise, seen against `direction`).
+/// An axis of rotation; rotations are right-handed (counter-clockwise seen against `direction`).
 struct turn_axis {
     point3 origin{};                  ///< any point of the line
     point3 direction{0.0, 0.0, 1.0};  ///< of any length but 0
@@ -109,13 +108,13 @@ struct turn_axis {
 /// Turns `moving` about the axis until it first comes within the tolerance of one of `fixed`, or of
 /// the clearance from one.
 ///
-/// On the way there it meets nothing, up to the rounding of distances: each step is one that no
-/// pair of faces can have met in, by bounds on how fast their corners approach. At the place, the
-/// coordinates returned are looked at exactly: they penetrate nothing, and keep the clearance as
-/// `distance` computes it. Where rounding has it otherwise, the turn goes back by units in the last
-/// place. A mesh that touches at the start stays; one that penetrates has no place. With
-/// `nothing_met`, all of `max_angle` is free. With `too_many_steps` it was not found out: something
-/// is passed at a distance that is very small against the size, over a long way.
+/// Conservative advancement: in no step can a pair of faces meet, by bounds on the speed of their
+/// corners, up to the rounding of distances. The returned coordinates are checked exactly: they
+/// penetrate nothing, and keep the clearance as computed by `distance`. If rounding violates that,
+/// the rotation is reduced by units in the last place. A mesh that touches at the start stays; one
+/// that penetrates has no place. With `nothing_met`, all of `max_angle` is free. `too_many_steps`
+/// means undecided: the mesh passes another at a distance that is very small compared with its
+/// size, over a long way.
 ///
 /// `travel` is 0, and `points` differ from `matrix` by a few units in the last place of the largest
 /// coordinate. `contacts` are the pairs of faces within the tolerance, beyond the clearance.
@@ -124,11 +123,11 @@ struct turn_axis {
 /// Points that no face uses turn along and are otherwise ignored. Clouds are
 /// `prepared_mesh::cloud`.
 ///
-/// \throws std::invalid_argument for an axis that is zero or not finite, an angle out of range, a
-///         tolerance that is not positive, and as `slide`
-/// \cost   for each step the pairs of faces near each other. Some ten to a hundred steps where it
-///         comes to meet something head on; in the order of sqrt(length / gap) for each radian in
-///         which it passes something at a gap
+/// \throws std::invalid_argument as `slide`; for an axis that is zero or not finite, an angle out
+///         of range, or a tolerance that is not positive
+/// \cost   for each step the pairs of faces near each other. About 10 to 100 steps to a head-on
+///         contact; O(sqrt(length / gap)) steps for each radian along which it passes a mesh at a
+///         gap
 /// \same   on any number of threads
 /// \source the idea of steps by a bound of the motion: Mirtich, Impulse-based Dynamic Simulation of
 ///         Rigid Body Systems (1996), conservative advancement

@@ -17,17 +17,17 @@
 
 namespace treeform {
 
-/// Which points become one: each group of points.
+/// A partition of points into groups, each of which becomes one point.
 struct point_groups {
     std::vector<std::uint32_t> group_of_point{};  ///< [V] groups in the order of their first points
-    /// [G] the first point of each, ascending: the lowest-numbered, unless `order` asks for another
+    /// [G] the first point of each group, ascending: the lowest-numbered, unless `order` is set
     std::vector<std::uint32_t> first_of_group{};
     treeform::status status = status::ok;  ///< or cancelled; then the rest is empty
 
-    /// `mesh` with the points of each group joined: the groups' first points in order and unmoved,
-    /// faces in order, also those that now repeat a corner. Nothing else is dropped.
+    /// `mesh` with the points of each group joined: the first points of the groups, in order and
+    /// unmoved, and all faces in order, also those that now repeat a corner.
     ///
-    /// \throws std::invalid_argument for groups of another number of points, or naming the lowest
+    /// \throws std::invalid_argument for a mesh with another number of points; naming the lowest
     ///         face with a corner out of range
     /// \cost   O(V + F)
     [[nodiscard]] TREEFORM_API mesh joined(mesh_view mesh) const;
@@ -59,14 +59,14 @@ struct point_groups {
 struct weld_statistics {
     std::uint64_t groups = 0;      ///< groups of two points or more
     std::uint64_t non_finite = 0;  ///< points with a NaN or infinite coordinate, left as they are
-    std::uint64_t collapsed = 0;   ///< faces that repeat a corner now, but did not before
+    std::uint64_t collapsed = 0;   ///< faces that repeat a corner only after the weld
     std::uint64_t degenerate = 0;  ///< faces that repeated a corner before
-    /// The furthest that a point moved, rounded up to a double.
+    /// The largest distance that a point moved, rounded up to a double.
     double max_displacement = 0.0;
     std::uint64_t nonmanifold_before = 0;  ///< edges of more than two faces
     std::uint64_t nonmanifold_after = 0;
     std::uint64_t flipped = 0;     ///< kept faces whose normal turned by more than a right angle
-    std::uint64_t left_alone = 0;  ///< groups that `keep_manifold` did not merge whole
+    std::uint64_t left_alone = 0;  ///< groups that `keep_manifold` did not merge completely
 };
 
 /// The welded mesh.
@@ -76,98 +76,97 @@ struct weld_result {
         attributes{};       ///< rows of "vertex", "face" and corners match points and faces
     point_groups groups{};  ///< of the input points; group numbers are points of `mesh`
     std::vector<std::uint32_t> point_of_group{};  ///< [G] input point that gave its properties
-    std::vector<std::uint32_t> face_of_new{};     ///< [F'] input face that each face was
+    std::vector<std::uint32_t> face_of_new{};     ///< [F'] input face of each face
     weld_statistics statistics{};
     treeform::status status = status::ok;  ///< or cancelled; then the rest is empty
 };
 
 /// The welded file.
 struct file_weld_result {
-    mesh_file file{};       ///< like the input, with the points and faces that are kept
+    mesh_file file{};       ///< like the input, with the kept points and faces
     point_groups groups{};  ///< of the input points; group numbers are points of `file`
     std::vector<std::uint32_t> point_of_group{};  ///< [G] input point that gave its properties
-    std::vector<std::uint32_t> face_of_new{};     ///< [F'] input triangle that each triangle was
+    std::vector<std::uint32_t> face_of_new{};     ///< [F'] input triangle of each triangle
     weld_statistics statistics{};                 ///< of triangles
     treeform::status status = status::ok;         ///< or cancelled; then the rest is empty
 
-    /// Sets the flag "withheld" of LAS (a column of "vertex", made where there is none) at the
-    /// points of `input`, of which `weld` made this, that are not kept; others keep theirs.
+    /// Sets the flag "withheld" of LAS (a column of "vertex", added if missing) at the points of
+    /// `input` that are not kept; other points keep their flag. `input` is the file that was
+    /// welded.
     ///
-    /// \throws std::invalid_argument when it is of another number of points
+    /// \throws std::invalid_argument if `input` has another number of points
     TREEFORM_API void withhold(mesh_file& input) const;
 };
 
-/// `mesh`, or a cloud of points, with the points merged that are within the tolerance of each
-/// other.
+/// Merges the points of a mesh or point cloud that are within the tolerance of each other.
 ///
-/// Whether two points are within the tolerance is decided exactly on the coordinates as given, and
-/// so is which of two points is nearer. Points are in the order of the first points of their
-/// groups; faces keep their order. With `weld_keep::first`, points that are kept keep their
-/// coordinates bit for bit. A point with a NaN or infinite coordinate is merged with no other, not
+/// Distances are compared exactly, on the coordinates as given. Points are in the order of the
+/// first points of their groups; faces keep their order. With `weld_keep::first`, kept points keep
+/// their coordinates bit for bit. A point with a NaN or infinite coordinate is never merged, not
 /// even with a copy of itself.
 ///
-/// Faces that repeat a corner are dropped unless `keep_degenerate` is set, whether they repeated it
-/// before (`degenerate`) or not (`collapsed`). So input faces = faces of the result + collapsed +
-/// degenerate. Faces that have become equal to others stay. Edges are counted over faces with three
-/// different corners.
+/// Faces that repeat a corner are dropped unless `keep_degenerate` is set: those that repeated it
+/// before (`degenerate`) and those that do now (`collapsed`). So input faces = faces of the result
+/// + collapsed + degenerate. Faces that became equal to others stay. Edges are counted over faces
+/// with three different corners.
 ///
 /// With `keep` other than `first`, kept points may be within the tolerance of each other again, and
 /// with the rule `first` a point may move by twice the tolerance.
 ///
-/// A mean is the first point's value plus the differences of the others from it, added in the order
-/// of points and rounded at each step. For n values that differ by at most d, it is wrong by at
-/// most n d 2^-52 and one unit in the last place. It lies between the least and the greatest value;
-/// float32 columns round once more. Averaged normals are not scaled to length 1. A mean over a NaN
-/// or an infinity is NaN.
+/// A mean is the first point's value plus the mean of the differences from it, added in the order
+/// of points and rounded at each step. For n values that differ by at most d, its error is at most
+/// n d 2^-52 plus one unit in the last place. It is between the least and the greatest value;
+/// float32 columns are rounded once more. Averaged normals are not scaled to length 1. A mean with
+/// a NaN or an infinity is NaN.
 ///
 /// `keep_manifold` merges points of a group only along edges: two edges that would become one edge
-/// with at most two faces, or an edge that shrinks to a point. Points of a group that are linked in
-/// this way become one point; the other points of the group stay separate. Each such part has its
-/// own first, last or mean; points that no face uses join the lowest part that has faces. So a
-/// surface that was cut open closes along its seams, while solids that meet in an edge or a corner
-/// stay apart. Where merging a group would still make an edge or a point non-manifold, because
-/// points were not manifold before or faces shrink, the group is left as single points. This is
-/// tried first for points with equal coordinates, and then for what they became; so corners that
-/// coincide stay merged where the rest of a group does not. In the result, every edge of more than
-/// two faces was one before, and every point with several fans contains a point that had several
-/// before. Points of one group may stay within the tolerance of each other, and with the rule
-/// `first` a point may move by twice the tolerance.
+/// with at most two faces, or an edge that shrinks to a point. Points of a group linked in this way
+/// become one point; other points of the group stay separate. Each linked part has its own first,
+/// last or mean; points without faces join the lowest part with faces. So a surface that was cut
+/// open closes along its seams, while solids that meet in an edge or a corner stay apart. If
+/// merging a group would still make an edge or a point nonmanifold, because a point was nonmanifold
+/// before or faces collapse, the group is not merged. Points with equal coordinates are merged
+/// first, and the results again; so coincident corners stay merged even if the rest of their group
+/// does not. In the result, every edge of more than two faces had more than two before, and every
+/// point with several fans contains a point that had several before. Points of one group may stay
+/// within the tolerance of each other, and with the rule `first` a point may move by twice the
+/// tolerance.
 ///
-/// \throws std::invalid_argument for a tolerance that is negative or not finite, when there is not
-///         one label for each point, for more than 2^32 - 2 points, a corner out of range, a
-///         property that is missing or is a list (`weld_property_error`), `order` with another
-///         `keep` than `first`, or more than 2^32 / 3 faces with `keep_manifold`; all name the
-///         lowest element of the arrays given
-/// \cost   O(V log V + F log F) for any tolerance and any number of equal points, as long as
-///         `may_merge` is empty or nearly always true; parallel, except for rule `first` where
-///         points have several others within the tolerance, and either come row by row or few of
-///         them are kept. Groups take up to 36 bytes a point (50 for chains in dense places, 110 by
-///         `tree`), 40 more in an `order`; faces 24 each besides the result, 100 with
-///         `keep_manifold`; conditions 8 a point and property
+/// \throws std::invalid_argument for a tolerance that is negative or not finite; unless there is
+///         one label for each point; for more than 2^32 - 2 points; for a corner out of range; for
+///         a property that is missing or is a list (`weld_property_error`); for `order` with
+///         another `keep` than `first`; for more than 2^32 / 3 faces with `keep_manifold`. The
+///         message names the lowest invalid element
+/// \cost   O(V log V + F log F) for any tolerance and any number of equal points, if `may_merge` is
+///         empty or nearly always true. Parallel, except rule `first` for points with several
+///         others within the tolerance, if points come row by row or few are kept. Memory besides
+///         the result: up to 36 bytes a point (50 for dense chains, 110 with `tree`), 40 more with
+///         `order`; 24 bytes a face, 100 with `keep_manifold`; 8 bytes a point for each property in
+///         a condition
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API weld_result weld(const mesh_ref& mesh, const weld_options& options = {});
 
-/// The same, and `properties` follow their points and faces. Corners keep their own texture
-/// coordinates and normals, even where their points become one. Rows of other elements are kept;
-/// point numbers in integer columns named vertex1, vertex2, vertex_index and vertex_indices are
-/// updated. Parts stay, even those without a face left.
+/// The same with attributes, which stay with their points and faces. Corners keep their own texture
+/// coordinates and normals, even if their points are merged. Rows of other elements are kept; point
+/// numbers in integer columns named vertex1, vertex2, vertex_index and vertex_indices are updated.
+/// Parts stay, even if they have no face left.
 ///
-/// \throws std::invalid_argument also when there is not one row for each point and each face, or
-///         when columns or corners do not fit
+/// \throws std::invalid_argument also unless there is one row for each point and each face, and
+///         columns and corners have matching sizes
 [[nodiscard]] TREEFORM_API weld_result weld(const mesh_ref& mesh, const attributes& properties,
                                             const weld_options& options);
 
 /// `file` welded, with its attributes, parts and names. In a format that does not number its
 /// vertices (STL), equal corners are merged first, unless `keep_manifold` is set or vertices have
-/// properties. Polygons are welded as triangles; they are polygons again where their triangles are
-/// still one fan.
+/// properties. Polygons are welded as triangles, and stay polygons if their triangles are still one
+/// fan.
 [[nodiscard]] TREEFORM_API file_weld_result weld(const mesh_file& file,
                                                  const weld_options& options = {});
 
-/// How many points of `welded` would be merged if it were written with precision `written_as`, read
-/// and welded again. Rounding, or `options.keep`, can bring points together again. `welded` is what
-/// `weld` made with `options`. None when points within the tolerance stay apart on purpose
-/// (`only_borders`, `keep_manifold`), or when progress asked to stop.
+/// How many points of `welded`, a result of `weld` with `options`, would be merged if it were
+/// written with precision `written_as`, read and welded again: rounding or `options.keep` can bring
+/// points within the tolerance. None if points within the tolerance stay apart on purpose
+/// (`only_borders`, `keep_manifold`), or if `progress` stopped the call.
 [[nodiscard]] TREEFORM_API std::optional<std::uint64_t> count_still_within(
     const mesh_file& welded, const weld_options& options, precision written_as);
 
@@ -180,8 +179,8 @@ struct file_weld_result {
 [[nodiscard]] TREEFORM_API point_groups group_points(points_view points,
                                                      const weld_options& options = {});
 
-/// How many points would not be there any more if points within `distance` of each other were
-/// joined, beyond those that are equal to another.
+/// By how much the number of points would shrink if points within `distance` of each other were
+/// joined, compared with joining equal points only.
 ///
 /// \cost as `group_points`
 [[nodiscard]] TREEFORM_API std::uint64_t count_nearly_equal(points_view points, double distance);

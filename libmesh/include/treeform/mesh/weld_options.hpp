@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Options of welding: which points are merged, and what is kept of them.
+/// Options of welding: which points are merged, and which values are kept.
 
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -15,15 +15,15 @@
 
 namespace treeform {
 
-/// Which points become one.
+/// The rule that forms groups.
 enum class weld_rule : std::uint8_t {
-    /// Goes through the points in order, and drops a point when an earlier kept one is within the
-    /// tolerance. The point then belongs to the nearest of these; among equally near ones, to the
-    /// earliest. So no two kept points are within the tolerance, no point is further than that from
-    /// the one it belongs to, and welding the kept points again changes nothing.
+    /// Visits points in order, and drops a point if an earlier kept point is within the tolerance.
+    /// The dropped point joins the nearest of these kept points, and the earliest of equally near
+    /// ones. So no two kept points are within the tolerance, no point is further than the tolerance
+    /// from the kept point of its group, and welding the kept points again changes nothing.
     first,
-    /// All points that are linked by steps of at most the tolerance are one group. Its earliest
-    /// point is kept. A point may be many tolerances away from it.
+    /// All points linked by steps of at most the tolerance are one group. Its earliest point is
+    /// kept. A point may be many tolerances away from that point.
     chain
 };
 
@@ -37,14 +37,14 @@ enum class weld_keep : std::uint8_t {
     highest  ///< the one with the greatest value of `keep_by`, otherwise as `lowest`
 };
 
-/// In which order the rules go through the points: which is the first of several.
+/// The order in which rules visit points.
 enum class weld_order : std::uint8_t {
-    given,   ///< as they are numbered
+    given,   ///< by point number
     lowest,  ///< by `order_by`, the least value first, NaN last; of equal ones the lowest-numbered
     highest  ///< by `order_by`, the greatest value first, otherwise as `lowest`
 };
 
-/// A vertex property that must agree for two points to become one.
+/// A vertex property that must agree for two points to be merged.
 struct weld_condition {
     /// A column of the element "vertex" with one value a row; "x", "y" or "z" for a coordinate;
     /// "normal", "uv" or "color" for all columns of that kind.
@@ -54,25 +54,26 @@ struct weld_condition {
     double tolerance = 0.0;
 };
 
-/// How to weld. `tolerance` is all that most callers set.
+/// How to weld. Most callers only set `tolerance`.
 struct weld_options {
     double tolerance = 0.0;  ///< Euclidean, inclusive; 0: equal coordinates (-0 equals +0)
     weld_rule rule = weld_rule::first;
     /// [V] or empty: points with different labels are never merged.
     std::span<const std::uint32_t> label{};
-    /// Whether two points may be merged; or empty. It is asked about pairs within the tolerance
-    /// with equal labels. It has to be symmetric, and is called from several threads at once.
+    /// Empty, or a function that tells whether two points may be merged. Called for pairs within
+    /// the tolerance with equal labels, from several threads at once; must be symmetric.
     std::function<bool(std::uint32_t, std::uint32_t)> may_merge{};
     /// Properties that must agree, in addition to `label` and `may_merge`.
     std::vector<weld_condition> same{};
-    /// For a mesh with faces: keep seams. Normals, texture coordinates and colors of points must
-    /// agree, too, except for those named in `across`.
+    /// For a mesh with faces: keep seams, that is, normals, texture coordinates and colors of
+    /// points must agree, except for those named in `across`.
     bool keep_seams = false;
     std::vector<std::string> across{};
     weld_keep keep = weld_keep::first;
     std::string keep_by{};  ///< for `lowest` and `highest`: a property as in `weld_condition`
-    /// Except for `given`, needs `weld_keep::first`: the point that is first in this order is kept.
-    /// What the rules promise holds for it. Points that are kept stay in the order of numbers.
+    /// The order in which the rule visits points; the first point of a group in this order is kept.
+    /// Other values than `given` need `weld_keep::first`. Kept points stay in the order of their
+    /// numbers.
     weld_order order = weld_order::given;
     std::string order_by{};      ///< for `lowest` and `highest`: a property as in `weld_condition`
     bool only_borders = false;   ///< merge only points on edges of exactly one face
@@ -80,17 +81,18 @@ struct weld_options {
     bool keep_degenerate = false;  ///< keep faces that repeat a corner
     progress_callback progress{};
 
-    /// The conditions on single columns that these imply: those of `same`, then of seams.
+    /// The conditions on single columns that these options imply: those of `same`, then those of
+    /// seams.
     ///
-    /// A name is that of a column, or else of a group of columns. `across` may name a group that
-    /// the vertices do not have.
+    /// A name is that of a column, or else of a group of columns. `across` may name groups that the
+    /// vertices lack.
     ///
-    /// \throws weld_property_error for a name that is neither, or a column of lists
+    /// \throws weld_property_error for an unknown name, or a column of lists
     [[nodiscard]] TREEFORM_API std::vector<weld_condition> conditions(const attributes& properties,
                                                                       bool has_faces) const;
 };
 
-/// `weld_options` names a property that the vertices do not have, or not in a usable form.
+/// Thrown if `weld_options` names a property that the vertices lack, or that cannot be used.
 class TREEFORM_API weld_property_error : public std::invalid_argument {
   public:
     /// `option` is the member of `weld_options`; `reason` half a sentence, empty for a property

@@ -21,32 +21,32 @@ struct write_options {
     /// Extension without its dot: stl, obj, ply, off, xyz, csv, pcd, las, laz, glb, 3mf. Empty:
     /// that of the path.
     std::string format{};
-    /// Write text when the format has text and binary. Binary PLY is little endian unless the file
-    /// was read from a big endian one. PCD is compressed only when it was read from a compressed
-    /// one.
+    /// Write text if the format has text and binary. Binary PLY is little endian, unless the file
+    /// was read from a big-endian file. PCD is compressed only if it was read from a compressed
+    /// file.
     bool ascii = false;
-    /// Precision of the coordinates; none: as they were stored. Binary STL and GLB hold float32
-    /// only. 3MF holds doubles, but its readers make floats of them: none is float32 there.
+    /// Precision of the coordinates; none: as they were stored. Binary STL and GLB only hold
+    /// float32. 3MF holds doubles, but most of its readers convert to float, so none means float32
+    /// there.
     std::optional<treeform::precision> precision{};
-    /// Columns of points keep the names and types that they have in `file`, also where the format
-    /// has others for them.
+    /// Keep names and types of columns of points as in `file`, even if the format has its own.
     bool keep_names = false;
-    /// Columns of points that are not written; "normal", "uv" or "color" for all of that kind, also
-    /// those of corners.
+    /// Columns of points to omit; "normal", "uv" or "color" for all columns of that kind, also of
+    /// corners.
     std::vector<std::string> drop{};
     std::vector<named_column> rename{};  ///< of points: `source` is the column, `name` the new one
-    /// Of LAS and LAZ; none: those of the file, else as `write` says.
+    /// For LAS and LAZ; none: those of the file, else chosen by `write`.
     std::optional<std::array<double, 3>> las_scale{};
     std::optional<std::array<double, 3>> las_offset{};
-    /// Allow further rounding of certified coordinates, which can undo what was certified.
-    /// Coordinates without a certificate are always rounded to the precision.
+    /// Allow rounding of certified coordinates, which may invalidate the certificate. Coordinates
+    /// without a certificate are always rounded to the precision.
     bool round = false;
-    /// Told 0 when the writing begins and while it goes on, and 1 before the file appears. Where it
-    /// returns false, nothing appears: what was at the path stays as it was.
+    /// Called with 0 at the start and during the writing, and with 1 before the file is renamed. If
+    /// it returns false, nothing is written, and an existing file is unchanged.
     progress_callback progress{};
 };
 
-/// What was written.
+/// The result of `write`.
 struct write_result {
     std::string format{};  ///< "stl-binary", "ply-ascii", "obj", ...
     treeform::precision written_as = precision::float64;
@@ -58,9 +58,9 @@ struct write_result {
 
 /// Writes `file` to `path`; "-" is standard output, which needs `options.format`.
 ///
-/// A file appears whole or not at all: it is written under another name and then renamed. Numbers
-/// in text are the shortest that read back as the same double, float32 values included. Polygons
-/// are written as polygons where the format has them. Newlines in names become blanks.
+/// A file is written completely or not at all: it is written under another name and then renamed.
+/// Numbers in text are the shortest that read back as the same double, float32 values included.
+/// Polygons are written as polygons if the format has polygons. Newlines in names become blanks.
 ///
 /// Of `file.attributes`, each format takes what it can hold:
 /// - PLY: all elements in their order; texture coordinates of corners, as the list "texcoord" of
@@ -99,25 +99,24 @@ struct write_result {
 /// 8 bits, but in LAS of 16, in PCD the packed `rgb`, in OBJ numbers from 0 to 1; normals are nx,
 /// ny, nz, in PCD normal_x, ..., in OBJ `vn`. A file is not translated to its own format.
 ///
-/// Warnings say what is scaled, what is rounded, and all that is left out.
+/// Warnings tell what is scaled, rounded or omitted.
 ///
-/// A mesh without points and faces can be written in every format of meshes, and read again.
+/// An empty mesh can be written in every mesh format, and read again.
 ///
-/// \throws io_error when the format cannot hold the file or the file cannot be written
-/// \throws std::invalid_argument when a corner is out of range, when the element "vertex" or "face"
-///         has not one row for each point or stored face, or when a number in `attributes::corners`
-///         is out of range
+/// \throws io_error if the format cannot hold the file, or the file cannot be written
+/// \throws std::invalid_argument for a corner out of range; unless the elements "vertex" and "face"
+///         have one row for each point and stored face; for an index in `attributes::corners` out
+///         of range
 /// \same   bytes for the same file and options
 TREEFORM_API write_result write(const std::filesystem::path& path, const mesh_file& file,
                                 const write_options& options = {});
 
-/// Moves the coordinates of `file` to those that a LAS file can hold, and gives it the scale and
-/// offset that it will have there (`mesh_file::las`). What is decided of the points after that
-/// holds in the file that is written. Returns the furthest that a coordinate moved: 0 for what was
-/// LAS and is as it was. Coordinates that are not finite stay. Of `options`, scale and offset
-/// count.
+/// Rounds the coordinates of `file` to those of a LAS file, and sets the scale and offset of that
+/// file (`mesh_file::las`), so that later decisions about the points hold for the written file.
+/// Returns the largest change of a coordinate: 0 for an unchanged LAS file. Coordinates that are
+/// not finite stay. Only scale and offset of `options` are used.
 ///
-/// \throws io_error naming the first point that 32 bits do not hold with the file's scale
+/// \throws io_error naming the first point that does not fit into 32 bits with the file's scale
 /// \cost   O(V)
 TREEFORM_API double round_to_las(mesh_file& file, const write_options& options = {});
 
@@ -139,11 +138,11 @@ TREEFORM_API write_result write_certified(const std::filesystem::path& path, con
                                           const write_options& options);
 }  // namespace detail::io
 
-/// Writes the mesh of a result in the coordinates that were certified. Binary STL and GLB hold
-/// `precision::float32` only.
+/// Writes the mesh of a result in the certified coordinates. Binary STL and GLB only hold
+/// `precision::float32`.
 ///
 /// \throws not_certified_error unless the certificate's status is ok
-/// \throws io_error as above, and when a coordinate would be rounded and `options.round` is not set
+/// \throws io_error as above; if a coordinate would be rounded and `options.round` is not set
 template <certified_result Result>
 write_result write(const std::filesystem::path& path, const Result& result,
                    const write_options& options = {}) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Builds a tree over any range of anything that has a box.
+/// Builds a tree over any range of elements that have boxes.
 ///
 /// Checks the invariants of a tree.
 
@@ -41,9 +41,9 @@ concept box_maker = requires(const F& make_aabb, Element element) {
     { make_aabb(element).min.size() } -> std::convertible_to<std::size_t>;
 };
 
-/// Builds trees and keeps its memory between builds: 24 bytes an element of the largest. Not for
-/// use by two threads at once. After a build that throws, `tree` must be rebuilt before it is
-/// searched.
+/// Builds trees, and keeps its memory between builds: 24 bytes for each element of the largest
+/// build. Must not be used by two threads at once. After a build that throws, `tree` must be
+/// rebuilt before it is searched.
 template <std::size_t D>
 class builder {
   public:
@@ -66,13 +66,13 @@ class builder {
 /// The tree over the boxes that `make_aabb` gives for the elements of `range`.
 ///
 /// The tree keeps boxes rounded outward to float, in a frame chosen from the data (`tree_frame`).
-/// They only decide what a search may skip. Elements are halved along the axis on which their
-/// centers spread most, however many of them are equal.
+/// They are only used for pruning. Elements are halved along the axis on which their centers spread
+/// most, even if many are equal.
 ///
 /// `Strategy` is the selection algorithm: the default, or any `partition_strategy`.
 ///
-/// \throws std::invalid_argument naming an element whose box is not finite or is empty, or when
-///         the range holds more than `tree<D>::max_size` elements
+/// \throws std::invalid_argument naming an element whose box is not finite or is empty; if the
+///         range has more than `tree<D>::max_size` elements
 /// \cost   O(N log N) expected time; in space about 56 bytes an element at the peak, of which the
 ///         tree keeps 32, and the boxes of a range without random access
 /// \same   on any number of threads. A random-access range of known size is read in parallel:
@@ -180,7 +180,7 @@ namespace detail {
     return true;
 }
 
-/// Whether slot `slot` of `node` holds, in the frame of the tree, all of `box`.
+/// Whether slot `slot` of `node` contains `box`, in the frame of the tree.
 template <class T, std::size_t D>
 [[nodiscard]] bool slot_holds(const wide_node<D>& node, std::size_t slot, const aabb<T, D>& box,
                               const tree_frame<D>& frame) {
@@ -200,7 +200,7 @@ template <class T, std::size_t D>
 
 }  // namespace detail
 
-/// What is wrong with `tree` as a tree over `boxes`; none when it is valid: the ids are a
+/// The reason why `tree` is not a valid tree over `boxes`, or none. In a valid tree the ids are a
 /// permutation, every leaf slot holds the box of its primitive, every inner slot the boxes below
 /// it, and no other slot is in use.
 template <std::size_t D, class T>

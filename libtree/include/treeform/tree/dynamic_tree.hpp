@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Boxes that come, go and move, searched as if a tree had just been built over them: a
-/// `tree_of_trees`, which the searches of search.hpp, nearness.hpp, ray.hpp, ... take.
+/// A tree with insertions, removals and moves: a `tree_of_trees`, which the searches of search.hpp,
+/// nearness.hpp, ray.hpp, ... accept.
 
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/buffer.hpp>
@@ -18,31 +18,31 @@
 
 namespace treeform {
 
-/// What the updates of a `dynamic_tree` have cost since it was made.
+/// The cost of all updates of a `dynamic_tree`.
 struct update_statistics {
-    std::uint64_t built = 0;     ///< primitives that went through the build of a tree, each time
-    std::uint64_t refitted = 0;  ///< boxes written where the primitive was
+    std::uint64_t built = 0;     ///< primitives in builds of trees, counted for each build
+    std::uint64_t refitted = 0;  ///< boxes updated in place
     std::uint64_t vacated = 0;   ///< primitives taken out of a tree: removed, or moved elsewhere
     friend bool operator==(const update_statistics&, const update_statistics&) = default;
 };
 
-/// A tree over a set of primitives that changes: batches of them are inserted, removed and moved.
-/// Every search answers as on a tree built over what there is; none may run during an update.
+/// A tree over a changing set of primitives: batches are inserted, removed and moved. Searches give
+/// the same results as on a new tree of the present primitives. No search may run during an update.
 ///
-/// A primitive is known by its id, which it keeps as long as it is there; ids of removed ones are
-/// given out again, the last removed first. The tree keeps a copy of the boxes.
+/// A primitive keeps its id until it is removed. Ids of removed primitives are reused, the last
+/// removed first. The tree keeps a copy of the boxes.
 ///
-/// How it works: it is a few packed trees, each at least four times as large as the next.
-/// - A primitive that moves a little is written into its slot. "A little" means within the box that
-///   the (up to 64) primitives of its neighborhood had when their tree was built, widened by a
-///   quarter: so no box above the leaf blocks ever grows by more.
-/// - Any other, like one that is removed, leaves an empty slot, which costs a search nothing that
-///   its neighbors do not; a tree with more empty slots than others is dissolved.
-/// - What is new, and what was dissolved, makes a tree of its own, together with the trees that are
-///   less than four times as large as that.
+/// It consists of a few packed trees, each at least four times as large as the next.
+/// - A primitive that moves a little is updated in its slot. "A little" means within the box of its
+///   neighborhood, the up to 64 primitives around it in leaf order, when their tree was built,
+///   widened by a quarter. So no box above the leaf blocks grows by more.
+/// - Any other primitive that moves, and one that is removed, leaves an empty slot, which does not
+///   slow down searches. A tree with more empty slots than full ones is dissolved.
+/// - New primitives and those of dissolved trees form a new tree, together with the trees that are
+///   less than four times as large.
 ///
-/// So after any updates there are at most 2 + log4(N / 32) trees, none less than half full, and
-/// searches open, as a rule, up to 3 times the nodes of a fresh tree.
+/// So there are always at most 2 + log4(N / 32) trees, each at least half full. Searches usually
+/// open up to 3 times as many nodes as in a new tree.
 ///
 /// \cost   About 90 bytes a primitive in space. An update of K primitives costs O(K log N), and a
 ///         sweep over N / 8 bytes where K is above N / 128; amortized over all updates, the builds
@@ -68,24 +68,24 @@ class TREEFORM_API dynamic_tree {
     /// Adds the elements of `range`, and returns their ids [K]. `make_aabb` as for `build`; without
     /// one, the elements are boxes.
     ///
-    /// \throws std::invalid_argument naming the element whose box is not finite or is empty, or
-    ///         when there would be too many; nothing has changed then
+    /// \throws std::invalid_argument naming the element whose box is not finite or is empty; for
+    ///         too many elements; then nothing was changed
     std::vector<std::uint32_t> insert(std::span<const box_type> boxes);
     template <std::ranges::random_access_range Range, class MakeBox = std::identity>
     std::vector<std::uint32_t> insert(const Range& range, const MakeBox& make_aabb = {}) {
         return insert(std::span<const box_type>(boxes_of(range, make_aabb)));
     }
 
-    /// Takes the primitives `ids` away.
+    /// Removes the primitives `ids`.
     ///
-    /// \throws std::invalid_argument naming an id that is not there, or is named twice; nothing
-    ///         has changed then
+    /// \throws std::invalid_argument naming an id that does not exist or is repeated; then nothing
+    ///         was changed
     void remove(std::span<const std::uint32_t> ids);
 
     /// Gives primitive `ids[i]` the box of element i of `range`, or `boxes[i]`.
     ///
-    /// \throws std::invalid_argument as `remove`, naming the id whose new box is not finite or is
-    ///         empty, or when there are not as many boxes as ids; nothing has changed then
+    /// \throws std::invalid_argument as `remove`; naming the id whose new box is not finite or is
+    ///         empty; unless there is one box for each id; then nothing was changed
     void move(std::span<const std::uint32_t> ids, std::span<const box_type> boxes);
     template <std::ranges::random_access_range Range, class MakeBox = std::identity>
     void move(std::span<const std::uint32_t> ids, const Range& range,
@@ -93,10 +93,10 @@ class TREEFORM_API dynamic_tree {
         move(ids, std::span<const box_type>(boxes_of(range, make_aabb)));
     }
 
-    /// Primitives that are there.
+    /// Number of present primitives.
     [[nodiscard]] std::size_t size() const { return id_end_ - free_.size(); }
     [[nodiscard]] bool empty() const { return size() == 0; }
-    /// Ids are below this: the length of an array that has an element for each.
+    /// All ids are below this: the size for arrays indexed by id.
     [[nodiscard]] std::size_t id_end() const { return id_end_; }
     [[nodiscard]] bool contains(std::uint32_t id) const {
         return id < id_end_ && where_[id].place != detail::no_primitive;
@@ -104,7 +104,7 @@ class TREEFORM_API dynamic_tree {
     /// \pre contains(id)
     [[nodiscard]] const box_type& box(std::uint32_t id) const { return boxes_[id]; }
 
-    /// The trees it is made of, as `tree_of_trees` says. An update invalidates what refers to them.
+    /// The interface of `tree_of_trees`. An update invalidates references to these trees.
     [[nodiscard]] const tree<D>& top() const { return top_; }
     [[nodiscard]] const tree<D>& part(std::uint32_t number) const { return parts_[number].boxes; }
     [[nodiscard]] const update_statistics& statistics() const { return statistics_; }

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// A tree that is built where searches come by: for a first contact, or some rays, of a large mesh
-/// of which most is never looked at.
+/// A tree that is built on demand where searches visit it: for a first contact, or a few rays, in a
+/// large mesh.
 
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/build.hpp>
@@ -26,19 +26,18 @@
 
 namespace treeform {
 
-/// A tree over blocks of `block_size` elements that follow each other in a range, each of which
-/// becomes a tree of its own when a search first comes into its box. Answers are those of a tree
-/// over all.
+/// A tree over blocks of `block_size` consecutive elements of a range. A block becomes a tree when
+/// a search first visits its box. Results are those of a tree over all elements.
 ///
-/// That is worth it when elements that follow each other lie near each other, as in nearly every
-/// mesh that a program has made, and a search sees little of it: whether two meshes have any
-/// contact is known after a look at every box and the builds of some blocks. Where the blocks turn
-/// out to be as wide as the whole, as of elements in random order, all is built at once instead.
-/// For searches that see most of it, as all pairs, and for many of them, `build` is better.
+/// It pays off if consecutive elements are near each other, as in most meshes, and searches visit
+/// few blocks: a test of two meshes for contact computes every box, but builds only some blocks. If
+/// blocks turn out to be about as wide as the whole, as for elements in random order, everything is
+/// built at once instead. For searches that visit most blocks, such as all pairs, or for many
+/// searches, `build` is better.
 ///
-/// A `tree_of_trees`, which the searches of search.hpp, nearness.hpp, ray.hpp, ... take. They may
-/// run on any threads at once: a block is split once, those who want it meanwhile wait. Which
-/// blocks are split may depend on the threads, the answers do not.
+/// A `tree_of_trees`, which the searches of search.hpp, nearness.hpp, ray.hpp, ... take. Searches
+/// may run on several threads at once: each block is built once, and threads that need it meanwhile
+/// wait. Which blocks are built may depend on the threads; results do not.
 template <std::size_t D>
 class lazy_tree {
   public:
@@ -48,7 +47,8 @@ class lazy_tree {
     /// \pre    `range` and what `make_aabb` refers to outlive the tree and do not change; calls of
     ///         `make_aabb` come from several threads
     /// \throws std::invalid_argument naming the element whose box is not finite or is empty
-    /// \cost   O(N), one call of `make_aabb` an element; another for those in blocks that are split
+    /// \cost   O(N), with one call of `make_aabb` for each element, and another for elements of
+    ///         blocks that are built
     /// \same   on any number of threads
     template <std::ranges::random_access_range Range, class MakeBox>
     requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>> lazy_tree(
@@ -82,7 +82,7 @@ class lazy_tree {
     }
 
     [[nodiscard]] std::size_t size() const { return size_; }
-    /// The tree over the blocks, and that of a block, which is split if it was not.
+    /// The tree over the blocks, and the tree of a block, which is built if needed.
     [[nodiscard]] const tree<D>& top() const { return top_; }
     [[nodiscard]] const tree<D>& part(std::uint32_t number) const {
         block& one = parts_[number];
@@ -95,7 +95,7 @@ class lazy_tree {
     }
 
     [[nodiscard]] std::size_t blocks() const { return top_.size(); }
-    /// Blocks that searches have made trees of so far; the others were skipped.
+    /// Number of blocks that were built so far.
     [[nodiscard]] std::size_t split() const { return split_->load(std::memory_order_relaxed); }
 
   private:

@@ -11,15 +11,15 @@
 
 namespace treeform {
 
-/// Called now and then with the share of the work that is done, in [0, 1] and never decreasing.
-/// Return false to stop the operation; it ends after what it has begun. May be empty. It is called
-/// from one thread at a time, not always the same one, and must not throw.
+/// Called from time to time with the completed share of the work, in [0, 1] and never decreasing.
+/// Return false to stop the operation, which then ends after the work in progress. May be empty. It
+/// is called from one thread at a time, not always the same one, and must not throw.
 using progress_callback = std::function<bool(double done)>;
 
 /// Cuts [0, count) into chunks [begin, end) of `grain` elements (the last may be shorter), and runs
 /// `body(begin, end, chunk)` once for each, in parallel and in any order. Chunks are numbered from
-/// 0. Returns when all are done. When a body throws, the caller gets the exception (one of them,
-/// when several throw), and chunks that have not begun may be skipped.
+/// 0. Returns when all are done. If a body throws, the exception (one of them, if several throw) is
+///    rethrown, and chunks that have not begun may be skipped.
 ///
 /// \pre  grain > 0
 /// \cost a few microseconds a call beyond the first chunk; loops of one chunk run in place
@@ -27,7 +27,8 @@ TREEFORM_API void for_chunks(
     std::size_t count, std::size_t grain,
     detail::function_ref<void(std::size_t begin, std::size_t end, std::size_t chunk)> body);
 
-/// Elements a chunk where an element costs some nanoseconds: what a chunk costs is then lost in it.
+/// A grain for elements that take a few nanoseconds each, so that the overhead of a chunk is
+/// negligible.
 inline constexpr std::size_t light_grain = std::size_t{1} << 12;
 
 /// Number of chunks that `for_chunks(count, grain, ...)` runs.
@@ -46,10 +47,10 @@ class TREEFORM_API once {
     once(const once&) = delete;
     once& operator=(const once&) = delete;
 
-    /// Runs `work`, unless an earlier call has done it. While another thread is doing it, waits for
-    /// that one. `work` may itself run `for_chunks`: threads that wait help with its chunks, so it
-    /// cannot deadlock inside other loops, as `std::call_once` can. When `work` throws, its caller
-    /// gets the exception, and the next call tries again.
+    /// Runs `work`, unless an earlier call has done so, and waits if another thread is doing it.
+    /// `work` may itself run `for_chunks`: waiting threads help with its chunks, so it cannot
+    /// deadlock inside other loops, as `std::call_once` can. If `work` throws, its caller gets the
+    /// exception, and the next call tries again.
     ///
     /// \pre `work` does not call the same `once`
     void call(detail::function_ref<void()> work);
@@ -64,7 +65,7 @@ class TREEFORM_API once {
 /// Number of threads that a loop may use now.
 [[nodiscard]] TREEFORM_API unsigned thread_count();
 
-/// As long as it exists, loops of the whole process use at most `threads` threads; 0 means all.
+/// During its lifetime, loops of the whole process use at most `threads` threads; 0 means all.
 /// Nested scopes can only lower the number.
 class TREEFORM_API thread_scope {
   public:

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Rays against a tree of any kind: the first hit, all hits, and whether there is any. Two trees of
-/// which one moves in a straight line: the pairs that meet first.
+/// Ray casting in any kind of tree: the first hit, all hits, any hit. Two trees of which one moves
+/// along a line: the pairs that may meet first.
 
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
@@ -56,7 +56,7 @@ void trace(const Trees& trees, ray<double, Trees::dimensions> rest, const Visit&
     });
 }
 
-/// The parameter of a hit: the hit itself when it is a number, else its member t.
+/// The parameter of a hit: the hit itself if it is a number, else its member t.
 template <class Hit>
 [[nodiscard]] constexpr double parameter_of(const Hit& hit) {
     if constexpr (std::is_arithmetic_v<Hit>)
@@ -85,8 +85,8 @@ template <std::floating_point T, std::size_t D>
 
 /// Calls `visit(id)` for every primitive whose box the ray meets; touching counts. It also visits
 /// some whose boxes the ray misses by less than the rounding of the tree's float boxes. Boxes that
-/// the ray enters earlier usually come earlier. `visit` returns the t_max from there on: boxes that
-/// the ray enters later are skipped, and -inf ends the search.
+/// the ray enters earlier usually come earlier. `visit` returns the new t_max: boxes that the ray
+/// enters later are skipped, and -inf ends the search.
 ///
 /// No box is missed because of rounding: not for zero, tiny or huge components, not for boxes that
 /// the ray only touches, not for an origin far away. What `visit` returns may be too small by 2^-40
@@ -94,8 +94,8 @@ template <std::floating_point T, std::size_t D>
 ///
 /// \throws std::invalid_argument for an origin or direction that is not finite, or a NaN parameter
 /// \cost   O(log N + boxes met) for most rays; serial; no allocation
-/// \same   primitives whose boxes the ray meets are always visited while t_max stays; which others
-///         are visited may depend on the processor
+/// \same   primitives whose boxes the ray meets up to t_max are always visited; which others are
+///         visited may depend on the processor
 /// \source the slab test of Kay and Kajiya, SIGGRAPH 1986; bounds as in Ize, Robust BVH Ray
 ///         Traversal, JCGT 2 (2013), derived anew for scaled frames in ray.cpp
 template <any_tree Tree, std::floating_point T, class Visit>
@@ -104,12 +104,11 @@ void visit_along(const Tree& tree, const ray<T, Tree::dimensions>& ray, const Vi
     detail::trace(tree, detail::in_double(ray), visit);
 }
 
-/// The hit with the least t; of equal ones, that of the lowest primitive. None when there is no
-/// hit.
+/// The hit with the least t; of equal t, that of the lowest primitive. None if there is no hit.
 ///
-/// `hit_of(id)` says whether and where the ray hits a primitive: it returns a `std::optional` of a
-/// number t, or of a struct with a member t. A t outside [t_min, t_max], or NaN, is no hit. A hit
-/// has to lie in the primitive's box, and its t may be wrong by at most 2^-40 of itself.
+/// `hit_of(id)` returns whether and where the ray hits a primitive: a `std::optional` of a number
+/// t, or of a struct with a member t. A t outside [t_min, t_max], or NaN, is no hit. A hit has to
+/// lie in the primitive's box, and its t may be wrong by at most 2^-40 of itself.
 ///
 /// \throws std::invalid_argument as `visit_along`
 /// \cost   O(log N + boxes entered before the hit) for most rays
@@ -196,18 +195,17 @@ TREEFORM_API void sweep(const transformed<D>& a, const transformed<D>& b,
 
 /// Calls `visit(i, j)` for every pair of a primitive i of `a` and j of `b` whose boxes may have a
 /// common point at some time t in [0, latest], when `a` is moved by t times `motion` (anything with
-/// []). Pairs that may meet early usually come first. `visit` returns the time after which it wants
-/// no more pairs; a later time than before has no effect. Pairs that may meet exactly then are
-/// still visited.
+/// []). Pairs that may meet early usually come first. `visit` returns a new bound: pairs that can
+/// only meet later are skipped; pairs that may meet exactly then are not. A larger bound than
+/// before has no effect.
 ///
-/// Either side may be `transformed{tree, map}`. Only boxes are swept: `visit` has to find out
+/// Either side may be `transformed{tree, map}`. Only boxes are swept: `visit` must determine
 /// whether and when two primitives meet.
 ///
 /// \throws std::invalid_argument for a motion that is zero or not finite, or a time that is
 ///         negative or NaN
-/// \cost   in most cases as the nearest pair of the trees; serial. Less for a motion along an axis,
-///         more for one across all axes, since swept boxes are then much larger than what is in
-///         them
+/// \cost   in most cases as `nearest_pair`; serial. Less for a motion along an axis, more for a
+///         diagonal motion, since swept boxes are then much larger than their contents
 /// \same   order and pairs, on every machine
 /// \source slabs: Kay and Kajiya, Ray Tracing Complex Scenes, SIGGRAPH 1986, for the ray from 0
 ///         along the motion and the box of differences of two boxes

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Updates a tree whose primitives have moved: new boxes, the same order of leaves.
+/// Updates a tree whose primitives have moved: new boxes in the same leaf order.
 
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -34,8 +34,8 @@ template <std::size_t D>
 /// the root. That is how many nodes a random plane (in 2D: line) through the root's box opens on
 /// average. 1 for a tree of one node, or when all primitives are one point.
 ///
-/// To see what refits cost, compare with the value after the build. Searches open more nodes in
-/// about that ratio. From 1.3 on, a rebuild pays off within some searches for all primitives.
+/// Compare it with the value after the build: searches open more nodes in about this ratio. From a
+/// ratio of 1.3 on, a rebuild pays off after a few searches for all primitives.
 ///
 /// \cost O(N / 8)
 /// \same on any number of threads
@@ -167,14 +167,14 @@ template <std::size_t D, class BoxOf>
 
 }  // namespace detail
 
-/// Gives every primitive of `tree` the box that `make_aabb` now makes for its element of `range`.
-/// The order of the leaves and the frame stay. Searches are right for any boxes, and as fast as
-/// before when neighbors stay neighbors (see `relative_extent`). With the boxes that it was built
-/// with, the tree does not change.
+/// Replaces the box of every primitive of `tree` by the one that `make_aabb` returns for its
+/// element of `range`. The leaf order and the frame stay. Searches are correct for any boxes, and
+/// as fast as before if neighbors stay neighbors (see `relative_extent`). With unchanged boxes, the
+/// tree does not change.
 ///
-/// \throws std::invalid_argument when the range has not the size of the tree, or naming an element
-///         whose box is not finite or is empty; some of the others then have their new boxes, and
-///         a refit with valid boxes makes the tree valid again
+/// \throws std::invalid_argument if the size of the range differs from that of the tree; naming an
+///         element whose box is not finite or is empty. Some other elements then have their new
+///         boxes; a refit with valid boxes makes the tree valid again
 /// \cost   O(N), about a third of a build
 /// \same   on any number of threads; `make_aabb` is called once an element
 /// \source van den Bergen, Efficient Collision Detection of Complex Deformable Models using AABB
@@ -190,8 +190,7 @@ void refit(tree<D>& tree, const Range& range, const MakeBox& make_aabb) {
 /// The same only for the primitives at `places` of the leaf order (`places_of`); all others keep
 /// their boxes. Places may be in any order, and may repeat.
 ///
-/// \throws std::invalid_argument also for a place that is not in the tree, naming it; nothing has
-///         changed then
+/// \throws std::invalid_argument also naming a place out of range; then nothing was changed
 /// \cost   O(P log N) for P places: only they and their ancestors are touched; when P is above
 ///         N / 128, also a pass over O(N / 8) bytes
 template <std::size_t D, std::ranges::random_access_range Range, class MakeBox>

@@ -1,9 +1,9 @@
 #pragma once
 /// \file
-/// Search of any kind of tree by a box, or by anything that can be held against a box. Here and
-/// in `search_pair.hpp` are all searches: `search`, `search_any`, `search_all` by one query and of
-/// two trees; `search_self`, `search_self_any`, `search_self_all`; and by blocks, `search_broad` by
-/// one query and of two trees, `search_self_broad`.
+/// Search of any kind of tree by a box, or by any function that tests boxes. Here and in
+/// `search_pair.hpp` are all searches: `search`, `search_any`, `search_all` by one query and of two
+/// trees; `search_self`, `search_self_any`, `search_self_all`; and by blocks, `search_broad` by one
+/// query and of two trees, `search_self_broad`.
 ///
 /// Search of a tree of any kind by itself: every pair of primitives whose boxes overlap, once.
 
@@ -27,18 +27,19 @@
 
 namespace treeform {
 
-/// Calls `apply(id)` for the primitives that `query` may want, in leaf order, until it returns true
-/// (it may return nothing). Returns what was looked at.
+/// Calls `apply(id)` for the primitives that match `query`, in leaf order, until `apply` returns
+/// true (it may also return nothing). Returns counts of visited nodes and boxes.
 ///
-/// A box wants the primitives whose boxes overlap it, touching included. A check, called with boxes
-/// in the coordinates of the primitives, wants what lies below nodes and in boxes for which it is
-/// true; it must be true for a box around any box for which it is. Boxes are those of the tree,
-/// rounded outward: none is missed, and some come that miss by less than that rounding. An empty
-/// box wants nothing, an infinite one may be asked for.
+/// A box matches the primitives whose boxes overlap it, touching included. A check is a function of
+/// boxes in the coordinates of the primitives; it matches the primitives whose box, and all boxes
+/// above it, it accepts. If it accepts a box, it must accept every larger box around it. Boxes are
+/// those of the tree, rounded outward: no match is missed, and some primitives are included whose
+/// boxes miss by less than the rounding. An empty box matches nothing; an infinite box is valid.
 ///
-/// \throws std::invalid_argument when a box has a coordinate that is NaN
-/// \cost   O(log N + P) for P primitives, on a query no larger than they are
-/// \same   in every run; runs on the calling thread, and any number may run at the same time
+/// \throws std::invalid_argument if a box has a NaN coordinate
+/// \cost   O(log N + P) for P matches, if the query is not larger than the primitives
+/// \same   in every run; runs on the calling thread, and any number of searches may run
+///         concurrently
 /// \source Sajovic, Knez and Korez, tf::tree, section III-C
 template <any_tree Tree, tree_query<Tree::dimensions> Query, class Apply>
 search_statistics search(const Tree& tree, const Query& query, const Apply& apply) {
@@ -49,8 +50,8 @@ search_statistics search(const Tree& tree, const Query& query, const Apply& appl
     });
 }
 
-/// The same a leaf block at a time: `apply(ids)` with the up to 8 primitives of a block that the
-/// query may want, as a `std::span<const std::uint32_t>`.
+/// The same for leaf blocks: `apply(ids)` gets the up to 8 primitives of a block that match, as a
+/// `std::span<const std::uint32_t>`.
 template <any_tree Tree, tree_query<Tree::dimensions> Query, class Apply>
 search_statistics search_broad(const Tree& tree, const Query& query, const Apply& apply) {
     return detail::visit_query(tree, query, [&](const std::uint32_t* ids, unsigned mask) {
@@ -62,7 +63,7 @@ search_statistics search_broad(const Tree& tree, const Query& query, const Apply
     });
 }
 
-/// Whether `accept(id)` is true for a primitive that `query` may want.
+/// Whether `accept(id)` is true for a primitive that matches `query`.
 template <any_tree Tree, tree_query<Tree::dimensions> Query, class Accept>
 [[nodiscard]] bool search_any(const Tree& tree, const Query& query, const Accept& accept) {
     bool found = false;
@@ -70,7 +71,7 @@ template <any_tree Tree, tree_query<Tree::dimensions> Query, class Accept>
     return found;
 }
 
-/// The primitives that `query` may want and for which `accept(id)` is true, ascending.
+/// The primitives that match `query` and for which `accept(id)` is true, ascending.
 template <any_tree Tree, tree_query<Tree::dimensions> Query, class Accept>
 [[nodiscard]] std::vector<std::uint32_t> search_all(const Tree& tree, const Query& query,
                                                     const Accept& accept) {
@@ -82,7 +83,7 @@ template <any_tree Tree, tree_query<Tree::dimensions> Query, class Accept>
     return found;
 }
 
-/// The primitives that `query` may want, ascending.
+/// The primitives that match `query`, ascending.
 template <any_tree Tree, tree_query<Tree::dimensions> Query>
 [[nodiscard]] std::vector<std::uint32_t> search_all(const Tree& tree, const Query& query) {
     return search_all(tree, query, [](std::uint32_t) { return true; });
@@ -187,19 +188,18 @@ template <tree_of_trees Trees>
 
 }  // namespace detail
 
-/// Calls `apply(state, a, b)` for every pair of primitives a, b of the range the tree was built
-/// over whose boxes overlap; of a `tree`, with a at the earlier place in leaf order. Returns the
-/// states, one a chunk, in an order that depends on the tree alone: no state is shared between
-/// threads, `apply` is called by several. A state is made by `State{}` and moved. Where `apply`
-/// returns true (it may return nothing), the search stops: the state it was given is the last of
-/// those returned, and they hold what one thread would have found.
+/// Calls `apply(state, a, b)` for every pair of primitives a, b whose boxes overlap; for a `tree`,
+/// a is earlier in leaf order. `apply` is called from several threads; each chunk has its own
+/// state, made by `State{}`. Returns the states, in an order that depends on the tree alone. If
+/// `apply` returns true (it may also return nothing), the search stops: the state of that call is
+/// the last one returned, and the states contain what a single thread would have found by then.
 template <class State, any_tree Tree, class Apply>
 [[nodiscard]] std::vector<State> search_self(const Tree& tree, const Apply& apply) {
     return detail::pair_states<State>(detail::self_pairs(tree), apply);
 }
 
-/// The same of a `tree` by blocks of candidates, `apply(state, block)`: for those who test several
-/// at once. A block names places in leaf order, not ids.
+/// The same for a `tree`, in blocks of candidates, `apply(state, block)`, to test several at once.
+/// A block has places in leaf order, not ids.
 template <class State, std::size_t D, class Apply>
 [[nodiscard]] std::vector<State> search_self_broad(const tree<D>& tree, const Apply& apply) {
     return detail::search_states<State>(self_search<D>(tree),
@@ -208,8 +208,8 @@ template <class State, std::size_t D, class Apply>
                                         });
 }
 
-/// Whether `accept(a, b)` is true for some pair of primitives whose boxes overlap; it is called
-/// from several threads, and no more once a pair is known.
+/// Whether `accept(a, b)` is true for some pair of primitives whose boxes overlap. `accept` is
+/// called from several threads, until a pair is found.
 template <any_tree Tree, class Accept>
 [[nodiscard]] bool search_self_any(const Tree& tree, const Accept& accept) {
     if constexpr (tree_of_trees<Tree>)

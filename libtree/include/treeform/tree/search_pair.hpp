@@ -18,14 +18,13 @@
 
 namespace treeform {
 
-/// When a box of a tree and one of a tree that is moved count as overlapping.
+/// When boxes of a tree and of a moved tree count as overlapping.
 enum class turned_boxes {
-    /// Where the box around the turned one, along the axes, overlaps the other.
+    /// If the axis-aligned box around the rotated box overlaps the other box.
     upright,
-    /// Where besides, with all turned back, the box around the other one overlaps the moved one as
-    /// it was: fewer pairs, some quarter less of rotated surfaces, but none of primitives that
-    /// meet.
-    /// The same as `upright` unless one of the trees is moved, and the other not.
+    /// If, in addition, the same holds in the frame of the moved tree: about a quarter fewer pairs
+    /// of rotated surfaces, without missing primitives that meet. The same as `upright`, unless
+    /// exactly one of the trees is moved.
     both_ways
 };
 
@@ -53,8 +52,8 @@ struct two_trees {
 /// result on any number of threads.
 ///
 /// Boxes of trees with different frames or under a transform are compared in one frame, rounded
-/// outward, each node moved when it is opened; trees of any two scales may be compared. What
-/// overlaps no box of the other tree is never looked at.
+/// outward; each node is mapped when it is opened. The scales of the trees may differ by any
+/// factor. Nodes that overlap no box of the other tree are skipped.
 ///
 /// \source Sajovic, Knez and Korez, tf::tree, Algorithm 2; one box against eight at a time
 template <std::size_t D>
@@ -76,7 +75,7 @@ class TREEFORM_API pair_search {
                             detail::function_ref<bool(const candidate_block&)> visit) const;
 
     /// The candidates of all chunks on this thread, in smaller blocks and without the cost of
-    /// cutting the search first: for those who expect to hear soon that they may stop.
+    /// splitting the search: for searches that are likely to stop early.
     static search_statistics visit_all(const transformed<D>& a, const transformed<D>& b,
                                        detail::function_ref<bool(const candidate_block&)> visit,
                                        turned_boxes boxes = turned_boxes::upright);
@@ -123,11 +122,10 @@ template <std::size_t D, class A, class B>
 }  // namespace detail
 
 /// Calls `apply(state, a, b)` for every pair of a primitive `a` of the first tree and `b` of the
-/// second whose boxes overlap. Returns the states, one a chunk, in an order that depends on the
-/// trees alone: no state is shared between threads, `apply` is called by several. A state is made
-/// by `State{}` and moved. Where `apply` returns true (it may return nothing), the search stops:
-/// the state it was given is the last of those returned, and they hold what one thread would have
-/// found.
+/// second whose boxes overlap. `apply` is called from several threads; each chunk has its own
+/// state, made by `State{}`. Returns the states, in an order that depends on the trees alone. If
+/// `apply` returns true (it may also return nothing), the search stops: the state of that call is
+/// the last one returned, and the states contain what a single thread would have found by then.
 ///
 /// Either side may be `transformed{tree, map}`.
 template <class State, any_placed_tree A, any_placed_tree B, class Apply>
@@ -135,8 +133,8 @@ template <class State, any_placed_tree A, any_placed_tree B, class Apply>
     return detail::pair_states<State>(detail::pairs_of(transformed(a), transformed(b)), apply);
 }
 
-/// The same of two `tree`s by blocks of candidates, `apply(state, block)`: for those who test
-/// several at once. A block names places in leaf order, not ids.
+/// The same for two `tree`s, in blocks of candidates, `apply(state, block)`, to test several at
+/// once. A block has places in leaf order, not ids.
 template <class State, placed_tree A, placed_tree B, class Apply>
 [[nodiscard]] std::vector<State> search_broad(const A& a, const B& b, const Apply& apply) {
     return detail::search_states<State>(pair_search<A::dimensions>(a, b),
@@ -147,11 +145,11 @@ template <class State, placed_tree A, placed_tree B, class Apply>
 
 namespace detail {
 
-/// Whether `accept(block)` is true for some block of candidates of two `tree`s; it is called from
-/// several threads, and no more once one is known.
+/// Whether `accept(block)` is true for some block of candidates of two `tree`s. `accept` is called
+/// from several threads, until a block is accepted.
 ///
-/// A block may be handed out twice. Looks at some thousand candidates on one thread before it cuts
-/// the search for all: a collision that is easy to find costs no more than the way down to it.
+/// A block may be passed twice. The first few thousand candidates are tested on one thread before
+/// the search is split, so that a collision that is easy to find costs little.
 template <placed_tree A, placed_tree B, class Accept>
 [[nodiscard]] bool search_any_broad(const A& a, const B& b, const Accept& accept,
                                     turned_boxes boxes = turned_boxes::upright) {

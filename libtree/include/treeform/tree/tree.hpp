@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The tree, trees that are searched as one, and trees searched as if their primitives had moved.
+/// The tree; several trees that are searched as one; and trees that are searched as if their
+/// primitives had moved.
 
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/buffer.hpp>
@@ -26,8 +27,8 @@ struct alignas(64) wide_node {
 };
 
 /// How tree boxes are stored: a coordinate x of axis k as (x - origin[k]) * scale, rounded outward
-/// to float. A box of a primitive also grows by up to 2^-13 of half its extent on each side. With a
-/// local origin, boxes stay tight however far the model is from the origin of its own coordinates.
+/// to float. The box of a primitive also grows by up to 2^-13 of half its extent on each side. With
+/// a local origin, boxes stay tight even if the model is far from the origin of its coordinates.
 /// The scale, a power of two, keeps tiny and huge models within the range of float.
 template <std::size_t D>
 struct tree_frame {
@@ -56,8 +57,8 @@ class tree {
     static constexpr std::size_t dimensions = D;
     static constexpr std::size_t width = wide_node<D>::width;
 
-    /// A tree over nothing. A search finds nothing; it may be rebuilt. It has no memory, and so no
-    /// nodes before `reset`.
+    /// An empty tree, in which searches find nothing. It allocates nothing, and has no nodes before
+    /// `reset`.
     tree() = default;
 
     /// Takes the shape for `size` primitives. Memory is reused; contents are undefined.
@@ -88,7 +89,7 @@ class tree {
         assert(height <= 11);  // a full root of 11 levels is more than max_size
         return std::size_t{1} << (3 * height);
     }
-    /// At least the root, which a tree built over nothing has, too.
+    /// At least the root, also for a tree built over an empty range.
     [[nodiscard]] std::size_t nodes_in_level(unsigned level) const {
         return level == 0 ? 1 : (size_ + capacity(level) - 1) / capacity(level);
     }
@@ -123,13 +124,13 @@ class tree {
     tree_frame<D> frame_;
 };
 
-/// Several trees, the parts, that are searched as one. Every search takes them as it takes a
-/// `tree`, with the same answers as on a tree over all their primitives.
+/// Several trees, the parts, that are searched as one. Every search accepts them like a `tree`,
+/// with the same results as on a tree over all their primitives.
 ///
 /// `top()` is a tree over boxes around the parts; its `ids()` are the numbers of parts. `part(n)`
-/// is the tree of part n. It may be made when a search first asks for it, on several threads at
-/// once. Its `ids()` are primitives of the whole, each in one part, or 0xFFFFFFFF for an empty
-/// slot. The leaf order of the whole is that of the top, then that of the parts.
+/// is the tree of part n. It may be built when a search first asks for it, from several threads at
+/// once. Its `ids()` are primitives of the whole set, each in one part, or 0xFFFFFFFF for an empty
+/// slot. The leaf order of the whole is that of the top, then that within each part.
 template <class T>
 concept tree_of_trees = requires(const T& whole, std::uint32_t number) {
     { whole.size() } -> std::convertible_to<std::size_t>;  // primitives
@@ -139,7 +140,7 @@ concept tree_of_trees = requires(const T& whole, std::uint32_t number) {
 
 namespace detail {
 
-/// Stands in `tree::ids()` for a primitive that has been removed; its slot is empty.
+/// In `tree::ids()`: an empty slot, whose primitive was removed.
 inline constexpr std::uint32_t no_primitive = 0xFFFFFFFF;
 
 template <class T>
@@ -158,9 +159,9 @@ concept any_tree = detail::is_tree<T> || tree_of_trees<T>;
 ///
 /// Nothing is rebuilt. Boxes are moved when a search opens their node. A moved box is larger than
 /// the original, except for a translation or a quarter turn: under another rotation up to sqrt(D)
-/// times its longest side in each direction. It holds the exact images of the primitives, and also
-/// those that `transform::operator()` rounds to double. So no pair is missed, whichever of the two
-/// you decide on.
+/// times its longest side in each direction. It contains the exact images of the primitives, and
+/// also the images that `transform::operator()` rounds to double. So no pair is missed, whichever
+/// of the two you test.
 ///
 /// \source Arvo, Transforming Axis-Aligned Bounding Boxes, Graphics Gems, 1990
 template <std::size_t D, class Tree = tree<D>>
@@ -169,7 +170,7 @@ class transformed {
     static constexpr std::size_t dimensions = D;
 
     /// \pre    `tree` outlives this and every search that takes it
-    /// \throws std::invalid_argument when an entry of `by` is NaN or infinite
+    /// \throws std::invalid_argument if an entry of `by` is NaN or infinite
     transformed(const Tree& tree, const transform<D>& by) : tree_(&tree), by_(by) {
         if (!by.finite())
             throw std::invalid_argument("treeform::transformed: an entry of the map is not finite");
@@ -200,12 +201,12 @@ inline constexpr bool is_transformed<transformed<D, Tree>> = true;
 
 }  // namespace detail
 
-/// What a search of two `tree`s takes on either side: a `tree` or a `transformed` one.
+/// Either side of a search of two `tree`s: a `tree` or a `transformed` tree.
 template <class T>
 concept placed_tree = detail::is_tree<T> || std::same_as<T, transformed<T::dimensions>>;
 static_assert(placed_tree<tree<3>> && placed_tree<transformed<2>>);
 
-/// The same of any kind of tree.
+/// The same for any kind of tree.
 template <class T>
 concept any_placed_tree = any_tree<T> || detail::is_transformed<T>;
 

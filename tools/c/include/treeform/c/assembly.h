@@ -1,12 +1,12 @@
 #pragma once
 /// \file
-/// Bodies of files. Which parts of an assembly penetrate, touch, or are too close; the same in many
-/// poses.
+/// Bodies of files. Clashes: parts of an assembly that penetrate, touch, or are too close, also in
+/// many poses.
 
 #include <treeform/c/files.h>
 #include <treeform/c/nearness.h>
 
-/// What of a file is a body.
+/// Which parts of a file are bodies.
 typedef int32_t treeform_body_kind;
 enum {
     TREEFORM_BODY_FILE = 0,   ///< all of it
@@ -60,18 +60,19 @@ typedef struct treeform_clash_options {
     treeform_vertices vertices;  ///< as in `treeform_relation`
     treeform_progress progress;
     void* progress_data;
-    int32_t volumes;  ///< of what two closed parts have in common; default 1
-    int32_t depths;   ///< of penetrating parts; default 1
+    /// Compute the volume of the intersection of closed parts; default 1
+    int32_t volumes;
+    int32_t depths;   ///< compute depths of penetrating parts; default 1
     uint64_t effort;  ///< for each depth, as in `treeform_depth_options`
     uint64_t limit;   ///< faces listed for each region and part; default 1000
 } treeform_clash_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_clash_options_init(treeform_clash_options* options, size_t size);
 
-/// A place where two parts meet: pairs of faces that hang together, by corners of faces of either
-/// part that meet the same face of the other.
+/// A connected contact of two parts: pairs of faces, linked by common corners of faces of one part
+/// that meet the same face of the other.
 typedef struct treeform_contact_region {
-    treeform_box box;  ///< holds all points that the surfaces have in common here
+    treeform_box box;  ///< contains all common points of the surfaces in this region
     uint64_t face_pairs;
     const uint32_t* faces_a;  ///< [face_count_a] ascending; the first `limit`
     size_t face_count_a;
@@ -86,44 +87,42 @@ typedef struct treeform_part_clash {
     treeform_mesh_relation how;  ///< or penetrating, closer_than_clearance
     int32_t a_inside_b;          ///< as in `mesh_relation_result`
     int32_t b_inside_a;          ///< the same with `a` and `b` swapped
-    double distance;             ///< of the surfaces; 0 where they meet
+    double distance;             ///< distance of the surfaces; 0 if they meet
     double on_a[3];              ///< nearest points of those that are too close; else NaN
     double on_b[3];
     uint64_t face_pairs;                     ///< that meet
     const treeform_contact_region* regions;  ///< [region_count] by their lowest faces
     size_t region_count;
-    /// Of penetrating parts that are closed: the volume of what is inside both, by the exact
-    /// arrangement, as `operand_volumes::both`.
+    /// For closed parts that penetrate: the volume of their intersection, as
+    /// `operand_volumes::both`.
     double volume;
-    /// Of penetrating parts: `treeform_penetration_depth`, the length of `move`, which takes `a`
-    /// out of `b`.
+    /// For penetrating parts: `treeform_penetration_depth`, the length of `move`.
     double depth;
-    double move[3];  ///< a short translation that takes `a` out of `b`
+    double move[3];  ///< a short translation that separates `a` from `b`
     /// of `depth`, as in `penetration_depth_result`
     treeform_search_effort depth_effort;
 } treeform_part_clash;
 
-/// All that is not clear.
+/// All pairs that are not clear of each other.
 typedef struct treeform_clashes {
     void* owner;
     const treeform_part_clash* pairs;  ///< [count] that are not clear, ascending
     size_t count;
-    uint64_t counts[5];    ///< of pairs that were looked at, by `mesh_relation`
-    uint64_t boxes_apart;  ///< pairs that their boxes keep apart: not looked at
-    uint64_t ignored;      ///< pairs left out whose boxes are not apart
+    uint64_t counts[5];    ///< number of tested pairs, by `mesh_relation`
+    uint64_t boxes_apart;  ///< pairs excluded by their boxes
+    uint64_t ignored;      ///< ignored pairs that boxes do not exclude
     uint64_t parts_indexed;
-    /// Pairs that penetrate or are closer than the clearance; with a clearance, those that touch,
-    /// too.
+    /// Number of pairs that penetrate or are closer than the clearance; with a clearance, also
+    /// pairs that touch.
     uint64_t clashes;
 } treeform_clashes;
 
-/// How all parts of an assembly lie to each other, two by two.
+/// The relations of all pairs of parts of an assembly.
 ///
-/// Exact, as `treeform_relation`: parts penetrate, touch, or are separate. Boxes decide nothing
-/// but which pairs need not be looked at: rings in each other, or an L around a corner, whose
-/// boxes overlap, are clear if they do not meet. Parts without faces are clear of all. A distance
-/// is that of `treeform_distance`, and only looked for with a clearance. A part is indexed when
-/// its box comes near another's.
+/// Exact, like `treeform_relation`: parts penetrate, touch, or are separate. Boxes only exclude
+/// pairs: linked rings are clear if they do not meet, although their boxes overlap. Parts without
+/// faces are clear of all. Distances are those of `treeform_distance`, and only computed with a
+/// clearance. A part is only indexed if its box is near that of another.
 TREEFORM_C_API treeform_code treeform_clash(const treeform_mesh* const* parts, size_t count,
                                             const treeform_clash_options* options,
                                             treeform_clashes** clashes);
@@ -140,11 +139,11 @@ typedef struct treeform_pose_clash {
     uint32_t b;
     /// or penetrating, closer_than_clearance (a `treeform_mesh_relation`)
     uint8_t how;
-    double distance;  ///< of those that are closer than the clearance; else 0
+    double distance;  ///< of parts closer than the clearance; else 0
 } treeform_pose_clash;
 // end
 
-/// What clashes in each pose: those of pose p are clashes[begin[p]] ... clashes[begin[p + 1] - 1].
+/// The clashes in each pose: those of pose p are clashes[begin[p]] ... clashes[begin[p + 1] - 1].
 typedef struct treeform_poses_result {
     void* owner;
     const size_t* begin;  ///< [pose_count + 1]

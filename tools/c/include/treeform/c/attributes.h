@@ -1,13 +1,14 @@
 #pragma once
 /// \file
-/// Attributes of inputs carried over to what was made of them; colors.
+/// Attributes of inputs, transferred to results; colors.
 
 #include <treeform/c/files.h>
 
 /// An input of an operation.
 typedef struct treeform_carry_source {
     const treeform_file* file;
-    /// [F] the file's triangle that each face of the input was (`treeform_part`); null: its number.
+    /// [F] the triangle in the file of each face of the input (`treeform_part`); null: the same
+    /// numbers.
     const uint32_t* triangle_of_face;
     size_t face_count;  ///< of `triangle_of_face`
 } treeform_carry_source;

@@ -1,36 +1,33 @@
 #pragma once
 /// \file
-/// What all of the C surface shares: rules, errors, memory, progress, threads, version.
+/// Common to all C headers: conventions, errors, memory, progress, threads, version.
 ///
-/// Calls. Nearly every function returns a `treeform_code` and writes its answer through its last
-/// parameters. 0 is success, a positive code comes with a result that is not all that was asked
-/// for, a negative one comes without. `treeform_last_error` says in a sentence what was wrong, and
-/// which face, point, option or file it was. No argument may be null unless its description says
-/// so, or it is a `format` (by content, or by the extension), a `unit`, a `progress` or `written`;
-/// and a null argument, a number out of range or a coordinate that is not finite is an error, not a
-/// crash.
+/// Calls. Nearly every function returns a `treeform_code` and writes its result through its last
+/// parameters. 0 is success. A positive code comes with an incomplete result, a negative code
+/// without a result. `treeform_last_error` describes the error in a sentence, with the face, point,
+/// option or file. An argument may be null only if its description says so, or if it is a `format`
+/// (then detected by content or extension), a `unit`, a `progress` or `written`. Null arguments,
+/// numbers out of range and coordinates that are not finite are reported as errors.
 ///
-/// Memory. What a function creates (meshes, files, trees, results) is given back by
-/// `treeform_free`, whatever it is. Results are structs; the arrays that they point to belong to
-/// them, and stay until they are freed. The first member of a result, `owner`, is the library's.
-/// Arrays that you pass are yours; a function has read them when it returns, except where it says
-/// that it borrows them.
+/// Memory. Free all objects that functions create (meshes, files, trees, results) with
+/// `treeform_free`. Results are structs that own the arrays they point to, until they are freed.
+/// The first member of a result, `owner`, is internal. Arrays that you pass stay yours; a function
+/// does not use them after it returns, unless it says that it borrows them.
 ///
 /// Options. Structs of options begin with their size: call their `..._init` with `sizeof`, then set
-/// what you need; null in place of options means the defaults. Structs of options and results may
-/// grow at their end in later versions, which old programs do not notice: they are passed by
-/// address, and never within other structs. All other structs (`treeform_face_pair`, ...) stay as
-/// they are within a major version; while that is 0, within a minor one.
+/// members; null instead of options means the defaults. Later versions may append members to
+/// structs of options and results. This is compatible with compiled programs, since these structs
+/// are passed by address and never embedded in others. All other structs (`treeform_face_pair`,
+/// ...) are fixed within a major version; in version 0, within a minor version.
 ///
-/// Numbers. Coordinates are doubles, points are x, y, z one after the other; faces are three 32-bit
-/// numbers of points, counter-clockwise seen from outside. Truth values are 0 and 1. An option that
-/// need not be given is NaN or, of a number that counts elements, `TREEFORM_NONE`. A matrix has 12
-/// numbers, three rows of four: new = M * old, so the first twelve of a 4x4 matrix by rows. Null in
-/// place of a matrix moves nothing.
+/// Numbers. Coordinates are doubles, points are consecutive x, y, z; faces are three 32-bit numbers
+/// of points, counter-clockwise seen from outside. Truth values are 0 and 1. An unset option is NaN
+/// or, for a count or index, `TREEFORM_NONE`. A matrix has 12 numbers, the first three rows of a
+/// 4x4 matrix: new = M * old. Null instead of a matrix means the identity.
 ///
-/// Threads. Functions may be called from any threads at once. The same handle may be given to
-/// several calls at once as long as each takes it as const. Answers do not depend on how many
-/// threads the library uses.
+/// Threads. Functions may be called from several threads at once. Concurrent calls may share a
+/// handle if all take it as const. Results do not depend on the number of threads that the library
+/// uses.
 
 #include <stddef.h>
 #include <stdint.h>
@@ -64,8 +61,7 @@
 typedef int32_t treeform_code;
 enum {
     TREEFORM_OK = 0,
-    /// There is a result, but its certificate does not hold: `treeform_last_error` says what does
-    /// not.
+    /// There is a result, but its certificate is not ok: `treeform_last_error` tells why.
     TREEFORM_NOT_CERTIFIED = 1,
     TREEFORM_NO_PLACE = 2,    ///< there is a result, and it says that there is no such place
     TREEFORM_INVALID = -1,    ///< an argument that makes no sense; the message names it
@@ -76,46 +72,45 @@ enum {
     TREEFORM_INTERNAL = -6    ///< a bug of the library
 };
 
-/// In place of a number of an element: there is none.
+/// No element, instead of an index.
 #define TREEFORM_NONE 0xFFFFFFFFu
 
-/// What was wrong with the last call of this thread that did not return `TREEFORM_OK`; never null.
-/// It stays until the next such call of this thread.
+/// The error of the last call of this thread that did not return `TREEFORM_OK`; never null. The
+/// text is valid until the next such call of this thread.
 TREEFORM_C_API const char* treeform_last_error(void);
 
-/// "invalid", "file", ...: the name of a code, for logs; "unknown" for a number that is none.
+/// The name of a code, for logs: "invalid", "file", ...; "unknown" for other numbers.
 TREEFORM_C_API const char* treeform_code_name(treeform_code code);
 
-/// Frees what a function of this library has created: a mesh, a file, a tree, a result. Null is
-/// nothing to free. Arrays borrowed from it are gone, too.
+/// Frees an object that a function of this library created: a mesh, a file, a tree, a result. Does
+/// nothing for null. Arrays of the object are freed, too.
 TREEFORM_C_API void treeform_free(void* what);
 
-/// Called now and then with the share of the work that is done, in [0, 1] and never decreasing, and
-/// with the `progress_data` of the options. Returning other than 0 cancels: the call ends with
+/// Called from time to time with the completed share of the work, in [0, 1] and never decreasing,
+/// and with the `progress_data` of the options. Returning other than 0 cancels: the call ends with
 /// `TREEFORM_CANCELLED`. It is called from one thread at a time, not always the caller's.
 typedef int (*treeform_progress)(double done, void* data);
 
-/// From here on, also those calls of this thread report progress that have no progress among their
-/// options and take long: `treeform_find_features`, and those that answer many questions: of
-/// points, rays, boxes, positions, and all pairs of points. Null: none does, as at first. A call
-/// that is cancelled has filled its arrays in part.
+/// Sets the progress callback for long calls of this thread without a progress option:
+/// `treeform_find_features`, queries of many points, rays, boxes or positions, and all pairs of
+/// points. Null, the default: none. A cancelled call has filled its arrays only partly.
 ///
-/// All other calls without progress run to their end: they read or write a file once, take one or
-/// two meshes through once (a million faces or points in less than half a second on two cores), or
-/// build a tree (the same).
+/// All other calls without a progress option cannot be stopped: they read or write a file once, or
+/// process one or two meshes or build a tree once (a million faces or points in less than half a
+/// second on two cores).
 TREEFORM_C_API void treeform_set_progress(treeform_progress progress, void* data);
 
-/// Takes what one process of a communicator has sent: `bytes` [count].
+/// Receives the bytes sent by one process of a communicator: `bytes` [count].
 typedef void (*treeform_hear)(const void* bytes, size_t count, void* listener);
 
-/// Processes that do one work together, each its share, in a folder that all see, such as those
-/// that mpirun starts. All call the same with the same options; outputs are those of rank 0.
+/// Processes that share one job in a common folder, such as those that mpirun starts. All must make
+/// the same calls with the same options; outputs are those of rank 0.
 typedef struct treeform_communicator {
     size_t rank;
     size_t size;
-    /// Gives all of them what each gives (`told` [count]): calls `hear(bytes, count, listener)` for
-    /// each in the order of the ranks, with what that one told. Returning other than 0, as it must
-    /// where one has failed, ends the call with `TREEFORM_CANCELLED`.
+    /// Collective: sends `told` [count] to all processes, and calls `hear(bytes, count, listener)`
+    /// for each process in the order of ranks, with the bytes it sent. A nonzero return value,
+    /// required if a process failed, ends the call with `TREEFORM_CANCELLED`.
     int (*exchange)(const void* told, size_t count, treeform_hear hear, void* listener, void* data);
     void* data;
 } treeform_communicator;
@@ -126,7 +121,7 @@ TREEFORM_C_API int32_t treeform_version(void);
 /// The same as text: "0.1.0".
 TREEFORM_C_API const char* treeform_version_string(void);
 
-/// Number of threads that a call may use now.
+/// Number of threads that a call may use at present.
 TREEFORM_C_API uint32_t treeform_thread_count(void);
 
 /// As long as a limit exists, calls of the whole process use at most that many threads.
@@ -137,10 +132,10 @@ TREEFORM_C_API treeform_code treeform_limit_threads(uint32_t threads,
 
 // made of the headers of C++:
 //   precision vertex_identity
-/// The numbers that coordinates are written as.
+/// The floating-point format of coordinates.
 typedef int32_t treeform_precision;
 enum {
-    /// as a binary STL holds them
+    /// 32-bit floats, as in binary STL
     TREEFORM_FLOAT32 = 0,
     /// doubles
     TREEFORM_FLOAT64 = 1
@@ -150,14 +145,14 @@ enum {
 /// its faces are neighbors.
 typedef int32_t treeform_vertices;
 enum {
-    /// those with equal coordinates: also right for files that repeat them (STL)
+    /// corners with equal coordinates; suits files that repeat points (STL)
     TREEFORM_BY_COORDINATES = 0,
-    /// those with the same number
+    /// corners with the same point number
     TREEFORM_BY_INDEX = 1
 };
 // end
 
-/// Somebody's arrays of points and faces.
+/// Arrays of points and faces that another object owns.
 typedef struct treeform_arrays {
     const double* points;  ///< [point_count][3]
     size_t point_count;
@@ -193,84 +188,85 @@ typedef struct treeform_strings {
     size_t count;
 } treeform_strings;
 
-/// How an operation that makes a mesh has ended.
+/// The outcome of an operation that makes a mesh.
 typedef int32_t treeform_status;
 enum {
-    /// everything that the operation promises was checked and holds
+    /// everything that the operation guarantees was verified
     TREEFORM_STATUS_OK = 0,
-    /// an operand is not closed; `open` says where; no mesh is returned
+    /// an operand is not closed; `open` lists where; no mesh is returned
     TREEFORM_STATUS_OPEN_INPUT = 1,
-    /// the mesh has a border, as asked for; everything else holds
+    /// the mesh has a border, as requested; all other guarantees hold
     TREEFORM_STATUS_SHEET = 2,
     /// more was lost than the caller allows
     TREEFORM_STATUS_EXCESSIVE_LOSS = 3,
     /// with equal coordinates joined, an edge has more than two faces, or a vertex more than one
     /// fan
     TREEFORM_STATUS_NOT_MANIFOLD = 4,
-    /// faces still meet in the coordinates returned; `meeting` says which
+    /// faces still meet in the returned coordinates; `meeting` lists them
     TREEFORM_STATUS_NOT_CERTIFIED = 5,
     /// no face is left: the result is thinner than the coordinates can show, or faces cancel each
     /// other out
     TREEFORM_STATUS_VANISHED = 6,
-    /// a coordinate of the result is too large for the precision asked for
+    /// a coordinate of the result overflows the requested precision
     TREEFORM_STATUS_OUT_OF_RANGE = 7,
-    /// of a placement: there is no such place; `placement::end` says why
+    /// of a placement: there is none; `placement::end` tells why
     TREEFORM_STATUS_NO_PLACE = 8,
-    /// `progress` asked to stop; nothing is returned
+    /// stopped by `progress`; there is no result
     TREEFORM_STATUS_CANCELLED = 9
 };
 
-/// A place where a surface ends, or where its faces do not agree in their orientation.
+/// An edge where a surface ends, or where its faces are oriented inconsistently.
 typedef struct treeform_open_edge {
     treeform_element face;  ///< a face at the edge
-    double ends[2][3];      ///< ends of the open part of the edge; rounded where it is cut
+    /// Ends of the open part of the edge; rounded if the edge is cut.
+    double ends[2][3];
 } treeform_open_edge;
 
-/// What was checked about a mesh that an operation (`treeform_boolean`,
+/// The outcome of checking a mesh that an operation (`treeform_boolean`,
 /// `treeform_resolve_self_intersections`, `treeform_slide`, `treeform_pack`) returns or places:
-/// with exact predicates, on the coordinates returned.
+/// with exact predicates, on the returned coordinates.
 typedef struct treeform_certificate {
     void* owner;
     treeform_status status;
     const char* message;  ///< half a sentence for people
-    /// Pairs of faces that meet where they should not. A face paired with itself is degenerate or
-    /// has its outside behind it. `meeting` lists the first 100.
+    /// Number of pairs of faces that meet where they should not. A face paired with itself is
+    /// degenerate, or has the outside behind it. `meeting` lists the first 100.
     uint64_t meeting_count;
     const uint32_t* meeting;   ///< [meeting_listed][2]
     const double* meeting_at;  ///< a corner of the first face of each pair in `meeting`
     size_t meeting_listed;
-    /// Edges whose signed face count is not zero, in pieces where others overlap them. The first
-    /// 100 of `open_count`.
+    /// Number of edges whose signed face count is not zero, counted in pieces where edges overlap.
+    /// `open` lists the first 100.
     uint64_t open_count;
     const treeform_open_edge* open;  ///< [open_listed]
     size_t open_listed;
-    /// The same edges as the operands have them, with equal coordinates joined: those of an odd
-    /// number of faces, where the surface ends, and those of an even number, where faces run the
-    /// same way. Both are 0 if a vertex lies inside such an edge: edges may then fit together
+    /// The same edges in the operands, after joining equal coordinates: edges of an odd number of
+    /// faces, where the surface ends, and edges of an even number of faces, which are oriented
+    /// inconsistently. Both are 0 if a vertex lies inside such an edge, since edges may then match
     /// piece by piece.
     uint64_t boundary_edges;
     uint64_t misoriented_edges;
-    /// Rounding moved no coordinate of a vertex further than this: from where it was, exactly, or,
-    /// where it is new or gone since rounding broke something, from the nearest place of the
-    /// surface. Measured; moves on the way do not add up.
+    /// The largest change of a coordinate by rounding, from the exact position of the vertex. For
+    /// vertices added or removed by mending, from the nearest point of the exact surface. Measured
+    /// on the result; intermediate moves do not add up.
     double max_displacement;
     treeform_precision precision;  ///< of the coordinates
-    /// Of `vanished`, the faces of the exact result, all of them thinner than the coordinates tell
-    /// apart; 0 where there were none.
+    /// For status `vanished`: number of faces of the exact result, all too thin for the
+    /// coordinates; 0 if it had no faces.
     uint64_t vanished_faces;
-    /// Of `excessive_loss`: the volume, or the area where there is no solid, before and after.
+    /// For status `excessive_loss`: the volume (the area, if there is no solid) before and after.
     double size_before;
     double size_after;
     int32_t size_is_volume;
 } treeform_certificate;
 
-/// The work of a bounded search, in pairs of faces looked at. It depends on the input alone. What
-/// the search found is valid even where it was cut short.
+/// The work of a bounded search, in pairs of faces tested. It depends on the input alone. A result
+/// is valid even if the bound was reached.
 typedef struct treeform_search_effort {
-    uint64_t pairs;  ///< pairs of faces looked at; a pair in motion counts as two
-    uint64_t bound;  ///< the most that the search was to look at
-    /// Candidates skipped, since each would take more than 1/32 of the bound, or than what was
-    /// left of it. If not 0, a better answer may exist.
+    uint64_t pairs;  ///< pairs of faces tested; a pair in motion counts as two
+    uint64_t bound;  ///< the limit of `pairs`
+    /// Number of candidates skipped, since each would take more than 1/32 of the bound, or more
+    /// than the rest of it. If not 0, a better result may exist.
     uint64_t cut;
 } treeform_search_effort;
 // end

@@ -1,11 +1,11 @@
 #pragma once
 /// \file
-/// Sections of a mesh by planes, solids cut by them; parts of meshes, meshes one after the other,
-/// moved.
+/// Sections of a mesh by planes; solids cut by planes; parts of meshes; meshes concatenated and
+/// transformed.
 
 #include <treeform/c/mesh.h>
 
-/// The plane through a point across a normal, whose length does not matter.
+/// The plane through a point with a normal of any length except zero.
 typedef struct treeform_plane {
     double at[3];
     double normal[3];
@@ -15,29 +15,29 @@ typedef struct treeform_plane {
 //   section_loop section_layer section_result section() heights layer_heights()
 //   write_section() cut_options cut_piece cut_result cut() cut_to_fit() mesh_part mesh_parts
 //   components() concatenate() transform_mesh()
-/// A closed polygon, or, where the mesh ends, an open polyline.
+/// A closed polygon, or an open polyline that ends at a border of the mesh.
 typedef struct treeform_section_loop {
-    size_t first_point;  ///< its points follow one another; the first is not repeated
+    size_t first_point;  ///< consecutive; the first is not repeated
     size_t point_count;
     uint8_t closed;
-    /// The faces along it agree in their orientation. What is inside is to the left then, seen
-    /// from above the plane: outer loops run counter-clockwise, holes clockwise.
+    /// Whether the faces along the loop are consistently oriented. Then the inside is to the left,
+    /// seen from above the plane: outer loops run counter-clockwise, holes clockwise.
     uint8_t oriented;
-    uint32_t parent;  ///< the innermost loop around it; `TREEFORM_NONE` for open ones
-    /// how many loops are around it: of a solid, holes have an odd one
-    uint32_t depth;
-    double area;  ///< positive where it runs counter-clockwise; 0 for open ones
+    /// the innermost loop around this one; `TREEFORM_NONE` for open loops
+    uint32_t parent;
+    uint32_t depth;  ///< number of loops around this one; odd for holes in a solid
+    double area;     ///< positive if counter-clockwise; 0 for open loops
     double length;
 } treeform_section_loop;
 
-/// What is in one plane.
+/// The section in one plane.
 typedef struct treeform_section_layer {
     double height;
-    double at[3];         ///< of its plane
-    uint32_t first_loop;  ///< its loops follow one another
+    double at[3];         ///< a point of its plane
+    uint32_t first_loop;  ///< its loops are consecutive
     uint32_t loop_count;
-    uint32_t open_count;  ///< of these, open polylines
-    double area;          ///< of its loops, added up: what is inside a solid
+    uint32_t open_count;  ///< open polylines among the loops
+    double area;          ///< sum over the loops: the area inside a solid
     double length;
 } treeform_section_layer;
 
@@ -48,8 +48,8 @@ typedef struct treeform_section_result {
     size_t layer_count;
     const treeform_section_loop* loops;  ///< [loop_count]
     size_t loop_count;
-    /// [point_count][2] In the frame: of p in space, (x . p, y . p), for p within 2^-45 of its
-    /// largest coordinate.
+    /// [point_count][2] In the frame: (x . p, y . p) for a point p in space, which is accurate to
+    /// 2^-45 of its largest coordinate.
     const double* points;
     /// [points] the face in which the segment from each point begins
     const uint32_t* faces;
@@ -61,24 +61,23 @@ typedef struct treeform_section_result {
 
 /// Sections of a mesh by the planes at `heights` above `plane` (`oriented_plane::parallel`).
 ///
-/// Which side of a plane a vertex is on, which segments make a loop, and which loop lies in which
-/// are decided exactly, on the coordinates as given. Then points are rounded.
+/// The side of each vertex, the loops and their nesting are decided exactly, on the coordinates as
+/// given. Then points are rounded.
 ///
-/// A vertex in a plane counts as above it. So a section is that of a plane just below: a box from
-/// height 0 to 1 has none at 0, and its full top at 1. A point or line in which the mesh only
-/// touches the plane from below gives no loop. A face in the plane counts where the mesh goes on
-/// below it.
+/// A vertex in a plane counts as above it, so a section shows the mesh just below the plane: a box
+/// from height 0 to 1 has no section at 0, and its full top at 1. A point or line in which the
+/// mesh touches the plane from below gives no loop. A face in the plane is part of the section if
+/// the mesh continues below it.
 ///
-/// Of a mesh that is closed and agrees in its orientation, all polylines are closed. Loops may
-/// touch where faces do; at an edge of four faces or more, those that bound one wedge of the solid
-/// are joined. Where the mesh has a border, polylines are open; where neighbors disagree, they go
-/// on, not `oriented`. Loops of faces that cross each other do, too: `parent` is then that of one
-/// of their points, and areas are added up as often as the surface winds around them. Corners with
-/// equal coordinates are one.
+/// If the mesh is closed and consistently oriented, all polylines are closed. Loops may touch
+/// where faces touch; at an edge of four or more faces, segments that bound the same wedge of the
+/// solid are joined. Where the mesh has a border, polylines are open; across inconsistently
+/// oriented neighbors they continue, but are not `oriented`. If faces cross each other, so do
+/// loops: `parent` is then that of one point of the loop, and areas count as often as the surface
+/// winds around them. Corners with equal coordinates are one.
 ///
-/// Where a loop goes straight on from one face to another in the same plane, exactly, there is no
-/// point: a box has four. The side from a point on lies in the face named, and may go on in
-/// others.
+/// Between exactly coplanar faces a straight loop has no point: the section of a box has four. The
+/// segment after a point begins in the face in `faces`, and may continue in others.
 ///
 /// Loops are in the order of their lowest faces.
 TREEFORM_C_API treeform_code treeform_section(const treeform_mesh* mesh,
@@ -112,84 +111,86 @@ typedef struct treeform_cut_options {
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
     /// float64
     treeform_precision precision;
-    /// As in `treeform_boolean_options`: how far what rounding has broken is joined; default
-    /// infinite
-    double max_displacement;
-    /// Of a mesh that meets itself, as in `treeform_boolean_options`: where merging would mix
-    /// values (`carry_sources::merging_mixes_values`), faces that were cut are to stay apart.
+    double max_displacement;  ///< As in `treeform_boolean_options`; default infinite
+    /// As in `treeform_boolean_options`, for a mesh that meets itself. Set it if merging would mix
+    /// values (`carry_sources::merging_mixes_values`).
     int32_t keep_cuts;
     treeform_progress progress;
     void* progress_data;
-    /// Otherwise pieces end at the planes, and the mesh may end anywhere: it is cut as a surface;
-    /// default 1
+    /// Close pieces by caps. If false, the mesh is cut as a surface, which may be open, and pieces
+    /// are open at the planes; default 1
     int32_t caps;
 } treeform_cut_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_cut_options_init(treeform_cut_options* options, size_t size);
 
-/// What is between two planes.
+/// The part of the mesh between two neighboring planes.
 typedef struct treeform_cut_piece {
     treeform_arrays mesh;
-    /// [F] face of the input that each lies in; `TREEFORM_NONE`: a cap
+    /// [F] input face that contains each face; `TREEFORM_NONE`: a cap
     const uint32_t* face_source;
-    /// [V] vertex of the input that each is; `TREEFORM_NONE`: new
+    /// [V] input vertex equal to each vertex; `TREEFORM_NONE`: new
     const uint32_t* vertex_source;
-    /// [F] of a cap, the number of its plane, from the lowest; else none
+    /// [F] for faces of a cap, the number of its plane, from the lowest; else none
     const uint32_t* cap;
-    /// Status ok says what it says of `treeform_boolean_result`; without caps, edges are not
-    /// looked at. A piece without faces is ok, too: there is nothing between these planes.
+    /// Status ok means the same as in `treeform_boolean_result`; without caps, edges are not
+    /// checked. A piece without faces is ok: the mesh has no part between these planes.
     const treeform_certificate* certificate;
 } treeform_cut_piece;
 
-/// Pieces, and what was checked.
+/// The pieces, and their certificate.
 typedef struct treeform_cut_result {
     void* owner;
-    /// [count] Of K planes, in their order along the normal, K + 1 pieces from the lowest up. None
-    /// where the certificate says why.
+    /// [count] For K planes, K + 1 pieces in order along the normal, from the lowest up. Empty if
+    /// the certificate tells why.
     const treeform_cut_piece* pieces;
     size_t count;
-    /// That of the first piece that is not ok, or of the mesh where it bounds no solid.
+    /// That of the first piece that is not ok, or of the mesh if it bounds no solid.
     const treeform_certificate* certificate;
-    /// Faces of the mesh met: what was cut is the solid that it winds around, where parts that
-    /// overlap are one; without caps, the faces cut along each other. Not of `treeform_cut_along`.
+    /// True if faces of the mesh meet. Then the solid that the mesh winds around was cut, with
+    /// overlapping parts merged; without caps, the faces cut along each other. Not used by
+    /// `treeform_cut_along`.
     int32_t resolved;
 } treeform_cut_result;
 
-/// The mesh below, between and above planes at `heights` above `plane`
+/// The pieces of a mesh below, between and above planes at `heights` above `plane`
 /// (`oriented_plane::parallel`).
 ///
-/// Which side of a plane a vertex is on is decided exactly, on the coordinates as given. A face
-/// that lies in a plane belongs to the side that its solid is on. What the solid has in the plane
-/// is then closed by a cap, the same for both sides. Only points on cuts are rounded, once; each
-/// piece is checked as results of `treeform_boolean` are. Caps between axes stay flat and alike
-/// when rounded; others may bend by a step of the precision.
+/// The side of each vertex is decided exactly, on the coordinates as given. A face in a plane
+/// belongs to the side of its solid. The section of the solid in a plane becomes a cap, the same
+/// on both sides. Only points on cuts are rounded, once; each piece is checked like a result of
+/// `treeform_boolean`. Caps across an axis stay flat and equal when rounded; others may bend by a
+/// step of the precision.
 ///
-/// `treeform_carry` gives pieces the attributes of a file, by their sources, and
-/// `carry_source::texture_caps` gives caps texture coordinates in their planes.
+/// `treeform_carry` transfers the attributes of a file to pieces; `carry_source::texture_caps`
+/// gives caps planar texture coordinates.
 ///
-/// The mesh has to bound a solid, as an operand of `treeform_boolean` has to. Where it meets
-/// itself, or has parts that are inside out or hidden in others, it is first made the solid that
-/// it winds around, rounded: then all that is said here is of that one. Equal planes are one.
+/// With caps, the mesh must bound a solid, like an operand of `treeform_boolean`. If it meets
+/// itself, or has parts that are inside out or hidden in others, it is first replaced by the solid
+/// that it winds around, rounded; the statements above then hold for that solid. Equal planes
+/// count once.
 TREEFORM_C_API treeform_code treeform_cut(const treeform_mesh* mesh, const treeform_plane* plane,
                                           const double* heights, size_t count,
                                           const treeform_cut_options* options,
                                           treeform_cut_result** result);
 
-/// Pieces that fit into a box of this size: cut by planes across x, then y, then z, as few along
-/// each axis as there can be, and equally far apart, to rounding. A size that is infinite is not
-/// cut along. Pieces are those with faces, by x, then y, then z; numbers of planes count across x
-/// first, then y, then z. Cuts across y and z are of the rounded pieces of the cuts before.
+/// Pieces that fit into a box of this size. They are cut by planes across x, then y, then z: as
+/// few as possible for each axis, equally spaced up to rounding, and none for an axis with
+/// infinite size. Pieces without faces are omitted; the others are ordered by x, then y, then z.
+/// Planes are numbered across x first, then y, then z. Cuts across y and z cut the rounded pieces
+/// of the cuts before.
 TREEFORM_C_API treeform_code treeform_cut_to_fit(const treeform_mesh* mesh, const double size[3],
                                                  const treeform_cut_options* options,
                                                  treeform_cut_result** result);
 
-/// Faces of a mesh by themselves, with the points that they use.
+/// Some faces of a mesh, with the points that they use.
 typedef struct treeform_mesh_part {
     treeform_arrays mesh;
-    const uint32_t* face_source;    ///< [F] the number of each face in the whole
-    const uint32_t* vertex_source;  ///< [V] that of each point; ascending
-    double volume;                  ///< as `signed_volume`
-    double area;                    ///< as `surface_area`
+    const uint32_t* face_source;  ///< [F] the number of each face in the given mesh
+    /// [V] the number of each point in the given mesh; ascending
+    const uint32_t* vertex_source;
+    double volume;  ///< as `signed_volume`
+    double area;    ///< as `surface_area`
 } treeform_mesh_part;
 
 /// Parts of a mesh.
@@ -210,8 +211,8 @@ TREEFORM_C_API treeform_code treeform_components(const treeform_mesh* mesh, doub
 TREEFORM_C_API treeform_code treeform_concatenate(const treeform_mesh* const* meshes, size_t count,
                                                   treeform_made_mesh** made);
 
-/// The mesh with its points moved. Where `by` mirrors, faces are turned over, so that they look
-/// outward as before.
+/// The mesh with transformed points. If `by` mirrors, faces are flipped, so that they still point
+/// outward.
 TREEFORM_C_API treeform_code treeform_transform_mesh(const treeform_mesh* mesh, const double* by,
                                                      treeform_made_mesh** made);
 // end

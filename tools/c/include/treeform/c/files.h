@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Files: read, looked into, changed, joined, split into parts, written; robots.
+/// Files: reading, inspecting, changing, joining, splitting into parts, writing; robots.
 
 #include <treeform/c/mesh.h>
 
@@ -180,7 +180,7 @@ TREEFORM_C_API treeform_code treeform_file_add_part(treeform_file* file, const c
                                                     uint32_t first_face);
 // end
 
-/// What a line of text in a file is.
+/// The kind of a line of text in a file.
 typedef int32_t treeform_text;
 enum {
     TREEFORM_COMMENT = 0,
@@ -218,36 +218,36 @@ typedef struct treeform_write_options {
     /// Extension without its dot: stl, obj, ply, off, xyz, csv, pcd, las, laz, glb, 3mf. Empty:
     /// that of the path.
     const char* format;
-    /// Write text when the format has text and binary. Binary PLY is little endian unless the file
-    /// was read from a big endian one. PCD is compressed only when it was read from a compressed
-    /// one.
+    /// Write text if the format has text and binary. Binary PLY is little endian, unless the file
+    /// was read from a big-endian file. PCD is compressed only if it was read from a compressed
+    /// file.
     int32_t ascii;
-    /// Precision of the coordinates; `TREEFORM_NONE`: as they were stored. Binary STL and GLB hold
-    /// float32 only. 3MF holds doubles, but its readers make floats of them: none is float32
-    /// there; a `treeform_precision`, or -1
+    /// Precision of the coordinates; `TREEFORM_NONE`: as they were stored. Binary STL and GLB only
+    /// hold float32. 3MF holds doubles, but most of its readers convert to float, so none means
+    /// float32 there; a `treeform_precision`, or -1
     int32_t precision;
     /// the coordinates are certified: fail rather than round them. For `treeform_write_mesh`
     int32_t certified;
-    /// Told 0 when the writing begins and while it goes on, and 1 before the file appears. Where
-    /// it returns false, nothing appears: what was at the path stays as it was.
+    /// Called with 0 at the start and during the writing, and with 1 before the file is renamed.
+    /// If it returns false, nothing is written, and an existing file is unchanged.
     treeform_progress progress;
     void* progress_data;
-    /// [drop_count] Columns of points that are not written; "normal", "uv" or "color" for all of
-    /// that kind, also those of corners.
+    /// [drop_count] Columns of points to omit; "normal", "uv" or "color" for all columns of that
+    /// kind, also of corners.
     const char* const* drop;
     size_t drop_count;
     /// [rename_count] of points: `source` is the column, `name` the new one
     const treeform_named_column* rename;
     size_t rename_count;
-    /// [3] Of LAS and LAZ; `TREEFORM_NONE`: those of the file, else as `treeform_write` says; or
-    /// null
+    /// [3] For LAS and LAZ; `TREEFORM_NONE`: those of the file, else chosen by `treeform_write`;
+    /// or null
     const double* las_scale;
     const double* las_offset;  ///< [3] ; or null
 } treeform_write_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_write_options_init(treeform_write_options* options, size_t size);
 
-/// What was written.
+/// The result of `treeform_write`.
 typedef struct treeform_written {
     void* owner;
     const char* format;  ///< "stl-binary", "ply-ascii", "obj", ...
@@ -302,11 +302,11 @@ typedef struct treeform_part_options {
     size_t size;
     /// Whether points with equal coordinates are one vertex.
     treeform_vertices vertices;
-    /// If greater than 0, equal points are joined first, then points within this distance, as by
-    /// `treeform_weld`.
+    /// If greater than 0, points within this distance are joined, as by `treeform_weld`, after
+    /// equal points.
     double tolerance;
     const treeform_box* box;  ///< only faces that meet it; or null
-    int32_t details;          ///< find `component` and `distinct`, too
+    int32_t details;          ///< also compute `component` and `distinct`
 } treeform_part_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_part_options_init(treeform_part_options* options, size_t size);
@@ -353,7 +353,7 @@ typedef struct treeform_scene_parts {
 TREEFORM_C_API treeform_code treeform_split_parts(const treeform_file* file,
                                                   treeform_scene_parts** parts);
 
-/// Which files of a folder are meant.
+/// Which files of a folder are included.
 typedef int32_t treeform_file_content;
 enum {
     /// STL, OBJ, PLY, OFF, 3MF, GLB, glTF
@@ -362,15 +362,14 @@ enum {
     TREEFORM_MESHES_AND_POINTS = 1
 };
 
-/// `paths` with each folder replaced by the files in it of such a format, by extension, in the
-/// order of their names. What is in folders of the folder is not looked at. A folder without such
-/// files stays, and so does "-".
+/// `paths` with each folder replaced by its files of these formats, by extension, in the order of
+/// their names. Subfolders are not searched. A folder without such files is kept, and so is "-".
 TREEFORM_C_API treeform_code treeform_files_of(const char* const* paths, size_t count,
                                                treeform_file_content content,
                                                treeform_strings** strings);
 // end
 
-/// Whether other scenes than glTF and GLB (DAE, FBX, ...) can be read: 0 when treeform was built
+/// Whether other scenes than glTF and GLB (DAE, FBX, ...) can be read: 0 if treeform was built
 /// without assimp.
 TREEFORM_C_API int32_t treeform_reads_scenes(void);
 
@@ -382,10 +381,9 @@ typedef struct treeform_robot treeform_robot;
 /// How to read a robot.
 typedef struct treeform_robot_options {
     size_t size;
-    int32_t visual;  ///< the meshes that are for show, not those for collisions
-    /// [package_folder_count] Where packages are: `package://name/rest` is FOLDER/name/rest or
-    /// FOLDER/rest for one of these; else it is looked for in the file's folder and those above it
-    /// in the same way.
+    int32_t visual;  ///< use visual meshes instead of collision meshes
+    /// [package_folder_count] Folders of packages: `package://name/rest` is FOLDER/name/rest or
+    /// FOLDER/rest for one of these, else for the file's folder or one above it.
     const char* const* package_folders;
     size_t package_folder_count;
 } treeform_robot_options;
@@ -393,12 +391,12 @@ typedef struct treeform_robot_options {
 TREEFORM_C_API void treeform_robot_options_init(treeform_robot_options* options, size_t size);
 
 /// Reads the robot at `path`. Joints are fixed, revolute, continuous or prismatic. Boxes,
-/// cylinders and spheres become meshes. Files of meshes are not read, but have to exist.
+/// cylinders and spheres become meshes. Mesh files are not read, but must exist.
 TREEFORM_C_API treeform_code treeform_read_urdf(const char* path,
                                                 const treeform_robot_options* options,
                                                 treeform_robot** robot);
 
-/// A mesh of a link, in a file, or made here: `place` takes its points into the link's frame.
+/// A mesh of a link, from a file or a shape; `place` maps its points to the link's frame.
 typedef struct treeform_robot_mesh {
     uint32_t link;
     const char* file;      ///< "" where it was made

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Which faces meet: of a mesh, of two, of a mesh and a box; the curves along which they meet; of a
-/// file larger than memory.
+/// Intersections of faces: of one mesh, of two meshes, of a mesh and a box; intersection curves;
+/// files larger than memory.
 
 #include <treeform/c/files.h>
 
@@ -84,7 +84,7 @@ TREEFORM_C_API treeform_code
 treeform_self_intersections(const treeform_mesh* mesh,
                             const treeform_intersections_options* options, treeform_pairs** pairs);
 
-/// Faces that meet, in one place of the mesh.
+/// A connected set of faces that meet.
 typedef struct treeform_region {
     const uint32_t* faces;  ///< [face_count] ascending
     size_t face_count;
@@ -102,8 +102,8 @@ typedef struct treeform_regions {
     size_t pair_count;
 } treeform_regions;
 
-/// Groups the faces in `pairs` into regions. Two of these faces are in one region when a pair or a
-/// shared corner links them, directly or through other such faces.
+/// Groups the faces in `pairs` into regions. Two of these faces are in one region if a pair or a
+/// shared corner links them, directly or through other faces of `pairs`.
 TREEFORM_C_API treeform_code treeform_group_pairs(const treeform_mesh* mesh,
                                                   const treeform_face_pair* pairs, size_t count,
                                                   treeform_regions** regions);
@@ -137,7 +137,7 @@ TREEFORM_C_API treeform_code treeform_faces_in_box(const treeform_mesh* mesh,
                                                    const treeform_box* box,
                                                    treeform_indices** indices);
 
-/// What two faces have in common, or one side of it.
+/// The intersection of two faces, or one side of it.
 typedef struct treeform_segment {
     double ends[2][3];  ///< equal when the faces meet in a point
     uint32_t pair;      ///< index into the pairs given
@@ -150,9 +150,9 @@ typedef struct treeform_segments {
     size_t count;
 } treeform_segments;
 
-/// What the two faces of each pair have in common, as segments, in the order of `pairs`: one
-/// segment for a crossing, the 3 to 6 sides of the common area for faces that overlap, a segment
-/// of length 0 for a single point.
+/// The intersection of each pair as segments, in the order of `pairs`: one segment for a crossing,
+/// the 3 to 6 sides of the common area for faces that overlap, a segment of length 0 for a single
+/// point.
 ///
 /// Whether there is a segment is exact. Its ends are rounded, and finite.
 TREEFORM_C_API treeform_code treeform_intersection_curves(const treeform_mesh* mesh,
@@ -173,8 +173,8 @@ typedef struct treeform_paths {
     void* owner;
     const double* points;  ///< [point_count][3]
     size_t point_count;
-    /// [path_count] First the paths between points where one segment, or more than two, end. Then
-    /// closed paths. Last single points, where faces meet in one point and no segment ends.
+    /// [path_count] First open paths, between points where one segment or more than two end. Then
+    /// closed paths. Last single points, where faces meet in a point that is on no segment.
     const treeform_path* paths;
     size_t path_count;
 } treeform_paths;
@@ -182,8 +182,8 @@ typedef struct treeform_paths {
 /// The segments of `treeform_intersection_curves`, joined into paths where their ends are equal as
 /// exact points.
 ///
-/// A segment that several pairs have is listed once. Paths are in the order of the numbers of
-/// their first points, and points in the order of their names.
+/// A segment common to several pairs is listed once. Paths are ordered by the number of their
+/// first point, points by their name.
 TREEFORM_C_API treeform_code treeform_intersection_paths(const treeform_mesh* mesh,
                                                          const treeform_face_pair* pairs,
                                                          size_t count, treeform_paths** paths);
@@ -206,9 +206,9 @@ typedef struct treeform_search_file_options {
     uint32_t kinds;
     const treeform_box* box;  ///< only faces that meet it; or null
     const char* format;       ///< of the input, as for `treeform_read`
-    uint64_t memory;          ///< bytes to take; 0: three quarters of the machine's
-    const char* folder;       ///< for the tiles; empty: the input's name and ".search-tiles"
-    uint64_t faces_per_tile;  ///< at most about this many; 0: as the memory allows
+    uint64_t memory;          ///< limit in bytes; 0: three quarters of the machine's memory
+    const char* folder;       ///< of the tiles; empty: the input's name and ".search-tiles"
+    uint64_t faces_per_tile;  ///< approximate limit; 0: as the memory allows
     treeform_progress progress;
     void* progress_data;
     const treeform_communicator* communicator;  ///< not for `stream_search`; or null
@@ -225,23 +225,23 @@ typedef struct treeform_search_result {
     /// Pairs of faces of `treeform_named_faces`. Its counters are sums over the tiles.
     const treeform_pairs* found;
     uint64_t stored_faces;  ///< faces of the file
-    uint64_t triangles;     ///< that they are cut into
-    uint64_t searched;      ///< triangles that are finite, and meet the box
-    uint64_t points;        ///< of the file; three a face for STL
+    uint64_t triangles;     ///< triangles of these faces
+    uint64_t searched;      ///< finite triangles that meet the box
+    uint64_t points;        ///< points of the file; for STL three for each face
     uint64_t degenerate;    ///< triangles without area
     uint64_t dropped;       ///< triangles that are not finite
     size_t tiles;
-    size_t finished_tiles;  ///< by an earlier run
+    size_t finished_tiles;  ///< tiles finished by an earlier run
 } treeform_search_result;
 
 /// The pairs that `treeform_self_intersections` finds in the usable part of a file, for files
-/// larger than memory: binary STL, and PLY whose vertices come ahead of its faces. Space is cut
-/// into tiles; each gets a copy, on the disk, of the faces that reach into it, which must fit into
-/// memory. A pair counts in the tile that holds the lowest corner of the common part of the boxes
-/// of its faces, so it counts once.
+/// larger than memory: binary STL, and PLY with vertices before faces. Space is cut into tiles.
+/// Each tile gets a copy, on the disk, of the faces that reach into it; they must fit into memory.
+/// A pair counts once: in the tile that contains the lowest corner of the intersection of its
+/// faces' boxes.
 ///
-/// The folder stays when the process is killed, and the same call goes on from there. With several
-/// ranks, rank 0 makes the tiles, all search them, and rank 0 gets the result.
+/// If the process is killed, the folder stays, and the same call resumes there. With several
+/// ranks, rank 0 makes the tiles, all ranks search them, and rank 0 gets the result.
 TREEFORM_C_API treeform_code
 treeform_self_intersections_of_file(const char* input, const treeform_search_file_options* options,
                                     treeform_search_result** result);
@@ -252,7 +252,7 @@ TREEFORM_C_API treeform_code treeform_is_searched_in_tiles(const char* path, con
                                                            int32_t* result);
 // end
 
-/// The same search step by step, for many processes that see one folder.
+/// The same search step by step, for many processes that share a folder.
 typedef struct treeform_search treeform_search;
 // made of the headers of C++:
 //   search_create() search_scatter() search_unfinished() search_tile() search_finish()

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Meshes laid flat, packed on plates, aligned.
+/// Laying meshes flat, packing them on plates, aligning them.
 
 #include <treeform/c/properties.h>
 
@@ -27,12 +27,12 @@ typedef struct treeform_lay_flat_options {
     treeform_lay_choice choose;
     /// a direction of any length, or a point, in the coordinates of the mesh
     double toward[3];
-    /// Only bring the side down. Otherwise the mesh is also turned about the vertical, by at most
-    /// 45 degrees, until the longest edge of the side runs along x or y.
+    /// Do not rotate about the vertical. Otherwise the mesh is also rotated about it, by at most
+    /// 45 degrees, so that the longest edge of the side runs along x or y.
     int32_t keep_spin;
-    /// Points at most this far from the plane of a side belong to it. With 0, a side is exactly in
-    /// one plane. That fits models in round numbers. A flat face that was turned and rounded
-    /// before then falls into many sides; about 1e-6 of the size joins them again.
+    /// Points at most this far from the plane of a side belong to it. With 0, a side is exactly
+    /// coplanar, which suits models in round numbers. A flat face that was rotated and rounded
+    /// falls into many exactly coplanar sides; about 1e-6 of the size joins them.
     double tolerance;
     double bed;                    ///< z of the bed
     double overhang_angle;         ///< in degrees from the vertical, 0 to 90; default 45.0
@@ -46,21 +46,21 @@ TREEFORM_C_API void treeform_lay_flat_options_init(treeform_lay_flat_options* op
 
 /// How a mesh stands on a side.
 typedef struct treeform_stability {
-    /// The least tilt, in degrees, that brings the center of mass over an edge of the side: then
-    /// it tips over. 90 where the center is in the plane of the side. Negative where the center is
-    /// not over the side: it tips over by itself.
+    /// The least tilt, in degrees, that brings the center of mass over an edge of the side, so
+    /// that the mesh tips over. 90 if the center is in the plane of the side. Negative if the
+    /// center is not over the side: then the mesh tips over by itself.
     double tip_angle;
-    double height;  ///< of the center of mass over the plane of the side
-    /// Area of the faces that would need support: that look down more than `overhang_angle` from
-    /// the vertical and are not on the bed. Only known of the first `overhang_sides` sides and the
-    /// chosen one, else NaN.
+    double height;  ///< height of the center of mass over the plane of the side
+    /// Area of the faces that need support: faces off the bed that point down at more than
+    /// `overhang_angle` from the vertical. Only computed for the first `overhang_sides` sides and
+    /// the chosen one, else NaN.
     double overhang;
 } treeform_stability;
 
 /// A mesh on the bed.
 typedef struct treeform_laid_flat {
     void* owner;
-    /// ok, or `cancelled`: then the rest is empty. `max_displacement` includes what was corrected.
+    /// ok, or `cancelled`: then the rest is empty. `max_displacement` includes `corrected`.
     const treeform_certificate* certificate;
     const char* message;   ///< half a sentence for people
     const double* points;  ///< [V] the new points, as they are to be written
@@ -68,37 +68,36 @@ typedef struct treeform_laid_flat {
     /// new = M * old, a rotation and a translation. `points` differ from it by a few units in the
     /// last place of the largest coordinate, old or new.
     double matrix[12];
-    /// z of the points on the bed; with float32, the least one not below it
+    /// Z of the points on the bed; with float32, the least number not below the bed.
     double bed;
-    /// [side_count] The sides of the convex hull before the turn, largest area first. With a
-    /// tolerance, each is a side of the hull together with its neighbors within the tolerance of
-    /// its plane.
+    /// [side_count] The sides of the convex hull before the rotation, largest area first. With a
+    /// tolerance, a side includes its neighbors within the tolerance of its plane.
     const treeform_hull_side* sides;
     const treeform_stability* stability;  ///< of each of `sides`
     size_t side_count;
     size_t chosen;             ///< number in `sides`
-    double center_of_mass[3];  ///< before the turn, rounded
-    int32_t mass_of;           ///< what that is the center of
+    double center_of_mass[3];  ///< before the rotation, rounded
+    int32_t mass_of;           ///< what `center_of_mass` is the center of
     const uint32_t* on_bed;    ///< [on_bed_count] points of that side, ascending
     size_t on_bed_count;
-    /// The most that a z was changed, beyond the rotation, to be on the bed or not below it: some
-    /// units in the last place; with a tolerance, about as much as that.
+    /// The largest change of a z, beyond the rotation, that put a point on the bed or not below
+    /// it: a few units in the last place; with a tolerance, about the tolerance.
     double corrected;
 } treeform_laid_flat;
 
-/// Turns `mesh` so that a flat side of its convex hull is on the bed. The center of its box keeps
-/// x and y. Null when there is no side: fewer than three points, or all on a line.
+/// Rotates `mesh` so that a flat side of its convex hull is on the bed. The center of its box
+/// keeps x and y. None if there is no side: fewer than three points, or all on a line.
 ///
-/// Every point in the plane of the side, exactly or within the tolerance, then has exactly the z
-/// of the bed, and no point is below. Areas and angles are rounded; those within 2^-40 of the best
-/// are treated as equal. Of equal sides, one that is exactly down already is chosen, else the
-/// largest, else the first in `sides`. Points that no face uses move along and are otherwise
-/// ignored; a mesh without faces uses all its points.
+/// Every point in the plane of the side, exactly or within the tolerance, gets exactly the z of
+/// the bed, and no point is below. Areas and angles are rounded; values within 2^-40 of the best
+/// are treated as equal. Of equal sides, one that is already exactly down is chosen, else the
+/// largest, else the first in `sides`. Points without faces move along and are otherwise ignored;
+/// a mesh without faces uses all its points.
 TREEFORM_C_API treeform_code treeform_lay_flat(const treeform_mesh* mesh,
                                                const treeform_lay_flat_options* options,
                                                treeform_laid_flat** flat);
 
-/// How many turns about the vertical are tried for each part.
+/// The rotations about the vertical that are tried for each part.
 typedef int32_t treeform_plate_turns;
 enum {
     TREEFORM_TURNS_NONE = 0,
@@ -115,22 +114,23 @@ typedef struct treeform_pack_options {
     size_t size;
     /// Length, depth and height of the plate or box. The height may be infinite; default infinite
     double plate[3];
-    /// corner of the first plate with the lowest x and y; its z is the bed
+    /// The corner of the first plate with the lowest x and y; its z is the bed.
     double corner[3];
     /// least distance of any two parts; parts may touch the plate's rim; default 2.0
     double spacing;
     treeform_plate_turns turns;  ///< default quarter
-    /// Fill the box up to its height: parts also come above, below and inside one another, and
-    /// hang in the air. Otherwise each stands on the bed. The height has to be finite.
+    /// Fill the box up to its height, which must be finite: parts may be above, below and inside
+    /// one another, and hang in the air. Otherwise each part stands on the bed.
     int32_t stack;
-    uint32_t plates;  ///< most plates used; at least 1; default 1
+    uint32_t plates;  ///< largest number of plates; at least 1; default 1
     /// from the corner of a plate to that of the next; its z is ignored
     double plate_step[3];
-    int32_t tighten;  ///< close the gaps that the raster leaves; default 1
-    uint64_t seed;    ///< of the orders and turns that are tried when not all parts fit
-    uint32_t tries;   ///< at most; at least 1; default 32
-    /// No more tries begin after this many seconds. Where that ends the search, the result depends
-    /// on the speed of the machine; default infinite
+    int32_t tighten;  ///< close gaps left by the raster; default 1
+    /// Seed of the orders and rotations that are tried if not all parts fit.
+    uint64_t seed;
+    uint32_t tries;  ///< largest number of tries; at least 1; default 32
+    /// Start no more tries after this many seconds. If that ends the search, the result depends on
+    /// the speed of the machine; default infinite
     double seconds;
     treeform_precision precision;  ///< of the points returned; default float64
     treeform_progress progress;
@@ -141,21 +141,21 @@ TREEFORM_C_API void treeform_pack_options_init(treeform_pack_options* options, s
 
 /// A part on a plate.
 typedef struct treeform_packed_part {
-    int32_t placed;  ///< it has a place
+    int32_t placed;  ///< whether it has a place
     uint32_t plate;  ///< number of its plate, from 0
-    /// [V] the new points, as they are to be written; unchanged when the part is not placed.
+    /// [V] the new points, rounded to the precision; unchanged if the part is not placed.
     const double* points;
     size_t point_count;
-    /// new = M * old, a turn about z and a translation; the identity when the part is not placed.
-    /// `points` differ from it by a few units in the last place of the largest coordinate.
+    /// new = M * old, a rotation about z and a translation; the identity if the part is not
+    /// placed. `points` differ from it by a few units in the last place of the largest coordinate.
     double matrix[12];
 } treeform_packed_part;
 
 /// Filled plates.
 typedef struct treeform_packing {
     void* owner;
-    /// ok: what `treeform_pack` promises of the points holds, also where parts have no place.
-    /// Otherwise `cancelled`, and the rest is empty.
+    /// ok: the guarantees of `treeform_pack` hold for the points, even if some parts have no
+    /// place. Otherwise `cancelled`, and the rest is empty.
     const treeform_certificate* certificate;
     const char* message;                ///< half a sentence for people
     const treeform_packed_part* parts;  ///< [P] in the order of the input
@@ -164,63 +164,66 @@ typedef struct treeform_packing {
     const uint32_t* not_placed;
     size_t not_placed_count;
     uint32_t plates_used;  ///< plates with a part
-    uint32_t tries;        ///< made
-    /// Share of the plates that the parts on them cover, seen from above, as the raster has it;
-    /// with `stack`, of the boxes that their solids with what they enclose fill.
+    uint32_t tries;        ///< number of tries made
+    /// Share of the area of the used plates that their parts cover, by the raster; with `stack`,
+    /// share of the volume that the solids fill, cavities included.
     double density;
-    /// Pairs of parts whose faces were compared, because their boxes are nearer than the spacing.
+    /// Number of pairs of parts whose faces were compared, since their boxes are nearer than the
+    /// spacing.
     uint64_t pairs_measured;
-    double bed;  ///< least z of a placed part that stands on the bed, as written
+    double bed;  ///< least z of a placed part that stands on the bed, rounded
 } treeform_packing;
 
-/// Puts the parts on plates, each turned about z by one of `turns`. Unless they are stacked, each
+/// Places the parts on plates, each rotated about z by one of `turns`. Unless stacked, each part
 /// stands on the bed with its lowest point.
 ///
-/// For the coordinates in `points`, as written:
+/// For the rounded coordinates in `points`:
 ///
-/// - The lowest z of a placed part is exactly that of the bed (with float32, the least one not
-/// below it); of a stacked part, not below it.
+/// - The lowest z of a placed part is exactly that of the bed (with float32, the least number not
+/// below it); of a stacked part, it is not below the bed.
 ///
 /// - No coordinate is outside the plate or above its height.
 ///
 /// - Any two placed parts of a plate are at least `spacing` apart, by their exact boxes or by
-/// `treeform_distance` less its error, and none is inside another's solid. With a spacing of 0,
-/// parts may touch only in a plane that separates their boxes.
+/// `treeform_distance` minus its error, and no part is inside another. With a spacing of 0, parts
+/// may only touch in a plane that separates their boxes.
 ///
 /// A small part may stand in a hole of another, and `tighten` may move a part below an overhang. A
 /// void that is closed all around stays empty.
 ///
-/// This is a search, and a part that is not placed may have had a place. In the first try, parts
-/// are taken in the order of the area that they cover (stacked, of their volume). Each goes to the
-/// first plate that has room, there to the free place of the least (z, then) y, then x, on a
-/// raster of about 512 cells a side (stacked, 96), and is then moved down (z,) y and x until
-/// something is in the way. While not all are placed, other orders and turns are tried: at random
-/// by the seed, and with parts that found no place brought forward. With several plates, tries
-/// also go on while more plates are used than the area asks for. The result is the try with the
-/// most parts placed, then with the least area left, then with the fewest plates, then the first.
+/// This is a heuristic search: a place may exist for a part that is not placed. In the first try,
+/// parts are taken in the order of the area that they cover (stacked: of their volume). Each part
+/// goes to the first plate with room, to the free position with the least (stacked: z, then) y,
+/// then x, on a raster of about 512 cells a side (stacked: 96). Then it is moved toward lower (z,)
+/// y and x until it meets an obstacle. While parts are not placed, other orders and rotations are
+/// tried: at random by the seed, and with unplaced parts first. With several plates, tries also go
+/// on while more plates are used than the area requires. The result is the try with the most parts
+/// placed, then with the least area unplaced, then with the fewest plates, then the earliest.
 ///
-/// Parts without faces take no room: they are placed where they are. Points that no face uses move
+/// Parts without faces take no room: they are placed where they are. Points without faces move
 /// along with their part and are otherwise ignored. Equal parts are prepared once.
 TREEFORM_C_API treeform_code treeform_pack(const treeform_mesh* const* parts, size_t count,
                                            const treeform_pack_options* options,
                                            treeform_packing** packing);
 
-/// What each step of ICP makes small.
+/// The cost that each step of ICP minimizes.
 typedef int32_t treeform_align_method;
 enum {
-    /// Distances to the planes of the nearest faces, in least squares. Where an edge or a corner
-    /// is nearest, the plane through it perpendicular to the way to it. Of a fixed cloud, the
-    /// plane fitted to the points around the nearest one. Takes few iterations on surfaces.
+    /// Distances to the planes of the nearest faces, in least squares. If the nearest point is on
+    /// an edge or a corner, the plane through it perpendicular to the connecting segment. For a
+    /// fixed cloud, the plane fitted to the points around the nearest one. Needs few iterations on
+    /// surfaces.
     TREEFORM_POINT_TO_PLANE = 0,
-    /// Distances to the nearest points, in least squares: for clouds, or where planes say little.
+    /// Distances to the nearest points, in least squares: for clouds, or where planes determine
+    /// little.
     TREEFORM_POINT_TO_POINT = 1,
     /// `point_to_plane` on a fixed mesh, `plane_to_plane` on a fixed cloud
     TREEFORM_ALIGN_AUTOMATIC = 2,
-    /// Of a fixed cloud, distances to the plane between the one at the moving point and the one at
-    /// the fixed point, the less the more these disagree; distances across count a thousandth. No
-    /// matter how differently dense the sides are, as on the rings around a scanner. On a fixed
-    /// mesh the same as `point_to_plane`. Planes are fitted to the 12 nearest points, or where
-    /// these are on a line to up to 192.
+    /// For a fixed cloud, distances to the mean of the planes at the moving and at the fixed
+    /// point, with less weight if these disagree; distances along the plane have a weight of
+    /// 1/1000. Robust to different densities, as in the rings around a scanner. On a fixed mesh
+    /// the same as `point_to_plane`. Planes are fitted to the 12 nearest points, or up to 192 if
+    /// these are collinear.
     TREEFORM_PLANE_TO_PLANE = 3
 };
 
@@ -228,27 +231,25 @@ enum {
 typedef struct treeform_align_options {
     size_t size;
     treeform_align_method method;  ///< default automatic
-    /// Share of the moving points that have a partner, in (0, 1]. Each step uses this share, the
-    /// nearest ones, and ignores the rest; default 1.0
+    /// Share of the moving points that have a partner, in (0, 1]. Each step uses this share of
+    /// nearest points, and ignores the rest; default 1.0
     double overlap;
     /// Ignore partners further apart. Not squared, not negative; default infinite
     double max_distance;
-    /// Find a uniform scale, too: from that of the start and from the one that makes both sides as
-    /// large, up to twice and down to half of it each. Of these, the better one is where points of
-    /// both sides, each by its own size, are nearer to the other side.
+    /// Also find a uniform scale. The search starts from the scale of `start` and from the one
+    /// that makes both sides equally large, and tries up to twice and down to half of each. The
+    /// better one is that with smaller distances between both sides, relative to their sizes.
     int32_t scale;
     uint32_t max_iterations;  ///< from each start; default 100
-    /// Converged when in 5 steps in a row the cost falls by less than this share of itself, or
-    /// when a step moves no point near the fixed mesh by more than 1e-11 of the diagonal of its
-    /// box; default 1e-6
+    /// Converged if the cost falls by less than this share in 5 steps in a row, or if a step moves
+    /// no point near the fixed mesh by more than 1e-11 of the diagonal of its box; default 1e-6
     double tolerance;
-    /// Places to start from, at least 1. The first is the present position; then the principal
-    /// axes of both sides on each other, in their 4 ways; then turns spread evenly over all turns,
-    /// small ones first, with the centers on each other. The best end wins; of equals the first;
+    /// Number of starts, at least 1. The first is the present position; then the principal axes of
+    /// both sides aligned, in their 4 ways; then rotations spread evenly over all rotations, small
+    /// ones first, with aligned centers. The best end is returned; of equal ends the first;
     /// default 1
     uint32_t starts;
-    /// Anderson acceleration: steps learn from the 5 before them; default 1
-    int32_t accelerate;
+    int32_t accelerate;  ///< Anderson acceleration with the 5 previous steps; default 1
     /// Use at most this many moving points in the steps, spread evenly over space; 0 is all;
     /// default 100000
     uint64_t samples;
@@ -257,8 +258,8 @@ typedef struct treeform_align_options {
     treeform_precision precision;  ///< of the points returned; default float64
     treeform_progress progress;
     void* progress_data;
-    /// Bounds of `align_result::scale` where it is found: positive, or 0 and infinity for none. A
-    /// start beyond them begins at the nearest. Equal ones are the scale, as known.
+    /// Bounds of `align_result::scale` if `scale` is set: positive, or 0 and infinity for none. A
+    /// start outside begins at the nearest bound. Equal bounds fix the scale.
     double least_scale;
     double most_scale;  ///< default infinite
     /// Partners count less the further apart they are: by exp(-d^2 / 2 v^2) (Welsch). From 3
@@ -270,29 +271,29 @@ typedef struct treeform_align_options {
 /// Sets the defaults.
 TREEFORM_C_API void treeform_align_options_init(treeform_align_options* options, size_t size);
 
-/// A small motion of the moving points, and how much the distances tell of it: a turn by `turn`
-/// (axis times angle) about `align_result::pivot_moved` and a shift, together by 1 in the root
-/// mean square over the points.
+/// A small motion of the moving points, and how well the distances determine it: a rotation about
+/// `align_result::pivot_moved` and a shift, scaled so that the root mean square over the points is
+/// 1.
 typedef struct treeform_freedom {
     double turn[3];   ///< axis times angle, about `pivot_moved`
     double shift[3];  ///< after the turn
-    /// Share of the motion (of its squares) that is along the normals: near 0 where points slide
-    /// on the surface and nothing holds them, as a plane on a plane; 1 at most.
+    /// Share of the squared motion that is along the normals, 0 to 1: near 0 if points slide on
+    /// the surface, like a plane on a plane.
     double stiffness;
 } treeform_freedom;
 
 /// How the search ended.
 typedef int32_t treeform_align_end;
 enum {
-    /// at a place that nothing speaks against
+    /// no test of the place failed
     TREEFORM_ALIGN_CONVERGED = 0,
     /// `max_iterations` steps were not enough
     TREEFORM_ALIGN_OUT_OF_ITERATIONS = 1,
-    /// Converged, but what remains is not noise: points that are neighbors are off to the same
-    /// side, by more than can be told from the right place. Often a wrong local optimum, or parts
-    /// without a partner.  Or the scale is at its bound, or the points of a cloud do not tell
-    /// where they belong: `uncertainty` is above 0.2% of the diagonal of the fixed box, those not
-    /// fitted would move all further than that, or something slides.
+    /// Converged, but residuals are more than noise: neighboring points deviate to the same side
+    /// by more than at a right place. Often a wrong local optimum, or parts without a partner.  Or
+    /// the scale is at its bound, or the points of a cloud do not determine the place:
+    /// `uncertainty` is above 0.2% of the diagonal of the fixed box, or the points that were held
+    /// out would move all by more than that, or some motion is undetermined.
     TREEFORM_ALIGN_DOUBTFUL = 2,
     /// no points, or none has a partner
     TREEFORM_ALIGN_NOTHING = 3
@@ -310,18 +311,19 @@ typedef struct treeform_align_result {
     double pivot[3];        ///< center of the box of the moving points
     double pivot_moved[3];  ///< where the pivot goes
     double scale;           ///< the scale found, in addition to that of `start`
-    /// Root mean square of the distances that count, after, by weights if there are; 0 for none.
-    /// Of two clouds by `plane_to_plane`, the distances to the planes, as far as both sides agree.
+    /// Root mean square of the distances at the end, weighted if weights are used; 0 without
+    /// partners. For two clouds with `plane_to_plane`, of the distances to the planes, by the
+    /// agreement of both sides.
     double rms;
-    double rms_at_start;  ///< the same at the start, without weights
-    /// Share of all moving points whose nearest fixed point is within `max_distance`, after.
+    double rms_at_start;  ///< the same at the start, unweighted
+    /// Share of all moving points whose nearest fixed point is within `max_distance`, at the end.
     double overlap;
-    /// How many of the moving points are within 4.5 medians of the distances that count.
+    /// Number of moving points within 4.5 medians of the distances used.
     uint64_t inliers;
-    /// Correlation of the signed distances of neighbors, in [-1, 1]: near 0 where they are noise,
-    /// near 1 where whole regions are off to one side.
+    /// Correlation of the signed distances of neighbors, in [-1, 1]: near 0 for noise, near 1 if
+    /// whole regions deviate to one side.
     double correlation;
-    /// [freedom_count] The independent motions, least held first; none without partners.
+    /// [freedom_count] The independent motions, by increasing stiffness; none without partners.
     const treeform_freedom* freedoms;
     size_t freedom_count;
     size_t undetermined;     ///< how many of `freedoms` nothing holds
@@ -329,36 +331,36 @@ typedef struct treeform_align_result {
     uint32_t iterations;     ///< steps from the best start
     uint32_t start;          ///< which start that was: 0 is the present position
     const char* message;     ///< half a sentence for people
-    /// How far the points may be from where they belong: the standard deviation that the distances
-    /// leave, and how little they hold, as a root mean square over the points; without the motions
-    /// that `undetermined` counts.
+    /// Estimated error of the place, as a root mean square over the points: the standard deviation
+    /// from the residuals and the stiffness of the motions, without those that `undetermined`
+    /// counts.
     double uncertainty;
 } treeform_align_result;
 
-/// The rigid motion, with a uniform scale if asked for, that brings the moving points near the
-/// fixed mesh, or near its points when it has no faces.
+/// The rigid motion, with a uniform scale if requested, that brings the moving points near the
+/// fixed mesh, or near its points if it has no faces.
 ///
-/// From each start it is a local optimum: the right one when the motion is small compared with the
-/// features of the shape. The result is never worse than the present position; when nothing better
-/// is found, it is `start`, grown or shrunk about its center to the bounds of the scale. To
-/// compare, the squared distances of all moving points to the nearest fixed points are cut off at
-/// `max_distance` squared, and the mean is taken over the `overlap` share that is nearest. With
-/// weights, and with an overlap below 1, it is Welsch's function of the distances, by the v of the
-/// end: a share that is somewhat too large does no harm. Directions in which the points may slide
-/// freely (a plane on a plane) are left alone. Equal points count once on a cloud.
+/// From each start this is a local optimum: the right one if the motion is small compared with the
+/// features of the shape. The result is never worse than the present position; if nothing better
+/// is found, it is `start`, scaled about its center to the bounds of the scale. Results are
+/// compared by the mean of the squared distances to the nearest fixed points, cut off at
+/// `max_distance` squared, over the nearest `overlap` share. With weights, and with an overlap
+/// below 1, it is the mean of Welsch's function with the final v, so that an overlap somewhat too
+/// large does no harm. Motions in which points slide freely (a plane on a plane) are not changed.
+/// Equal points of a cloud count once.
 ///
-/// Along motions that are little held (a stiffness below 0.02, as of a cogwheel about its axis),
-/// places up to 6% of the diagonal away are tried, too.
+/// Along motions with a stiffness below 0.02, such as a cogwheel about its axis, places up to 6%
+/// of the diagonal away are also tried.
 ///
-/// Whether it is the right place, distances alone do not tell. At the right place they are noise;
-/// at a wrong one, regions are off to one side. From 4000 moving points on, every fourth is not
-/// fitted, and is what is looked at. Where they are off, by more than noise, places around the
-/// start are tried: shifts by 8% of the diagonal, turns by 14 degrees. Where they still are, a
-/// cloud is in doubt when they are off by more than 0.6 times of how thick both sides are around
-/// their planes. On a mesh, `converged` needs that other starts, tried with few points, do not end
-/// better, and that what is off is below 0.2% of the diagonal.
+/// Distances alone do not tell whether a place is right. At the right place residuals are noise;
+/// at a wrong one, regions deviate to one side. From 4000 moving points on, every fourth is held
+/// out of the fit and used for this test. If its residuals are more than noise, places around the
+/// start are tried: shifts by 8% of the diagonal, rotations by 14 degrees. If they still are, a
+/// cloud is doubtful if they exceed 0.6 times the thickness of both sides around their planes. On
+/// a mesh, `converged` requires that other starts, tried with few points, do not end better, and
+/// that the deviation is below 0.2% of the diagonal.
 ///
-/// Without moving or without fixed points, the result is `start`, not converged.
+/// If either side has no points, the result is `start`, not converged.
 TREEFORM_C_API treeform_code treeform_align(const treeform_mesh* moving, const treeform_mesh* fixed,
                                             const treeform_align_options* options,
                                             treeform_align_result** result);

@@ -1,15 +1,15 @@
 #pragma once
 /// \file
-/// Meshes and clouds of your own arrays; meshes joined, selected from and rounded.
+/// Meshes and point clouds from your arrays; joining, selecting faces, rounding.
 
 #include <treeform/c/base.h>
 
-/// A triangle mesh, or a cloud of points, and the indexes that queries have asked for. The first
-/// query that needs an index builds it, later ones use it again. Queries take it as const: they may
-/// run on any threads at once.
+/// A triangle mesh, or a point cloud, with the indexes of queries. The first query that needs an
+/// index builds it, later queries reuse it. Queries take a const handle, and may run on several
+/// threads at once.
 typedef struct treeform_mesh treeform_mesh;
 
-/// How a mesh takes its arrays: flags to be added.
+/// How a mesh takes its arrays: flags, combined by addition.
 enum {
     TREEFORM_COPY = 1,    ///< copy the arrays; else they are borrowed
     TREEFORM_ONE_USE = 2  ///< keep no index: for a mesh that is asked one question
@@ -72,7 +72,7 @@ TREEFORM_C_API treeform_code treeform_mesh_set_create(const treeform_mesh* const
                                                       size_t count, treeform_mesh_set** set);
 // end
 
-/// A mesh that was made of others.
+/// A mesh made from others.
 typedef struct treeform_made_mesh {
     void* owner;
     treeform_arrays mesh;
@@ -102,21 +102,21 @@ TREEFORM_C_API treeform_code treeform_select_faces(const treeform_mesh* mesh, co
 TREEFORM_C_API treeform_code treeform_round(const treeform_mesh* mesh, treeform_precision precision,
                                             treeform_made_mesh** made);
 
-/// Distance between neighboring numbers of precision `of` at the largest finite coordinate of
-/// `mesh`. When there is none, or all are 0, the least positive number.
+/// The spacing of numbers of precision `of` at the largest finite coordinate of `mesh`. If there
+/// is none, or all are 0, the least positive number.
 TREEFORM_C_API treeform_code treeform_coordinate_step(const treeform_mesh* mesh,
                                                       treeform_precision of, double* result);
 
 /// How far rounding moved points, and what it has broken.
 typedef struct treeform_rounding {
     void* owner;
-    double max_displacement;  ///< largest change of a coordinate, apart from the move
-    double step;              ///< between neighboring numbers, at the largest coordinate written
-    /// Doubles have become float32, or a change is more than a millionth of the size.
+    double max_displacement;  ///< largest change of a coordinate, beyond the move
+    double step;              ///< spacing of numbers at the largest written coordinate
+    /// True if doubles became float32, or a change is more than a millionth of the size.
     int32_t noticeable;
-    int32_t compared;    ///< faces were compared, because coordinates are coarser now
+    int32_t compared;    ///< faces were compared, since coordinates became coarser
     uint64_t collapsed;  ///< faces that have lost their area
-    uint64_t meeting;    ///< pairs of faces that meet now, and did not before
+    uint64_t meeting;    ///< new pairs of faces that meet
 } treeform_rounding;
 
 /// Compares `placed` [V][3] with the points of the mesh moved by `matrix` [12] (null: not moved),

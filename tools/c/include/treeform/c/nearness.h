@@ -3,8 +3,8 @@
 /// Nearest points, distances, inside and outside, rays, relation and depth of two meshes,
 /// deviation.
 ///
-/// Functions of many points or rays answer into your arrays, in the order of the queries and in
-/// parallel. An array of answers that you do not want may be null.
+/// Functions of many points or rays run in parallel, and write results to your arrays in the order
+/// of the queries. An output array may be null.
 
 #include <treeform/c/mesh.h>
 
@@ -49,7 +49,7 @@ TREEFORM_C_API treeform_code treeform_distance_poses(const treeform_mesh* a, con
                                                      size_t count, double radius,
                                                      double* distances);
 
-/// Where a point is with respect to a surface or curve.
+/// The position of a point relative to a surface or curve.
 typedef int32_t treeform_location;
 enum { TREEFORM_OUTSIDE = 0, TREEFORM_INSIDE = 1, TREEFORM_BOUNDARY = 2 };
 
@@ -92,7 +92,7 @@ typedef struct treeform_ray {
 /// A face that a ray hits. The point hit is origin + t direction.
 typedef struct treeform_hit {
     uint32_t face;
-    /// corner, edge or interior that holds the first common point (a `uint8_t`)
+    /// corner, edge or interior that contains the first common point (a `uint8_t`)
     uint8_t at;
     uint8_t coplanar;  ///< the ray runs in the face's plane, or the face has no area
     double t;          ///< of the first common point; relative error below 2^-40
@@ -126,15 +126,14 @@ TREEFORM_C_API treeform_code treeform_raycast_all(const treeform_mesh* mesh,
                                                   const treeform_ray* rays, size_t count,
                                                   treeform_hits** hits);
 
-/// How two meshes lie to each other; see `treeform_relation`. The last two occur only with a
-/// clearance.
+/// The relation of two meshes; see `treeform_relation`. The last two occur only with a clearance.
 typedef int32_t treeform_mesh_relation;
 enum {
     TREEFORM_SEPARATE = 0,
     TREEFORM_MEETING = 1,
     TREEFORM_PENETRATING = 2,
     TREEFORM_TOO_CLOSE = 3,
-    /// separate, by the clearance or more
+    /// separate, by at least the clearance
     TREEFORM_CLEAR = 4
 };
 
@@ -142,12 +141,12 @@ enum {
 typedef struct treeform_relation {
     void* owner;
     treeform_mesh_relation how;
-    /// Faces that show why: two that pass through each other, overlap on the same side of both, or
-    /// touch. For a mesh inside the other, or reaching into it, the lowest face there. Both are 0
-    /// when the meshes are separate.
+    /// Faces that prove the relation: two that cross, overlap with the inside on the same side, or
+    /// touch. For a mesh that is or reaches inside the other, its lowest face there. Both are 0 if
+    /// the meshes are separate.
     uint32_t face_a;
     uint32_t face_b;
-    /// a part of `a` lies inside the solid `b` and does not touch `b`
+    /// a component of `a` is inside the solid `b` without touching it
     int32_t a_inside_b;
     int32_t b_inside_a;  ///< the same with `a` and `b` exchanged
     /// Not squared. 0 if and only if the meshes touch or penetrate each other.
@@ -175,12 +174,12 @@ typedef struct treeform_measure_options {
 /// Sets the defaults.
 TREEFORM_C_API void treeform_measure_options_init(treeform_measure_options* options, size_t size);
 
-/// The relation of `a` and `b`, their distance and their nearest points. Null when one has no
-/// faces, or when they are separate and further apart than `options.radius`.
+/// The relation of `a` and `b`, their distance and their nearest points. None if one has no faces,
+/// or if they are separate and further apart than `options.radius`.
 ///
 /// The relation is exact (see `treeform_relation`), and so is whether a distance is 0. Other
-/// distances are rounded as `treeform_distance` says. When the two faces that `treeform_relation`
-/// names meet, the points are on them.
+/// distances are rounded as in `treeform_distance`. If the two faces named by `treeform_relation`
+/// meet, the points are on them.
 TREEFORM_C_API treeform_code treeform_measure(const treeform_mesh* a, const treeform_mesh* b,
                                               const treeform_measure_options* options,
                                               treeform_relation** relation);
@@ -190,13 +189,13 @@ TREEFORM_C_API treeform_code treeform_relate(const treeform_mesh* a, const treef
                                              treeform_vertices vertices,
                                              treeform_mesh_relation* result);
 
-/// How to search for the least move apart.
+/// How to search for a short separating translation.
 typedef struct treeform_depth_options {
     size_t size;
-    /// spread over the sphere, tried beside those of faces that meet; default 256
+    /// directions spread over the sphere, tried besides normals of faces that meet; default 256
     uint64_t directions;
-    /// Pairs of faces that the search may look at, a pair in motion counting as two; 0: 20 million
-    /// and 200 for each face.
+    /// Pairs of faces that the search may test, a pair in motion counting as two; 0: 20 million
+    /// plus 200 for each face.
     uint64_t effort;
     treeform_vertices vertices;  ///< as in `treeform_relation`
     treeform_progress progress;
@@ -214,11 +213,11 @@ TREEFORM_C_API treeform_code treeform_penetration_depth(const treeform_mesh* a,
                                                         double* depth, double move[3],
                                                         treeform_search_effort* effort);
 
-/// The components of a closed mesh that are inside out, their volumes negative, and that are in no
-/// other one, as cavities are. Components are what edges link, with corners of equal coordinates
-/// joined. 0 for an open mesh, which has no inside, and for a cloud. `treeform_relation`,
-/// `treeform_clash` and `treeform_locate` take such a component for the same solid;
-/// `treeform_repair` turns it over.
+/// The number of components of a closed mesh that are inside out (of negative volume) without
+/// being cavities, that is, inside no other component. Components are faces linked by edges, with
+/// corners of equal coordinates joined. 0 for an open mesh and for a cloud. `treeform_relation`,
+/// `treeform_clash` and `treeform_locate` treat such a component as the solid that it bounds;
+/// `treeform_repair` flips it.
 TREEFORM_C_API treeform_code treeform_count_inside_out(const treeform_mesh* mesh, uint64_t* result);
 
 /// Counts `points` [count][3] by where they are with respect to `solids` [solid_count], exactly:
@@ -227,13 +226,14 @@ TREEFORM_C_API treeform_code treeform_count_sides(const double* points, size_t p
                                                   const treeform_mesh* const* solids,
                                                   size_t solids_count, uint64_t counts[3]);
 
-/// What to find besides distances.
+/// What to compute besides distances.
 typedef struct treeform_deviation_options {
     size_t size;
     double band_low;  ///< signed distances within tolerance; NaN: no band
     double band_high;
-    uint64_t bins;      ///< of the histogram; 0: none; default 40
-    int32_t both_ways;  ///< also look from the points of `b` to `a`; default 1
+    uint64_t bins;  ///< of the histogram; 0: none; default 40
+    /// also compute distances of the points of `b` from `a`; default 1
+    int32_t both_ways;
     treeform_progress progress;
     void* progress_data;
 } treeform_deviation_options;
@@ -245,7 +245,7 @@ TREEFORM_C_API void treeform_deviation_options_init(treeform_deviation_options* 
 typedef struct treeform_deviation_result {
     void* owner;
     /// [V] of `a`: the distance of each point from the surface of `b`, negative inside the solid
-    /// that `b` bounds, exactly 0 on its surface. Not negative when `b` bounds none.
+    /// that `b` bounds, exactly 0 on its surface. Never negative if `b` bounds no solid.
     const double* distances;
     const uint32_t* faces;  ///< [V] the nearest face of `b`
     size_t count;
@@ -253,11 +253,12 @@ typedef struct treeform_deviation_result {
     double mean;           ///< mean of the signed distances
     double mean_absolute;  ///< mean of their magnitudes
     double rms;            ///< root mean square of the distances
-    double p50;            ///< the least value that half of the magnitudes do not exceed
+    /// Median of the magnitudes: the least value that half of them do not exceed.
+    double p50;
     double p95;            ///< the same for 95 % of them
     double p99;            ///< the same for 99 % of them
     double max;            ///< the largest magnitude
-    uint32_t worst;        ///< the lowest point with that distance
+    uint32_t worst;        ///< the lowest point number with that magnitude
     double lowest;         ///< the least signed distance
     double highest;        ///< the greatest signed distance
     double there_sampled;  ///< over the points of the first
@@ -274,16 +275,15 @@ typedef struct treeform_deviation_result {
     uint64_t sides[3];  ///< points inside, on and outside
 } treeform_deviation_result;
 
-/// How far the points of `a` (all of them, used by faces or not) are from the surface of `b`: of
-/// all meshes in it as one. Faces are numbered through, mesh after mesh.
+/// The signed distances of all points of `a`, used by faces or not, from the surface of `b`.
+/// Several meshes `b` count as one, with faces numbered mesh after mesh.
 ///
-/// The side is exact: that of the exact winding number of `b` about the point (`treeform_locate`).
-/// Corners of `b` with equal coordinates are one vertex, as in a file that repeats them. When `b`
-/// is open, or a cloud, it has no inside, and distances have no sign. A magnitude is within 16 u L
-/// of the true distance, as `treeform_closest_point` says. A point that rounding puts at distance
-/// 0 keeps that as its magnitude, and the sign of 0.
+/// The sign is exact: that of the winding number of `b` around the point (`treeform_locate`).
+/// Corners of `b` with equal coordinates are one vertex. If `b` is open, or a cloud, it has no
+/// inside, and distances have no sign. Magnitudes have the error bound of
+/// `treeform_closest_point`, 16 u L; a distance may round to 0.
 ///
-/// Null when `a` has no points or `b` no faces.
+/// None if `a` has no points or `b` has no faces.
 TREEFORM_C_API treeform_code treeform_deviation(const treeform_mesh* a,
                                                 const treeform_mesh* const* b, size_t count,
                                                 const treeform_deviation_options* options,

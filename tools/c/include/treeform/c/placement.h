@@ -1,11 +1,11 @@
 #pragma once
 /// \file
-/// Where a mesh goes: slid, dropped, mated, turned, separated; when it meets another in motion.
-/// `layouts.h` has meshes laid flat, packed and aligned.
+/// Placement: slide, drop, mate, turn, separate; time of impact. `layouts.h` has laying flat,
+/// packing and alignment.
 ///
-/// Placements are checked exactly in the coordinates that they return. Where there is no such
-/// place, they return `TREEFORM_NO_PLACE` with a result that says why. `fixed` [fixed_count] are
-/// meshes that stay; of a `treeform_mesh_set`, they keep their indexes from call to call.
+/// Placements are checked exactly in the returned coordinates. If there is no such place, functions
+/// return `TREEFORM_NO_PLACE`, with a result that tells why. `fixed` [fixed_count] are meshes that
+/// do not move; those of a `treeform_mesh_set` keep their indexes between calls.
 
 #include <treeform/c/layouts.h>
 #include <treeform/c/nearness.h>
@@ -17,52 +17,52 @@
 /// Why a placement ended where it did.
 typedef int32_t treeform_placement_end;
 enum {
-    /// it met a fixed mesh, or the clearance from it
+    /// stopped by a fixed mesh, or at the clearance from it
     TREEFORM_END_CONTACT = 0,
-    /// it met the bed, or the clearance above it
+    /// stopped by the bed, or at the clearance above it
     TREEFORM_END_BED = 1,
-    /// it may stay where it is
+    /// it need not move
     TREEFORM_END_STAYS = 2,
-    /// for `separate`: it is out of what was in its way
+    /// for `separate`: it was moved out of the fixed meshes
     TREEFORM_END_MOVED_APART = 3,
-    /// no place: nothing is in the way, or within `max_travel`
+    /// no place: it meets nothing, or nothing within `max_travel`
     TREEFORM_END_NOTHING_MET = 4,
     /// no place: the place is further away than `max_travel`
     TREEFORM_END_TOO_FAR = 5,
-    /// no place: it penetrates something where it is
+    /// no place: it penetrates a fixed mesh at the start
     TREEFORM_END_STARTS_PENETRATING = 6,
-    /// no place: it is nearer than the clearance to something where it is
+    /// no place: it is nearer than the clearance at the start
     TREEFORM_END_STARTS_TOO_NEAR = 7,
-    /// no place: it touches something where it is, and a clearance is asked
+    /// no place: it touches at the start, and a clearance is given
     TREEFORM_END_STARTS_TOUCHING = 8,
-    /// no place: it would have to go up to the bed, past fixed meshes
+    /// no place: it is below the bed at the start, and there are fixed meshes
     TREEFORM_END_STARTS_BELOW_BED = 9,
-    /// no place in coordinates that can be written
+    /// no place in coordinates of the precision
     TREEFORM_END_NO_COORDINATES = 10,
-    /// not found out, for `treeform_turn`: it goes past something very near
+    /// undecided, for `treeform_turn`: it passes a fixed mesh too closely
     TREEFORM_END_TOO_MANY_STEPS = 11,
-    /// no place: coordinates are beyond the range of the precision asked for
+    /// no place: coordinates overflow the precision
     TREEFORM_END_OUT_OF_RANGE = 12,
-    /// `progress` asked to stop; the rest means nothing
+    /// stopped by `progress`; the rest is invalid
     TREEFORM_END_CANCELLED = 13
 };
 
-/// A pair of faces that meet at the place, or keep the clearance there.
+/// A pair of faces that meet, or are at the clearance, at the place.
 typedef struct treeform_contact {
     double point[3];
-    /// of length 1, from the fixed to the moving mesh; 0 when there is none
+    /// unit normal from the fixed to the moving mesh; 0 if there is none
     double normal[3];
     uint32_t moving;      ///< face of the moving mesh
-    uint32_t fixed_face;  ///< none when it is the bed
+    uint32_t fixed_face;  ///< none for the bed
     uint32_t fixed;       ///< number of the fixed mesh
 } treeform_contact;
 
-/// Where a mesh goes. "At the place" is where it goes, or where it is if it does not move.
+/// The result of a placement. "The place" is the new position, or the present one if the mesh does
+/// not move.
 typedef struct treeform_placement {
     void* owner;
-    /// ok: the mesh has a place, and `points` were checked exactly as they are. Otherwise
-    /// `no_place`, `not_certified` (no_coordinates), `out_of_range` or `cancelled`. It lists no
-    /// faces.
+    /// ok: the mesh has a place, and `points` were checked exactly. Otherwise `no_place`,
+    /// `not_certified` (no_coordinates), `out_of_range` or `cancelled`. It lists no faces.
     const treeform_certificate* certificate;
     treeform_placement_end end;
     const char* message;   ///< half a sentence for people
@@ -71,11 +71,11 @@ typedef struct treeform_placement {
     /// new = M * old: a translation; of `treeform_turn` and `treeform_mate_features` a turn, too.
     /// `points` are moved by it and rounded once, except for those that are set on the bed.
     double matrix[12];
-    double direction[3];              ///< of the travel, of length 1; 0 when there is none
-    double travel;                    ///< a length; for `too_far` the one that would be needed
-    double clearance;                 ///< the clearance asked for
-    double bed;                       ///< lowest z allowed, as written: the bed plus the clearance
-    double below_bed;                 ///< how far it reached below that at the start
+    double direction[3];              ///< unit direction of the travel; 0 if there is none
+    double travel;                    ///< a length; for `too_far` the length needed
+    double clearance;                 ///< the given clearance
+    double bed;                       ///< least z allowed, rounded: the bed plus the clearance
+    double below_bed;                 ///< how far the mesh was below `bed` at the start
     int32_t on_bed;                   ///< the bed stopped it
     treeform_mesh_relation at_start;  ///< exact
     treeform_mesh_relation at_place;  ///< the same at the place
@@ -84,8 +84,8 @@ typedef struct treeform_placement {
     const treeform_relation* nearest;  ///< how it lies to the moving one, `a`; or null
     const treeform_contact* contacts;  ///< [contact_listed]
     size_t contact_listed;
-    uint64_t contact_count;  ///< of all, listed or not
-    uint32_t backed_off;     ///< steps back, where rounding made the mesh penetrate
+    uint64_t contact_count;  ///< number of all contacts, listed or not
+    uint32_t backed_off;     ///< steps back, since rounding made the mesh penetrate
     uint64_t fixed_culled;   ///< fixed meshes skipped because of their box
     uint64_t pairs_tested;   ///< pairs of faces, in motion
     /// of `treeform_turn` and `treeform_mate_features`: in degrees, of the turn
@@ -96,8 +96,8 @@ typedef struct treeform_placement {
     /// Of `treeform_mate_features`: how far the center of the moving feature ended from that of
     /// the fixed one, along the direction of the fixed one. Of planes: their distance.
     double offset;
-    /// Of `separate`: what its search took. Where some of its questions were cut, a shorter way
-    /// may exist; without a place, one that was not found.
+    /// For `separate`: the effort of its search. If `treeform_cut` is not 0, a shorter translation
+    /// may exist; or, if no place was found, a place.
     treeform_search_effort effort;
 } treeform_placement;
 
@@ -140,17 +140,18 @@ typedef struct treeform_place_options {
 /// Sets the defaults.
 TREEFORM_C_API void treeform_place_options_init(treeform_place_options* options, size_t size);
 
-/// Moves `moving` along `direction` (of any length) until it first meets one of `fixed`, or comes
-/// as near to one as the clearance.
+/// Moves `moving` along `direction` (of any length) until it first meets one of `fixed`, or is at
+/// the clearance from one.
 ///
-/// Without a clearance, the time of the contact is exact (`treeform_time_of_impact`); with one, it
-/// is as `treeform_time_to_distance` says. The coordinates returned are checked again. Where
-/// rounding made them penetrate, or come nearer than the clearance, they are moved back by units
-/// in the last place. A mesh that touches at the start stays there. One that penetrates has no
-/// place. Points that no face uses move along and are otherwise ignored.
+/// Without a clearance, the time of contact is exact (`treeform_time_of_impact`); with a
+/// clearance, it is that of `treeform_time_to_distance`. The returned coordinates are checked
+/// again: if rounding made the mesh penetrate, or come nearer than the clearance, it is moved back
+/// by units in the last place. A mesh that touches at the start stays there. A mesh that
+/// penetrates at the start has no place. Points without faces move along and are otherwise
+/// ignored.
 ///
-/// Only fixed meshes on the way are looked at and indexed. For many calls, keep them as prepared
-/// meshes. Clouds are `treeform_cloud_create`.
+/// Only fixed meshes on the way are tested and indexed. For many calls, pass prepared meshes. Make
+/// point clouds with `treeform_cloud_create`.
 TREEFORM_C_API treeform_code treeform_slide(const treeform_mesh* moving,
                                             const treeform_mesh* const* fixed, size_t count,
                                             const double direction[3],
@@ -165,23 +166,23 @@ TREEFORM_C_API treeform_code treeform_drop(const treeform_mesh* moving,
                                            const treeform_place_options* options,
                                            treeform_placement** placement);
 
-/// Translates `moving` so that its nearest points to `fixed` come together, or to the clearance.
-/// Coordinates are checked as in `treeform_slide`. A mesh that touches stays; one that penetrates
-/// has no place.
+/// Translates `moving` so that the nearest points of `moving` and `fixed` meet, or are at the
+/// clearance. Coordinates are checked as in `treeform_slide`. A mesh that touches stays; a mesh
+/// that penetrates has no place.
 TREEFORM_C_API treeform_code treeform_mate(const treeform_mesh* moving,
                                            const treeform_mesh* const* fixed, size_t count,
                                            const treeform_place_options* options,
                                            treeform_placement** placement);
 
-/// Translates `moving` to where it penetrates none of `fixed` and keeps the clearance. It stays
-/// when it already does.
+/// Translates `moving` to a place where it penetrates none of `fixed` and keeps the clearance. It
+/// stays if it already does.
 ///
-/// Some fifty directions are tried: the axes, away from the nearest points, the normals of faces
-/// that meet, and others around the best. Of the places found, the nearest is returned whose
-/// coordinates pass the check of `treeform_slide`. It need not be the nearest place of all: that
-/// one is on the boundary of a set with O(n^2 m^2) faces. The search ends by its effort, and
-/// passes over places that take much of it, as that of `treeform_penetration_depth` does:
-/// `placement::effort` says so.
+/// About fifty directions are tried: the axes, away from the nearest points, normals of faces that
+/// meet, and others around the best. The nearest of the places found is returned, if its
+/// coordinates pass the check of `treeform_slide`. It need not be the globally nearest place,
+/// which is on the boundary of a set with O(n^2 m^2) faces. The search is limited by `effort`, and
+/// skips candidates that would take much of it, as in `treeform_penetration_depth`;
+/// `placement::effort` tells how many.
 TREEFORM_C_API treeform_code treeform_separate(const treeform_mesh* moving,
                                                const treeform_mesh* const* fixed, size_t count,
                                                const treeform_place_options* options,
@@ -251,19 +252,19 @@ typedef struct treeform_impact {
     const treeform_impact_contact* contacts;
     size_t contact_listed;
     uint64_t contact_count;  ///< all pairs that meet at t, listed or not
-    uint64_t pairs_tested;   ///< pairs of faces looked at; the rest was skipped
+    uint64_t pairs_tested;   ///< pairs of faces tested; the rest was skipped
 } treeform_impact;
 
-/// Where the meshes start, and how far to look.
+/// Start positions of the meshes, and limits.
 typedef struct treeform_impact_options {
     size_t size;
-    /// [12] Applied to each mesh before the motion. A moved corner is what `transform::operator()`
-    /// gives, rounded; the answer is exact for these coordinates. A prepared mesh itself is not
-    /// changed; or null
+    /// [12] Applied to each mesh before the motion. Moved corners are computed by
+    /// `transform::operator()` and rounded; the result is exact for these coordinates. A prepared
+    /// mesh is not changed; or null
     const double* move_a;
     const double* move_b;  ///< [12] ; or null
     double latest;         ///< Ignore contacts after this time; default infinite
-    /// List at most this many contacts, those of the lowest face numbers; default 1000
+    /// List at most this many contacts, those with the lowest face numbers; default 1000
     uint64_t limit;
     treeform_progress progress;
     void* progress_data;
@@ -271,12 +272,12 @@ typedef struct treeform_impact_options {
 /// Sets the defaults.
 TREEFORM_C_API void treeform_impact_options_init(treeform_impact_options* options, size_t size);
 
-/// The least t >= 0 at which `a`, moved by t times `motion`, has a point in common with `b`.
+/// The least t >= 0 at which `a`, moved by t times `motion`, has a common point with `b`.
 ///
 /// Exact on the coordinates as given, or as moved by the options. Times of pairs of faces are
-/// compared as exact quotients of determinants, so all contacts at equal times are found, even of
+/// compared as exact quotients of determinants, so all simultaneous contacts are found, even of
 /// parallel or coplanar faces. Surfaces count, not solids: inside a closed mesh, `a` moves until
-/// it meets the wall. Meshes that only graze each other have a contact.
+/// it meets the surface. Grazing is a contact.
 TREEFORM_C_API treeform_code treeform_time_of_impact(const treeform_mesh* a, const treeform_mesh* b,
                                                      const double motion[3],
                                                      const treeform_impact_options* options,
@@ -286,10 +287,10 @@ TREEFORM_C_API treeform_code treeform_time_of_impact(const treeform_mesh* a, con
 /// `distance` (not squared).
 ///
 /// Not exact: whether a pair comes nearer than the distance is decided to 2^-48 of the largest
-/// coordinate, so a mesh that slides along a wall at just the distance moves on. The time has
-/// rounding errors of that size along the motion, and larger ones where the motion nearly grazes.
-/// `treeform_slide` checks the place itself. For the distance 0, use `treeform_time_of_impact`,
-/// which is exact.
+/// coordinate, so a mesh that slides along a wall at exactly the distance is free. The time has
+/// errors of that size along the motion, and larger ones if the motion nearly grazes.
+/// `treeform_slide` checks its result. For the distance 0, use `treeform_time_of_impact`, which is
+/// exact.
 ///
 /// The impact is a contact if they are nearer right after its time, and at the start if they are
 /// nearer there. Contacts are the pairs of faces at the distance, as computed: their points are on

@@ -18,11 +18,12 @@ TREEFORM_C_API treeform_code treeform_volume(const treeform_mesh* mesh, double* 
 /// The sum of the areas of all faces, in square units, rounded. O(F).
 TREEFORM_C_API treeform_code treeform_area(const treeform_mesh* mesh, double* result);
 
-/// Of a solid of density 1.
+/// Mass properties of a solid of density 1.
 typedef struct treeform_mass_properties {
-    double volume;     ///< what the mesh encloses; negative where it is inside out
+    double volume;     ///< the enclosed volume; negative if the mesh is inside out
     double center[3];  ///< of mass
-    /// About the center, by axes x, y and z: the energy of turning by w is w . (inertia w) / 2.
+    /// Inertia tensor about the center, in axes x, y and z: the energy of rotation w is w .
+    /// (inertia w) / 2.
     double inertia[9];
 } treeform_mass_properties;
 
@@ -38,9 +39,9 @@ TREEFORM_C_API treeform_code treeform_bounds(const treeform_mesh* mesh, treeform
 /// Whether the mesh bounds a solid, as an operand of `treeform_boolean` has to.
 TREEFORM_C_API treeform_code treeform_is_solid(const treeform_mesh* mesh, int32_t* result);
 
-/// Whether a mesh bounds a solid, as an operand of `treeform_boolean` has to. The certificate is
-/// ok, or says where the surface ends. When the edges as they are leave the mesh open, it is cut
-/// along itself first: its faces may still fit together piece by piece.
+/// Whether a mesh bounds a solid, as operands of `treeform_boolean` must. The certificate is ok,
+/// or lists where the surface is open. If edges do not match as they are, the mesh is cut along
+/// itself first, since they may still match piece by piece.
 TREEFORM_C_API treeform_code treeform_check_solid(const treeform_mesh* mesh,
                                                   treeform_progress progress, void* progress_data,
                                                   treeform_certificate** certificate);
@@ -54,13 +55,13 @@ typedef struct treeform_topology {
     uint64_t boundary_edges;         ///< used by one face
     uint64_t nonmanifold_edges;      ///< used by three or more faces
     uint64_t misoriented_edges;      ///< used by two faces in the same direction
-    uint64_t nonmanifold_points;     ///< whose faces fall into more than one fan
+    uint64_t nonmanifold_points;     ///< points with more than one fan of faces
     uint64_t components_by_point;    ///< faces linked by a shared corner
     uint64_t components_by_edge;     ///< faces linked by a shared edge
-    uint64_t points_used;            ///< corners of at least one such face
+    uint64_t points_used;            ///< points that are a corner of a counted face
     uint64_t faces;                  ///< faces with three different corners
-    uint64_t repeated_corner_faces;  ///< the others
-    uint64_t duplicate_faces;        ///< beyond the first with the same three corners
+    uint64_t repeated_corner_faces;  ///< faces that repeat a corner
+    uint64_t duplicate_faces;        ///< Faces with the same three corners as an earlier one.
     int32_t closed;                  ///< at least one face, no boundary edge, no nonmanifold edge
 } treeform_topology;
 
@@ -79,7 +80,8 @@ typedef struct treeform_defects {
     /// [nonfinite_point_count] with a NaN or infinite coordinate
     const uint32_t* nonfinite_points;
     size_t nonfinite_point_count;
-    const uint32_t* nonfinite_faces;  ///< [nonfinite_face_count] with such a corner
+    /// [nonfinite_face_count] with a corner that is not finite
+    const uint32_t* nonfinite_faces;
     size_t nonfinite_face_count;
     /// [degenerate_face_count] finite, with exactly collinear corners
     const uint32_t* degenerate_faces;
@@ -89,11 +91,11 @@ typedef struct treeform_defects {
     size_t out_of_range_face_count;
 } treeform_defects;
 
-/// Finds the points and faces that algorithms refuse or treat in a special way.
+/// Finds the points and faces that algorithms refuse or treat specially.
 ///
-/// Whether corners are collinear is exact: they are when a corner is repeated or two are equal;
-/// they are not in a sliver, however thin. A face is first tested for corners out of range, then
-/// for corners that are not finite.
+/// Collinearity is exact: a face with a repeated corner or two equal corners is degenerate, a
+/// sliver is not, however thin. A face is first tested for corners out of range, then for corners
+/// that are not finite.
 TREEFORM_C_API treeform_code treeform_find_defects(const treeform_mesh* mesh,
                                                    treeform_defects** defects);
 
@@ -112,14 +114,14 @@ TREEFORM_C_API treeform_code treeform_closing_tolerance(const treeform_mesh* mes
 TREEFORM_C_API treeform_code treeform_same_triangles(const treeform_mesh* a, const treeform_mesh* b,
                                                      int32_t any_order, int32_t* result);
 
-/// What kind of region.
+/// The kind of a region.
 typedef int32_t treeform_feature_kind;
 enum { TREEFORM_PLANE = 0, TREEFORM_AXIS = 1 };
 
 /// A plane or an axis, fitted to faces by least squares.
 typedef struct treeform_feature {
     treeform_feature_kind kind;  ///< plane or axis
-    int32_t hollow;              ///< of a cylinder: the faces look at the axis, as those of a hole
+    int32_t hollow;              ///< for a cylinder: the faces point to the axis, as in a hole
     double origin[3];            ///< center of the faces, on the plane or the axis
     /// of length 1: the normal, outward; along the axis, either way
     double direction[3];
@@ -143,12 +145,12 @@ typedef struct treeform_feature_options {
     /// Largest distance of a corner from the plane or cylinder. Default: 1e-4 of the diagonal;
     /// NaN: not given
     double tolerance;
-    double plane_angle;  ///< in degrees: what faces of a plane may lean; default 1.0
-    /// in degrees: the most between faces of a cylinder side by side; default 46.0
+    /// in degrees: largest angle between a face and the plane; default 1.0
+    double plane_angle;
+    /// In degrees: largest angle between neighboring faces of a cylinder; default 46.0
     double facet_angle;
-    /// in degrees: the least part of a circle that makes an axis; default 60.0
-    double arc;
-    /// of `treeform_find_features`, which finds nothing if asked to stop
+    double arc;  ///< in degrees: the least arc of a cylinder; default 60.0
+    /// for `treeform_find_features`, which returns nothing if stopped
     treeform_progress progress;
     void* progress_data;
 } treeform_feature_options;
@@ -174,18 +176,18 @@ TREEFORM_C_API treeform_code treeform_feature_at_point(const treeform_mesh* mesh
                                                        const treeform_feature_options* options,
                                                        treeform_features** features);
 
-/// The plane, or axis, of exactly these faces, whatever their deviation. Null where they have no
-/// area, or for an axis, where they are flat.
+/// The plane or axis fitted to exactly these faces, for any deviation. None if they have no area,
+/// or, for an axis, if they are flat.
 TREEFORM_C_API treeform_code treeform_fit_feature(const treeform_mesh* mesh,
                                                   treeform_feature_kind kind, const uint32_t* faces,
                                                   size_t count, treeform_features** features);
 
-/// A flat side of a convex hull: all of the hull that lies in one plane.
+/// A flat side of a convex hull: all coplanar faces of one plane.
 typedef struct treeform_hull_side {
     /// The first of its faces, in `convex_hull_result::faces`; any three corners span its plane.
     uint32_t first_face;
     uint32_t face_count;
-    double area;       ///< rounded; infinite where no double holds it
+    double area;       ///< rounded; infinite on overflow
     double normal[3];  ///< outward, of length 1, rounded
     double center[3];  ///< of area, rounded
 } treeform_hull_side;
@@ -229,7 +231,7 @@ TREEFORM_C_API treeform_code treeform_compare_distance(const double a[3], const 
                                                        int32_t* result);
 // end
 
-/// What two triangles have in common.
+/// The intersection of two triangles.
 typedef struct treeform_triangle_contact {
     int32_t dimension;  ///< of the common set: -1 nothing, 0 a point, 1 a segment, 2 an area
     int32_t coplanar;

@@ -1,9 +1,9 @@
 #pragma once
 /// \file
-/// Solids: set operations, self-intersections resolved, dirty meshes repaired, wraps.
+/// Solids: set operations, resolved self-intersections, repair, wraps.
 ///
-/// These return `TREEFORM_OK` when the certificate of the result holds. Otherwise they return
-/// `TREEFORM_NOT_CERTIFIED`, and there is a result all the same, to be looked at and freed.
+/// These functions return `TREEFORM_OK` if the certificate of the result is ok. Otherwise they
+/// return `TREEFORM_NOT_CERTIFIED`, also with a result, which must be freed.
 
 #include <treeform/c/files.h>
 
@@ -31,32 +31,33 @@ typedef struct treeform_boolean_options {
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
     /// float64
     treeform_precision precision;
-    /// Where rounding makes faces meet, only what is at most this far apart is joined, in the
-    /// mesh's own length unit, and never what is further apart than 2^-10 of the largest
-    /// coordinate. Not negative; default infinite
+    /// Where rounding makes faces meet, only points at most this far apart are joined, in the
+    /// mesh's length unit, and never points further apart than 2^-10 of the largest coordinate.
+    /// Not negative; default infinite
     double max_displacement;
-    /// Keep coplanar faces apart that were cut, or that overlap. By default they are merged,
-    /// exactly and before rounding: a vertex goes where only such faces meet, or two flat parts of
-    /// them along a straight edge. Faces that nothing has cut stay. `split` keeps all cuts.
+    /// Do not merge coplanar faces that were cut, or that overlap. By default they are merged,
+    /// exactly and before rounding: this removes vertices inside a flat part, and on a straight
+    /// edge between two flat parts. Uncut faces stay as they are. `split` keeps all cuts.
     int32_t keep_cuts;
     int32_t simplify;  ///< merge all coplanar faces of the result, also those not cut
-    /// Compute `boolean_result::volumes`, of two operands; not where a `gap` was filled.
+    /// Compute `boolean_result::volumes`, for two operands and without filled gaps.
     int32_t volumes;
-    /// [faces of all operands, one after the other] or empty: only those of equal numbers are
+    /// [faces of all operands, one after the other] or empty: only faces with equal numbers are
     /// merged; or null
     const uint32_t* face_groups;
     size_t face_group_count;
     treeform_progress progress;
     void* progress_data;
-    /// Parts of the result with a volume below this, in cubic units, are left out: specks are
-    /// dropped, and voids are filled, with all that is in them. A part is a component connected by
-    /// edges; its volume is what it encloses. Of solids only. Finite and not negative.
+    /// Parts of the result with a smaller volume, in cubic units, are removed: small solids are
+    /// dropped, and small voids are filled, with all that is in them. A part is a component
+    /// connected by edges; its volume is the volume that it encloses. For solids only. Finite and
+    /// not negative.
     double min_volume;
-    /// In a union, gaps of at most this width, in the mesh's own length unit, are filled between
-    /// faces of different operands, where they lie over each other: both look into the gap, they
-    /// lean by at most 45 degrees, and it is measured straight up from either. Nothing else moves.
-    /// Beyond this width what fills it tapers off. Between curved faces there are no seams: at an
-    /// edge of faces that lean less than that, it ends midway. Finite and not negative.
+    /// In a union, fills gaps of at most this width, in the mesh's length unit, between faces of
+    /// different operands that face each other across the gap, at an angle of at most 45 degrees.
+    /// The width is measured along the normal of either face. Nothing else moves. Where the gap is
+    /// wider, the filling tapers off. At an edge between faces that differ by less than 45
+    /// degrees, the fillings of both meet midway, without a seam. Finite and not negative.
     double gap;
 } treeform_boolean_options;
 /// Sets the defaults.
@@ -64,8 +65,8 @@ TREEFORM_C_API void treeform_boolean_options_init(treeform_boolean_options* opti
 
 /// The volumes of two operands, their union and intersection: first + second = either + both.
 typedef struct treeform_volumes {
-    /// For an operand that winds once around its inside, `signed_volume` without the sign. For
-    /// others, the sum over the cells inside, as are all volumes below.
+    /// The magnitude of `signed_volume`, for an operand that winds once around its inside. For
+    /// others the sum over the cells inside, like the volumes below.
     double first;
     double second;
     double either;  ///< in the first or the second
@@ -78,46 +79,47 @@ typedef struct treeform_boolean_result {
     /// Faces are counter-clockwise from outside, in the order of their sources. Vertices of
     /// operands come first, in their order, then new ones on cuts.
     treeform_arrays mesh;
-    /// [F] the lowest operand face that each face, or a part of it, lies in. Next to places where
-    /// rounding was mended, it may be a neighbor of that face. A face of what fills a `gap` has
-    /// the operand face that it stands on, or lies opposite of; those come last.
+    /// [F] the lowest operand face that contains each face or a part of it. Next to mended places
+    /// it may be a neighbor of that face. A face of a filled `gap` has the operand face at or
+    /// opposite to it; such faces come last.
     const treeform_element* face_source;
-    /// [V] the lowest operand vertex each is, or none
+    /// [V] the lowest operand vertex equal to each vertex, or none
     const treeform_element* vertex_source;
-    /// [V] for each new vertex, an operand face that it lies in, or of what fills a `gap`, as
+    /// [V] for each new vertex, an operand face that contains it, or in a filled `gap` as in
     /// `face_source`. Empty with `keep_cuts`.
     const treeform_element* face_of_cut_vertex;
-    /// Status ok says, checked on the coordinates above: any two faces have a corner, an edge or
-    /// nothing in common; no face is degenerate; the signed face count of every edge is zero; and
-    /// the inside is behind every face: the surface winds once around points just behind it, and
-    /// not around those in front.
+    /// Status ok means, verified on the coordinates of `mesh`: any two faces share a corner, an
+    /// edge or nothing; no face is degenerate; the signed face count of every edge is zero; and
+    /// the inside is behind every face: the surface winds once around points just behind the face,
+    /// and not around those in front.
     const treeform_certificate* certificate;
-    /// Components, by vertices, of the exact result that have no face left, because they are
-    /// thinner than the coordinates can show.
+    /// Components of the exact result (faces linked by vertices) that have no face left, since
+    /// they are too thin for the coordinates.
     uint64_t vanished_components;
-    /// How far places of the exact result are, at most, from `mesh`, as seen from vertices that
-    /// are gone: far where a part too thin to be shown went from a component that is still there.
+    /// The largest distance from `mesh` of a vertex of the exact result that was removed. It is
+    /// large if a component lost a part too thin for the coordinates.
     double vanished_reach;
     const double* vanished_at;  ///< [vanished_listed][3] a point of each, at most 100
     size_t vanished_listed;
     const treeform_volumes* volumes;
-    uint64_t pairs;       ///< of faces looked at that meet beyond their shared corners
+    uint64_t pairs;       ///< of tested faces that meet beyond their shared corners
     uint64_t cut_faces;   ///< input faces that were cut or covered by others
     uint64_t degenerate;  ///< input faces without area
-    /// input faces not looked at, as the result cannot be there
+    /// input faces skipped, since the result cannot contain them
     uint64_t skipped_faces;
-    uint64_t covered;  ///< for `split`: input faces that lie entirely on lower ones
-    /// Faces of the exact result, before rounding. When there are some and `mesh` has none, all of
-    /// the result is thinner than the coordinates can show, or was left out as `small_parts`.
+    /// For `split`: input faces that are entirely covered by faces with lower numbers.
+    uint64_t covered;
+    /// Faces of the exact result, before rounding. If there are some and `mesh` has none, all of
+    /// the result was too thin for the coordinates, or removed as `small_parts`.
     uint64_t exact_faces;
     uint64_t split_vertices;  ///< added where parts touch, so that edges have two faces
-    /// Where rounding made faces meet: changes that join what all but touches and take out thin
-    /// faces, and how often what met all the same was cut and rounded once more.
+    /// Changes that joined points and removed thin faces where rounding made faces meet.
     uint64_t slivers;
+    /// how often faces that still met were cut and rounded again
     int32_t rounding_rounds;
-    uint64_t small_parts;   ///< left out, voids and specks: below `min_volume`
-    double small_volume;    ///< of these, in cubic units, added up
-    uint64_t filled_faces;  ///< of operands, at gaps that were filled (`gap`)
+    uint64_t small_parts;   ///< removed solids and voids below `min_volume`
+    double small_volume;    ///< their total volume, in cubic units
+    uint64_t filled_faces;  ///< faces of operands at filled gaps (`gap`)
 } treeform_boolean_result;
 
 /// The solid that `expression` makes of the `operands` [count]: a formula over a, b, c, ..., with
@@ -138,26 +140,26 @@ TREEFORM_C_API treeform_code treeform_boolean_named(const treeform_mesh* const* 
 /// The names in a formula, each once, in the order in which they come first.
 TREEFORM_C_API treeform_code treeform_names_in(const char* expression, treeform_strings** strings);
 
-/// What is in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
-/// exactly one of them (symmetric_difference). For everything else, see `treeform_boolean`.
+/// Points in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
+/// exactly one of them (symmetric_difference). See `treeform_boolean`.
 TREEFORM_C_API treeform_code treeform_unite(const treeform_mesh* a, const treeform_mesh* b,
                                             const treeform_boolean_options* options,
                                             treeform_boolean_result** result);
 
-/// What is in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
-/// exactly one of them (symmetric_difference). For everything else, see `treeform_boolean`.
+/// Points in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
+/// exactly one of them (symmetric_difference). See `treeform_boolean`.
 TREEFORM_C_API treeform_code treeform_subtract(const treeform_mesh* a, const treeform_mesh* b,
                                                const treeform_boolean_options* options,
                                                treeform_boolean_result** result);
 
-/// What is in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
-/// exactly one of them (symmetric_difference). For everything else, see `treeform_boolean`.
+/// Points in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
+/// exactly one of them (symmetric_difference). See `treeform_boolean`.
 TREEFORM_C_API treeform_code treeform_intersection(const treeform_mesh* a, const treeform_mesh* b,
                                                    const treeform_boolean_options* options,
                                                    treeform_boolean_result** result);
 
-/// What is in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
-/// exactly one of them (symmetric_difference). For everything else, see `treeform_boolean`.
+/// Points in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
+/// exactly one of them (symmetric_difference). See `treeform_boolean`.
 TREEFORM_C_API treeform_code treeform_symmetric_difference(const treeform_mesh* a,
                                                            const treeform_mesh* b,
                                                            const treeform_boolean_options* options,
@@ -176,9 +178,9 @@ TREEFORM_C_API treeform_code treeform_clip(const treeform_mesh* const* operands,
                                            treeform_boolean_result** result);
 
 /// All faces of the operands, cut along each other and along themselves, each piece once. Any two
-/// pieces have a corner, an edge or nothing in common. Operands need not bound solids, and the
-/// certificate does not check edges. Where faces of several operands lie on each other, one piece
-/// stands for all; its source is the lowest of them. Nothing is simplified.
+/// pieces share a corner, an edge or nothing. Operands need not bound solids, and the certificate
+/// does not check edges. Where faces overlap, one piece stands for all; its source is the lowest
+/// of them. Coplanar pieces are not merged.
 TREEFORM_C_API treeform_code treeform_split(const treeform_mesh* const* operands, size_t count,
                                             const treeform_boolean_options* options,
                                             treeform_boolean_result** result);
@@ -207,10 +209,9 @@ typedef struct treeform_resolve_options {
     int32_t touching;
     /// for `remove`: give up after making or widening holes this often; default 16
     int32_t removal_rounds;
-    /// For `outer` and `remove`: losing more than this share of the solid's volume, or of the area
-    /// of a mesh that bounds none, has the status `excessive_loss`. 1 allows any loss. What the
-    /// solid is, is found by `treeform_repair` without filling holes: faces agree, and overlaps
-    /// count once; default 0.05
+    /// For `outer` and `remove`: losing more than this share gives the status `excessive_loss`.
+    /// The share is of the volume of the solid, or of the area if the mesh bounds none. 1 allows
+    /// any loss. The solid before is that of `treeform_repair` without filling holes; default 0.05
     double max_loss;
     treeform_progress progress;
     void* progress_data;
@@ -220,7 +221,7 @@ typedef struct treeform_resolve_options {
 /// Sets the defaults.
 TREEFORM_C_API void treeform_resolve_options_init(treeform_resolve_options* options, size_t size);
 
-/// What each step has done. Gaps closed, sides chosen and holes filled are guesses.
+/// Counts of each step's changes. Closed gaps, chosen orientations and filled holes are heuristic.
 typedef struct treeform_repair_statistics {
     uint64_t tetrahedra;      ///< tetrahedra that the faces were; their boundary was kept
     uint64_t degenerate;      ///< faces without area, dropped; with such, slivers
@@ -255,7 +256,7 @@ typedef struct treeform_repair_statistics {
     double volume_after;
     double area_before;
     double area_after;
-    double area_lost;  ///< as `repair_options::max_loss` counts it
+    double area_lost;  ///< as in `repair_options::max_loss`
     /// Of `treeform_resolve_self_intersections` by `split`: input faces that lie entirely on faces
     /// of lower numbers. One piece stands for all of them, so they are not counted as removed.
     uint64_t covered;
@@ -263,7 +264,7 @@ typedef struct treeform_repair_statistics {
     uint64_t exact_faces;  ///< of it, as in `boolean_statistics`
 } treeform_repair_statistics;
 
-/// The mended mesh, where its parts came from, and what was checked.
+/// The repaired mesh, its sources, and its certificate.
 typedef struct treeform_repair_result {
     void* owner;
     treeform_arrays mesh;
@@ -304,7 +305,7 @@ TREEFORM_C_API treeform_code treeform_resolve_self_intersections(
 /// What is inside, for `treeform_repair`.
 typedef int32_t treeform_repair_rule;
 enum {
-    /// `positive` where each shell is outward after `orient`, else `nonzero` or labels
+    /// `positive` if each shell is outward after `orient`, else `nonzero` or labels
     TREEFORM_REPAIR_AUTOMATIC = 0,
     TREEFORM_REPAIR_NONZERO = 1,
     TREEFORM_REPAIR_ODD = 2,
@@ -314,36 +315,36 @@ enum {
 /// How to repair. All steps are on by default.
 typedef struct treeform_repair_options {
     size_t size;
-    /// drop degenerate and repeated faces; close cracks and T-junctions; default 1
+    /// drop degenerate and duplicate faces; close cracks and T-junctions; default 1
     int32_t join;
-    int32_t orient;   ///< make faces agree and shells outward; drop strays; default 1
-    int32_t fill;     ///< fill holes; default 1
-    int32_t resolve;  ///< cut self-intersections; drop what bounds nothing; default 1
-    int32_t detach;   ///< move apart what touches in an edge or a vertex; default 1
-    /// Widest crack to close. Where it is not given, the narrowest of 0, a float step, and 1e-6,
-    /// 1e-5, 1e-4, 1e-3 of the diagonal of the bounding box that leaves the fewest open edges;
-    /// NaN: not given
+    /// orient faces consistently and shells outward; drop strays; default 1
+    int32_t orient;
+    int32_t fill;  ///< fill holes; default 1
+    /// cut self-intersections; drop faces that bound nothing; default 1
+    int32_t resolve;
+    int32_t detach;  ///< separate parts that touch in an edge or a vertex; default 1
+    /// Widest crack to close, in the mesh's length unit. By default the narrowest that leaves the
+    /// fewest open edges, out of 0, a float step, and 1e-6, 1e-5, 1e-4, 1e-3 of the diagonal of
+    /// the bounding box; NaN: not given
     double gap;
     uint64_t largest_hole;  ///< Fill holes of at most this many edges; default all
-    /// Loose open pieces below this share of the area are dropped, and so are single triangles
-    /// below 1 %. Where a larger component vanishes since it bounds nothing, the status is
-    /// `excessive_loss`, unless `max_loss` is 1; default 0.001
+    /// Drops loose open pieces below this share of the area, and single triangles below 1 %. If a
+    /// larger component vanishes since it bounds nothing, the status is `excessive_loss`, unless
+    /// `max_loss` is 1; default 0.001
     double strays;
     treeform_repair_rule inside;
-    /// Losing more than this share has the status `excessive_loss`: of the volume, or of the area
-    /// where there were holes. Area is lost of which nothing is left, neither in sight nor hidden
-    /// in the solid. 1 allows any loss; default 0.05
+    /// Losing more than this share of the volume gives the status `excessive_loss`; if there were
+    /// holes, of the area. Faces that are still there or hidden in the solid are not lost. 1
+    /// allows any loss; default 0.05
     double max_loss;
-    /// The mesh is an open surface: its border is kept, and nothing is filled.
-    int32_t sheet;
+    int32_t sheet;  ///< the mesh is an open surface: keep its border, and fill nothing
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
     /// float64
     treeform_precision precision;
     double max_displacement;  ///< As in `treeform_boolean_options`; default infinite
     treeform_progress progress;
     void* progress_data;
-    /// likewise; faces that fill holes are merged with each other alone
-    int32_t keep_cuts;
+    int32_t keep_cuts;  ///< likewise; filled faces only merge with each other
 } treeform_repair_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_repair_options_init(treeform_repair_options* options, size_t size);
@@ -351,27 +352,27 @@ TREEFORM_C_API void treeform_repair_options_init(treeform_repair_options* option
 /// A solid made of a dirty mesh: closed, oriented, manifold and free of self-intersections. Look
 /// at the certificate: it says whether this was possible, and where not.
 ///
-/// The steps are those of `treeform_repair_options`, in their order. Each leaves alone what needs
-/// nothing: a mesh that is a solid comes back bit for bit. What meets and what is inside is
-/// decided exactly. Which cracks close, which way faces point, and what fills a hole are guesses,
-/// and counted. Points with equal coordinates are one. Faces of four corners that are tetrahedra
-/// become their boundary. Where faces disagree, the cells that they cut space into are labeled
-/// inside or outside by a minimum cut, as they and generalized winding numbers disagree least, if
-/// less is lost then.
+/// The steps are those of `treeform_repair_options`, in this order. Each changes only what is
+/// defective: a mesh that is a solid is returned bit for bit. Which faces meet and what is inside
+/// is decided exactly. Which cracks are closed, how faces are oriented, and what fills a hole are
+/// heuristics, and counted. Points with equal coordinates are one. Faces that are the sides of
+/// tetrahedra are replaced by the boundary of the tetrahedra. If faces remain inconsistent, a
+/// minimum cut labels cells inside or outside, by the orientations of faces and generalized
+/// winding numbers; the result is used if it loses less.
 ///
-/// Holes are filled by triangles between their vertices; large ones of smooth surfaces by new
-/// points, so that the surface goes on as it does around them. Sheets are not filled, but said to
-/// be open, unless any loss is allowed: parts of less than 1 / 0.6 of the area that would close
-/// them, except those that end in a plane and lie to one side of it. Nor is a mesh where at more
-/// than a tenth as many edges as it has faces more than two faces meet and disagree.
+/// Holes are filled with triangles between their vertices; large holes in smooth surfaces also
+/// with new points, which continue the surface smoothly. Sheets are not filled, but reported as
+/// open, unless any loss is allowed. A sheet is a part with an area below 1 / 0.6 of the area that
+/// would close it, unless its border is in a plane and it is on one side of the plane. Nor is a
+/// mesh filled with more than one edge for 10 faces where three or more faces are inconsistent.
 TREEFORM_C_API treeform_code treeform_repair(const treeform_mesh* mesh,
                                              const treeform_repair_options* options,
                                              treeform_repair_result** result);
 
-/// What of a file is mended at a time.
+/// What is repaired as one mesh.
 typedef int32_t treeform_repair_scope;
 enum {
-    /// Each part of a scene is a solid of its own. Parts may overlap before and after.
+    /// Each part of a scene becomes a solid. Parts may overlap before and after.
     TREEFORM_EACH_PART = 0,
     /// overlapping parts become one solid
     TREEFORM_WHOLE_FILE = 1
@@ -384,29 +385,29 @@ TREEFORM_C_API treeform_code treeform_repair_file(const treeform_file* file,
                                                   const treeform_repair_options* options,
                                                   treeform_repair_result** result);
 
-/// What keeps a mesh from being a solid. Points with equal coordinates are one.
+/// The defects that keep a mesh from being a solid. Points with equal coordinates are one.
 typedef struct treeform_solid_defects {
     void* owner;
     int32_t any;                    ///< there is one
     const char* message;            ///< half a sentence for people
     uint64_t nonfinite_vertices;    ///< with a NaN or infinite coordinate, used or not
-    uint64_t unusable_faces;        ///< with such a corner, or no vertex: not counted below
-    int32_t without_faces;          ///< there are points, but no face that can be used
-    uint64_t tetrahedra;            ///< that the faces are, as of a volume mesh
+    uint64_t unusable_faces;        ///< with an invalid corner; not counted below
+    int32_t without_faces;          ///< there are points, but no usable face
+    uint64_t tetrahedra;            ///< whose sides are faces, as in a volume mesh
     uint64_t degenerate;            ///< faces without area
-    uint64_t repeated;              ///< faces with the corners of another one
-    uint64_t open_edges;            ///< of one face
-    uint64_t nonmanifold_edges;     ///< of more than two faces
-    uint64_t misoriented_edges;     ///< of two faces that disagree
+    uint64_t repeated;              ///< faces with the same corners as another
+    uint64_t open_edges;            ///< edges of one face
+    uint64_t nonmanifold_edges;     ///< edges of more than two faces
+    uint64_t misoriented_edges;     ///< edges of two inconsistently oriented faces
     uint64_t nonmanifold_vertices;  ///< with more than one fan of faces
-    uint64_t meeting_pairs;         ///< of faces that meet beyond their common corners
-    uint64_t inverted;              ///< closed components that are inside out, and in no other one
-    /// Closed components that meet nowhere lie in each other, but not as a solid and its cavities.
+    uint64_t meeting_pairs;         ///< pairs of faces that meet beyond common corners
+    /// closed components that are inside out, and inside no other one
+    uint64_t inverted;
+    /// Disjoint closed components are nested, but not as a solid and its cavities.
     int32_t wrongly_nested;
 } treeform_solid_defects;
 
-/// What `treeform_repair` would have to mend, and what it does not take. Nothing without points is
-/// a solid.
+/// The defects that `treeform_repair` would mend or refuse. A mesh without points is a solid.
 TREEFORM_C_API treeform_code treeform_find_solid_defects(const treeform_mesh* mesh,
                                                          treeform_progress progress,
                                                          void* progress_data,

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Clouds larger than memory: welded from file to file, read and written block by block.
+/// Clouds larger than memory: welding from file to file, reading and writing in blocks.
 
 #include <treeform/c/weld.h>
 
@@ -88,9 +88,9 @@ TREEFORM_C_API treeform_code treeform_weld_stream(const char* const* inputs, siz
                                                   treeform_weld_stream_result** result);
 // end
 
-/// The same step by step, for many processes that see one folder: one calls `scatter`; then each
-/// calls `tile` for its share of the tiles; and when all have ended, one calls `finish` and
-/// `remove_folder`. A tile that is finished is not welded again.
+/// The same step by step, for many processes that share a folder: one calls `scatter`; then each
+/// calls `tile` for its share of the tiles; after all have ended, one calls `finish` and
+/// `remove_folder`. Finished tiles are skipped.
 typedef struct treeform_shared_weld treeform_shared_weld;
 // made of the headers of C++:
 //   shared_weld_create() shared_weld_scatter() shared_weld_tile() shared_weld_finish()
@@ -118,7 +118,7 @@ TREEFORM_C_API treeform_code treeform_shared_weld_finish(treeform_shared_weld* w
 TREEFORM_C_API treeform_code treeform_shared_weld_remove_folder(treeform_shared_weld* weld);
 // end
 
-/// The memory limit when none is given: three quarters of the machine's, in bytes.
+/// The default memory limit: three quarters of the machine's memory, in bytes.
 TREEFORM_C_API uint64_t treeform_default_memory(void);
 
 // made of the headers of C++:

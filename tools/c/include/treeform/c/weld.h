@@ -1,22 +1,23 @@
 #pragma once
 /// \file
-/// Points that are within a distance of each other become one: of clouds, meshes and files.
+/// Merges points within a distance of each other: in clouds, meshes and files.
 
 #include <treeform/c/files.h>
 
 // made of the headers of C++:
 //   weld_rule weld_keep weld_order weld_condition weld_options weld_result weld() weld_file()
 //   group_points() count_nearly_equal() count_still_within() withhold()
-/// Which points become one.
+/// The rule that forms groups.
 typedef int32_t treeform_weld_rule;
 enum {
-    /// Goes through the points in order, and drops a point when an earlier kept one is within the
-    /// tolerance. The point then belongs to the nearest of these; among equally near ones, to the
-    /// earliest. So no two kept points are within the tolerance, no point is further than that
-    /// from the one it belongs to, and welding the kept points again changes nothing.
+    /// Visits points in order, and drops a point if an earlier kept point is within the tolerance.
+    /// The dropped point joins the nearest of these kept points, and the earliest of equally near
+    /// ones. So no two kept points are within the tolerance, no point is further than the
+    /// tolerance from the kept point of its group, and welding the kept points again changes
+    /// nothing.
     TREEFORM_WELD_FIRST = 0,
-    /// All points that are linked by steps of at most the tolerance are one group. Its earliest
-    /// point is kept. A point may be many tolerances away from it.
+    /// All points linked by steps of at most the tolerance are one group. Its earliest point is
+    /// kept. A point may be many tolerances away from that point.
     TREEFORM_WELD_CHAIN = 1
 };
 
@@ -36,10 +37,10 @@ enum {
     TREEFORM_KEEP_HIGHEST = 4
 };
 
-/// In which order the rules go through the points: which is the first of several.
+/// The order in which rules visit points.
 typedef int32_t treeform_weld_order;
 enum {
-    /// as they are numbered
+    /// by point number
     TREEFORM_ORDER_GIVEN = 0,
     /// by `order_by`, the least value first, NaN last; of equal ones the lowest-numbered
     TREEFORM_ORDER_LOWEST = 1,
@@ -47,7 +48,7 @@ enum {
     TREEFORM_ORDER_HIGHEST = 2
 };
 
-/// A vertex property that must agree for two points to become one.
+/// A vertex property that must agree for two points to be merged.
 typedef struct treeform_weld_condition {
     /// A column of the element "vertex" with one value a row; "x", "y" or "z" for a coordinate;
     /// "normal", "uv" or "color" for all columns of that kind.
@@ -57,7 +58,7 @@ typedef struct treeform_weld_condition {
     double tolerance;
 } treeform_weld_condition;
 
-/// How to weld. `tolerance` is all that most callers set.
+/// How to weld. Most callers only set `tolerance`.
 typedef struct treeform_weld_options {
     size_t size;
     double tolerance;  ///< Euclidean, inclusive; 0: equal coordinates (-0 equals +0)
@@ -71,17 +72,17 @@ typedef struct treeform_weld_options {
     /// [same_count] Properties that must agree, in addition to `label` and `may_merge`.
     const treeform_weld_condition* same;
     size_t same_count;
-    /// For a mesh with faces: keep seams. Normals, texture coordinates and colors of points must
-    /// agree, too, except for those named in `across`.
+    /// For a mesh with faces: keep seams, that is, normals, texture coordinates and colors of
+    /// points must agree, except for those named in `across`.
     int32_t keep_seams;
     const char* const* across;  ///< [across_count]
     size_t across_count;
     treeform_weld_keep keep;
     /// for `lowest` and `highest`: a property as in `treeform_weld_condition`
     const char* keep_by;
-    /// Except for `given`, needs `weld_keep::first`: the point that is first in this order is
-    /// kept. What the rules promise holds for it. Points that are kept stay in the order of
-    /// numbers.
+    /// The order in which the rule visits points; the first point of a group in this order is
+    /// kept. Other values than `given` need `weld_keep::first`. Kept points stay in the order of
+    /// their numbers.
     treeform_weld_order order;
     /// for `lowest` and `highest`: a property as in `treeform_weld_condition`
     const char* order_by;
@@ -101,23 +102,22 @@ typedef struct treeform_weld_result {
     treeform_arrays mesh;
     const uint32_t* group_of_point;  ///< [V] groups in the order of their first points
     size_t point_count;
-    /// [G] the first point of each, ascending: the lowest-numbered, unless `order` asks for
-    /// another
+    /// [G] the first point of each group, ascending: the lowest-numbered, unless `order` is set
     const uint32_t* first_of_group;
     const uint32_t* point_of_group;  ///< [G] input point that gave its properties
     size_t group_count;
-    const uint32_t* face_of_new;  ///< [F'] input face that each face was
+    const uint32_t* face_of_new;  ///< [F'] input face of each face
     uint64_t merged_groups;       ///< groups of two points or more
     /// points with a NaN or infinite coordinate, left as they are
     uint64_t non_finite;
-    uint64_t collapsed;   ///< faces that repeat a corner now, but did not before
+    uint64_t collapsed;   ///< faces that repeat a corner only after the weld
     uint64_t degenerate;  ///< faces that repeated a corner before
-    /// The furthest that a point moved, rounded up to a double.
+    /// The largest distance that a point moved, rounded up to a double.
     double max_displacement;
     uint64_t nonmanifold_before;  ///< edges of more than two faces
     uint64_t nonmanifold_after;
     uint64_t flipped;           ///< kept faces whose normal turned by more than a right angle
-    uint64_t left_alone;        ///< groups that `keep_manifold` did not merge whole
+    uint64_t left_alone;        ///< groups that `keep_manifold` did not merge completely
     const treeform_file* file;  ///< of a file, with its attributes; else null
 } treeform_weld_result;
 
@@ -136,8 +136,8 @@ TREEFORM_C_API treeform_code treeform_group_points(const treeform_mesh* mesh,
                                                    const treeform_weld_options* options,
                                                    treeform_weld_result** result);
 
-/// How many points would not be there any more if points within `distance` of each other were
-/// joined, beyond those that are equal to another.
+/// By how much the number of points would shrink if points within `distance` of each other were
+/// joined, compared with joining equal points only.
 TREEFORM_C_API treeform_code treeform_count_nearly_equal(const treeform_mesh* mesh, double distance,
                                                          uint64_t* result);
 
