@@ -53,8 +53,8 @@ struct command_text {
     std::vector<std::pair<std::string, const command_text*>> own{};
 };
 
-/// A tool's help.txt, which the build puts into it. Sections begin with their name in brackets; that
-/// of a mode has its text, its usage, options that are not for it, and what its help says.
+/// A tool's help.txt, which the build puts into it. Sections begin with their name in brackets;
+/// that of a mode has its text, its usage, options that are not for it, and what its help says.
 extern const std::string_view help_text;
 
 /// Names and texts of all sections.

@@ -197,7 +197,8 @@ def self_intersections_of_file(path: str, options: StreamSearchOptions, communic
 def search_of(path: str, options: StreamSearchOptions,
               progress: Watched = ...) -> SearchInSteps: ...
 def weld_stream(inputs: CloudInputs, options: WeldStreamOptions, output: str, removed: str,
-                label: str, withhold: bool, communicator: Any, progress: Watched = ...) -> WeldStreamResult: ...
+                label: str, withhold: bool, communicator: Any,
+                progress: Watched = ...) -> WeldStreamResult: ...
 
 # made of options:
 class CloudInputs:
