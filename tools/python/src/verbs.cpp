@@ -118,14 +118,14 @@ tf::weld_result weld_file(tf::mesh_file& file, const tf::weld_options& options) 
 
 py::object weld(const held_mesh& mesh, tf::weld_options options, const ids_array& label) {
     options.label = rows_of<std::uint32_t>(label);
-    const auto [points, faces] = mesh.view();
+    const tf::mesh_view view = mesh.view();
     std::optional<tf::mesh_file> file;
     if (!mesh.data().is_none()) file = file_of(mesh);
     tf::weld_result result = run([&](const tf::progress_callback& report) {
         options.progress = report;
-        return file            ? weld_file(*file, options)
-               : faces.empty() ? tf::weld(points, options)
-                               : tf::weld(mesh.ref(), options);
+        return file                 ? weld_file(*file, options)
+               : view.faces.empty() ? tf::weld(view.points, options)
+                                    : tf::weld(mesh.ref(), options);
     });
     if (!file) return object(of_result{}, std::move(result), nullptr);
     const file_data kept(std::move(*file));
