@@ -222,6 +222,7 @@ class Language:
             if type == "optional<double>" and "NaN" not in doc:
                 ending = "; NaN: not given"
             said = f"{prefix}{doc.rstrip('.') if ending else doc}{ending}".strip("; ")
+            said = said.replace("] ; ", "]; ")
             return [Member(decl, said, "", f"{how} = {value};", default)]
         if found := re.fullmatch(r"optional<(\w+)>", type):
             inner = found.group(1)

@@ -242,7 +242,7 @@ typedef struct treeform_write_options {
     /// [3] For LAS and LAZ; `TREEFORM_NONE`: those of the file, else chosen by `treeform_write`;
     /// or null
     const double* las_scale;
-    const double* las_offset;  ///< [3] ; or null
+    const double* las_offset;  ///< [3]; or null
 } treeform_write_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_write_options_init(treeform_write_options* options, size_t size);

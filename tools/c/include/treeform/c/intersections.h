@@ -62,7 +62,7 @@ typedef struct treeform_intersections_options {
     /// corners as `transform::operator()` gives them, rounded to double. A prepared mesh is not
     /// changed; or null
     const double* move_a;
-    const double* move_b;  ///< [12] ; or null
+    const double* move_b;  ///< [12]; or null
     int32_t first_only;    ///< stop at the first pair: the same on any number of threads
     uint32_t kinds;        ///< the others are neither counted nor listed
     uint64_t limit;        ///< lowest pairs listed; all are counted; default all

@@ -262,7 +262,7 @@ typedef struct treeform_impact_options {
     /// `transform::operator()` and rounded; the result is exact for these coordinates. A prepared
     /// mesh is not changed; or null
     const double* move_a;
-    const double* move_b;  ///< [12] ; or null
+    const double* move_b;  ///< [12]; or null
     double latest;         ///< Ignore contacts after this time; default infinite
     /// List at most this many contacts, those with the lowest face numbers; default 1000
     uint64_t limit;
