@@ -49,8 +49,8 @@ void enter(job& work, const dirty_mesh& input, const tf::offset_result& made, do
                           {"components", topology.components_by_point}};
 }
 
-/// Of a surface with a hole that is wider than the size, the wrap is on both sides, and encloses
-/// less than the surface nearly does.
+/// If a surface has a hole wider than about twice the size, the wrap covers both sides of it, and
+/// encloses less volume.
 void warn_of_skin(job& work, const dirty_mesh& input, const tf::offset_result& made,
                   double volume) {
     constexpr double much = 0.9;
@@ -60,9 +60,9 @@ void warn_of_skin(job& work, const dirty_mesh& input, const tf::offset_result& m
     const auto edges = tf::count_topology(joined.points.size(), joined.faces);
     // Where parts overlap or are within each other, volumes say nothing.
     if (edges.boundary_edges <= edges.nonmanifold_edges) return;
-    work.warn("skin",
-              "the wrap is a skin on both sides of the faces: the way inside is wider than " +
-                  brief(made.statistics.resolution) + "; a larger --wrap closes it");
+    work.warn("skin", "the wrap covers both sides of the faces: it enters holes wider than about " +
+                          brief(2.0 * made.statistics.resolution) +
+                          "; a larger --wrap closes them");
 }
 
 }  // namespace

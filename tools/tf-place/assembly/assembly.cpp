@@ -78,9 +78,7 @@ assembly_command::assembly_command(const std::string& mode)
     add_common_options(line_, options_, features);
     for (const char* name : {"--html", "--png", "--view", "--png-size"})
         if (!clash_)
-            line_.refuse(name, true,
-                         "is of clash, which shows parts as they stand; check looks at "
-                         "many poses, and shows none");
+            line_.refuse(name, true, "is for clash; check tests many poses, and shows none");
     line_.epilogue(sections_of(assembly_help)[clash_ ? 0 : 1].second);
 }
 
