@@ -12,7 +12,7 @@ sys.path.insert(0, str(ROOT / "tests" / "cli"))
 
 import support  # noqa: E402
 
-VIEWER = ROOT / "tools" / "viewer"
+VIEWER = ROOT / "tools" / "picture" / "viewer"
 KNOWN = "0.17.0"  # of Debian 12; others may write it another way
 
 
