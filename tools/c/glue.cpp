@@ -203,7 +203,8 @@ tf::mesh_ref ref(const treeform_mesh* mesh, const char* name) {
 tf::mesh_refs refs(const treeform_mesh* const* meshes, std::size_t count, const char* name) {
     std::vector<tf::mesh_ref> all;
     for (const treeform_mesh* one : array(meshes, count, name)) all.push_back(ref(one, name));
-    return all;
+    tf::mesh_refs result = all;  // refers to the meshes, not to `all`
+    return result;
 }
 
 std::vector<tf::mesh_view> views(const treeform_mesh* const* meshes, std::size_t count,
