@@ -122,9 +122,10 @@ class rounding {
         return true;
     }
 
-    /// Slivers go, and what meets all the same is cut. `only_less`: until more is left to cut than
-    /// in the round before, or a cut makes many faces, as cuts of faces that nearly share a plane do.
-    void cut_rounds(rounds all, bool only_less) {
+    /// Slivers go, and what meets all the same is cut. `only_near`: with the first reach alone, until
+    /// more is left to cut than in the round before, or a cut makes many faces, as cuts of faces that
+    /// nearly share a plane do.
+    void cut_rounds(rounds all, bool only_near) {
         const std::size_t most = 3 * faces_given_ + 1000;  // far more than there was
         std::size_t before = std::numeric_limits<std::size_t>::max();
         for (int round = 1; all.reach <= all.limit; ++round) {
@@ -132,9 +133,11 @@ class rounding {
             if (round % rounds_of_reach == 0) all.reach *= 4.0;
             if (result_.surface.faces.size() > most) return;
             if (pairs_.size() > most) continue;
-            if (only_less && pairs_.size() > std::exchange(before, pairs_.size())) return;
+            const bool is_near =
+                round <= rounds_of_reach && pairs_.size() <= std::exchange(before, pairs_.size());
+            if (only_near && !is_near) return;
             if (!cut_once()) return;
-            if (only_less && result_.surface.faces.size() > faces_given_ + faces_given_ / 8) return;
+            if (only_near && result_.surface.faces.size() > faces_given_ + faces_given_ / 8) return;
         }
     }
 
