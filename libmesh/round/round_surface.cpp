@@ -122,9 +122,8 @@ class rounding {
         return true;
     }
 
-    /// Slivers go, and what meets all the same is cut. `only_near`: with the first reach alone, until
-    /// more is left to cut than in the round before, or a cut makes many faces, as cuts of faces that
-    /// nearly share a plane do.
+    /// Slivers go, and what still meets is cut. `only_near`: with the first reach, while less is left
+    /// to cut, and without many new faces, as cuts of faces that nearly share a plane make.
     void cut_rounds(rounds all, bool only_near) {
         const std::size_t most = 3 * faces_given_ + 1000;  // far more than there was
         std::size_t before = std::numeric_limits<std::size_t>::max();
@@ -133,9 +132,8 @@ class rounding {
             if (round % rounds_of_reach == 0) all.reach *= 4.0;
             if (result_.surface.faces.size() > most) return;
             if (pairs_.size() > most) continue;
-            const bool is_near =
-                round <= rounds_of_reach && pairs_.size() <= std::exchange(before, pairs_.size());
-            if (only_near && !is_near) return;
+            const bool is_more = pairs_.size() > std::exchange(before, pairs_.size());
+            if (only_near && (is_more || round > rounds_of_reach)) return;
             if (!cut_once()) return;
             if (only_near && result_.surface.faces.size() > faces_given_ + faces_given_ / 8) return;
         }

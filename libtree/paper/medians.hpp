@@ -3,7 +3,7 @@
 /// Selection algorithms of the paper that choose their pivot as a median: slower in this build than
 /// that of `build`.
 
-#include <treeform/tree/detail/partition_around.hpp>
+#include <libtree/paper/partition_around.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -2,7 +2,7 @@
 /// \file
 /// Selection algorithms to compare with that of `build` (libtree/build/split.cpp).
 
-#include <treeform/tree/detail/partition_around.hpp>
+#include <libtree/paper/partition_around.hpp>
 
 #include <algorithm>
 #include <bit>

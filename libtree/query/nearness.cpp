@@ -38,10 +38,14 @@ void approach_by(const tree<D>& t, const near_query<D>& query, double squared,
 template <std::size_t D>
 void approach_any(const tree<D>& t, const near_query<D>& query, double squared, node_order order,
                   function_ref<double(std::uint32_t)> visit) {
-    if (order == node_order::best_first)
-        approach_by<strategy::priority_queue>(t, query, squared, visit);
-    else
-        approach_by<strategy::depth_first>(t, query, squared, visit);
+    switch (order) {
+        case node_order::depth_first:
+            return approach_by<strategy::depth_first>(t, query, squared, visit);
+        case node_order::top_k_sorted:
+            return approach_by<strategy::top_k_sorted>(t, query, squared, visit);
+        case node_order::best_first:
+            return approach_by<strategy::priority_queue>(t, query, squared, visit);
+    }
 }
 
 void approach_2(const tree<2>& t, const near_query<2>& query, double squared, node_order order,

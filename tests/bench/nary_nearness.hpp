@@ -7,7 +7,6 @@
 ///         min-max distance of boxes: two boxes may lie on each other and their contents far apart
 
 #include <libtree/paper/nary_tree.hpp>
-#include <libtree/paper/top_k_sorted.hpp>
 #include <libtree/query/node_orders.hpp>
 
 #include <algorithm>

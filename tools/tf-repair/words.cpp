@@ -33,8 +33,8 @@ std::string offers(const repair_settings& settings, const tf::repaired_file& mad
     return text + ")";
 }
 
-/// That --accept-loss leads on, where it does: where all of the one mesh was made but for the loss,
-/// or else where trying says so.
+/// What to do about too large a loss. If a single mesh was repaired and no sheet left out, only the
+/// loss was refused, so --accept-loss works; else it is tried.
 std::string accepted(const repair_settings& settings, const tf::repaired_file& made,
                      const attempt& works) {
     repair_settings tried = settings;

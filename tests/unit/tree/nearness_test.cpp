@@ -35,8 +35,8 @@ answers first(answers all, std::size_t k) {
     return all;
 }
 
-const std::vector<tf::node_order> node_orders{tf::node_order::depth_first,
-                                              tf::node_order::best_first};
+const std::vector<tf::node_order> node_orders{
+    tf::node_order::depth_first, tf::node_order::top_k_sorted, tf::node_order::best_first};
 
 /// Those whose squared distances are doubles.
 const std::vector<std::string> families{"random", "grid", "equal", "line", "far", "mixed"};

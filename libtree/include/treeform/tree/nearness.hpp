@@ -25,8 +25,9 @@ namespace treeform {
 
 /// The order in which nodes are opened. Answers are the same for each, times are not.
 enum class node_order : std::uint8_t {
-    depth_first,  ///< the children of one node by distance
-    best_first    ///< the nearest of all that are not opened yet: opens the fewest nodes
+    depth_first,   ///< the children of one node by distance
+    top_k_sorted,  ///< a stack, the top of which is sorted after each node, as in the paper
+    best_first     ///< the nearest of all that are not opened yet: opens the fewest nodes
 };
 
 struct nearness_options {

@@ -58,7 +58,7 @@ struct words_of<tf::mesh_relation> {
 };
 template <>
 struct words_of<tf::node_order> {
-    static constexpr words<2> all{"depth_first", "best_first"};
+    static constexpr words<3> all{"depth_first", "top_k_sorted", "best_first"};
 };
 template <>
 struct words_of<tf::overlap> {
