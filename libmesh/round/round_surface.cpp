@@ -122,8 +122,8 @@ class rounding {
         return true;
     }
 
-    /// Slivers go, and what still meets is cut. `only_near`: with the first reach, while less is left
-    /// to cut, and without many new faces, as cuts of faces that nearly share a plane make.
+    /// Slivers go, and what still meets is cut. `only_near`: with the first reach, while less is
+    /// left to cut, and without many new faces, as cuts of nearly coplanar faces make.
     void cut_rounds(rounds all, bool only_near) {
         const std::size_t most = 3 * faces_given_ + 1000;  // far more than there was
         std::size_t before = std::numeric_limits<std::size_t>::max();
