@@ -133,7 +133,7 @@ TEST_CASE("manifold operands: what is examined is told") {
 }
 
 TEST_CASE("manifold operands: parts that cross, nest, or are inside out give the general result") {
-    for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    for (std::uint64_t seed = 0; seed < 2; ++seed) {
         CAPTURE(seed);
         test::random source(seed);
         const auto wart = [&](double size) {

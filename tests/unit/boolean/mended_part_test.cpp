@@ -35,7 +35,7 @@ tf::mesh all_but_same(double height, double rest, test::random& source) {
 
 TEST_CASE("mended parts: what is near is mended alone, to the solid that mending all gives") {
     std::uint64_t slivers = 0;
-    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
         test::random source(seed);
         const double height = source.in(0.5, 0.95);
         const std::vector<tf::mesh> both{all_but_same(height, 1.0, source),
@@ -58,5 +58,5 @@ TEST_CASE("mended parts: what is near is mended alone, to the solid that mending
             slivers += result.statistics.slivers;
         }
     }
-    CHECK(slivers > 100);
+    CHECK(slivers > 20);
 }
