@@ -36,12 +36,11 @@ constexpr std::size_t point_grain = std::size_t{1} << 7;  // the constructed one
 constexpr std::size_t most_listed = 100;
 
 // In steps of the precision at the largest coordinate: the height of slivers, and how far apart
-// what is joined may be in the first two rounds; then four times as far in each two. Rounding moves
-// points by half a step, so that most of what it breaks is thinner than one. On real results
-// (threads, a gantry, a slicer's test object) 2, 4, 8 and 16 take as many rounds, give or take one.
+// what is joined may be at first. Rounding moves points by half a step, so that most of what it
+// breaks is thinner than one. On real results (threads, a gantry, a slicer's test object) 2, 4, 8
+// and 16 take as many rounds, give or take one.
 constexpr double sliver_height = 1.0;
 constexpr double first_reach = 8.0;
-constexpr int rounds_of_reach = 2;
 /// More pairs of a solid than that, and one for as many faces, are not cut: the reach is too short.
 constexpr std::size_t fewest_cut = 100, faces_a_cut = 64;
 /// Pairs that are held against each other for that, of all rounds of an attempt, for each face and
@@ -87,8 +86,6 @@ class rounding {
         return result_.certificate.status == status::cancelled;
     }
 
-    /// Rounds of taking out slivers, and of cutting what meets all the same. Each two reach four
-    /// times as far as those before, so that they end.
     void mend() {
         double largest = 0.0;
         for (const point3& p : result_.surface.points)
@@ -122,18 +119,20 @@ class rounding {
         return true;
     }
 
-    /// Slivers go, and what still meets is cut. `only_near`: with the first reach, while less is
-    /// left to cut, and without many new faces, as cuts of nearly coplanar faces make.
+    /// Slivers go, and what still meets is cut. The reach stays while fewer than half as many pairs
+    /// are left, so that rounds end. `only_near`: until it would grow, and without many new faces,
+    /// as cuts of nearly coplanar faces make.
     void cut_rounds(rounds all, bool only_near) {
         const std::size_t most = 3 * faces_given_ + 1000;  // far more than there was
         std::size_t before = std::numeric_limits<std::size_t>::max();
-        for (int round = 1; all.reach <= all.limit; ++round) {
+        while (all.reach <= all.limit) {
             if (take_out_slivers(all) || is_cancelled()) return;
-            if (round % rounds_of_reach == 0) all.reach *= 4.0;
+            if (pairs_.size() > std::exchange(before, pairs_.size()) / 2) {
+                if (only_near) return;
+                all.reach *= 4.0;
+            }
             if (result_.surface.faces.size() > most) return;
             if (pairs_.size() > most) continue;
-            const bool is_more = pairs_.size() > std::exchange(before, pairs_.size());
-            if (only_near && (is_more || round > rounds_of_reach)) return;
             if (!cut_once()) return;
             if (only_near && result_.surface.faces.size() > faces_given_ + faces_given_ / 8) return;
         }
@@ -142,7 +141,8 @@ class rounding {
     /// Flat parts come first. Where too much meets after that, nothing is cut: the round begins
     /// anew with a longer reach.
     void flat_rounds(rounds all) {
-        for (int round = 1; all.reach <= all.limit; ++round) {
+        std::size_t fewest = std::numeric_limits<std::size_t>::max();
+        while (all.reach <= all.limit) {
             const state before = now();
             if (flatten_parts(all.reach) || is_cancelled()) return;
             if (pairs_.size() > faces_given_ / faces_a_cut + fewest_cut) {
@@ -151,7 +151,7 @@ class rounding {
                 continue;
             }
             if (take_out_slivers(all) || is_cancelled() || !cut_once()) return;
-            if (round % rounds_of_reach == 0) all.reach *= 4.0;
+            if (pairs_.size() > std::exchange(fewest, pairs_.size()) / 2) all.reach *= 4.0;
         }
     }
 
