@@ -30,22 +30,22 @@ body_file& body_set::add_named_parts(mesh_file content, std::string label, std::
     body_file& file = add(std::move(content), std::move(label), std::move(name));
     const std::vector<part>& names = file.content.attributes.parts;
     if (!file.box || file.cloud || names.empty()) return file;
-    const std::size_t whole = bodies.size() - 1, count = shapes[whole].view().faces.size();
+    const std::size_t whole = bodies_.size() - 1, count = shapes[whole].view().faces.size();
     std::vector<std::uint32_t> triangle, stored;
     for (std::uint32_t f = 0; f < count; ++f) {
-        triangle.push_back(bodies[whole].triangle(f));
+        triangle.push_back(this->triangle(whole, f));
         stored.push_back(stored_face(whole, f));
     }
     const auto parts = scene_parts(loose(file.content.mesh, triangle), names, stored);
     shapes.pop_back();
-    bodies.pop_back();
+    bodies_.pop_back();
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        file_body body{.file = files.size() - 1, .name = parts[i].name};
-        if (body.name.empty() && parts.size() > 1) body.name = "part " + std::to_string(i);
-        for (const std::uint32_t f : parts[i].faces) body.triangle_of_face.push_back(triangle[f]);
+        body one{.file = files.size() - 1, .part = parts[i].name};
+        if (one.part.empty() && parts.size() > 1) one.part = "part " + std::to_string(i);
+        for (const std::uint32_t f : parts[i].faces) one.triangle_of_face.push_back(triangle[f]);
         shapes.emplace_back(
-            join_equal_points(select_faces(file.content.mesh, body.triangle_of_face)));
-        bodies.push_back(std::move(body));
+            join_equal_points(select_faces(file.content.mesh, one.triangle_of_face)));
+        bodies_.push_back(std::move(one));
     }
     return file;
 }

@@ -31,19 +31,20 @@ double room_beyond(const prepared_mesh& mesh, const ray3& ray, double t, double 
 
 }  // namespace
 
-drilled drill(const drain& hole, const prepared_mesh& solid, const prepared_mesh& cavities) {
-    const point3 from = closest_point(solid, hole.at)->point;
+drilled drill(const point3& at, double diameter, const prepared_mesh& solid,
+              const prepared_mesh& cavities) {
+    const point3 from = closest_point(solid, at)->point;
     const point3 way = minus(closest_point(cavities, from)->point, from);
     const double length = std::sqrt(dot(way, way));
     const point3 along = scaled(way, 1.0 / length), back = scaled(along, -1.0);
     const double in = room_beyond(cavities, {{from.x, from.y, from.z}, {along.x, along.y, along.z}},
-                                  length * (1.0 + clear), hole.diameter);
+                                  length * (1.0 + clear), diameter);
     const double out = room_beyond(solid, {{from.x, from.y, from.z}, {back.x, back.y, back.z}},
-                                   length * clear, hole.diameter);
+                                   length * clear, diameter);
     const std::array ends{plus(from, scaled(back, out)), plus(from, scaled(along, length + in))};
     const plane_frame frame = oriented_plane{{}, along}.frame();
     // A closed surface has an inside, whichever way it faces.
-    return {geometry::prism(ends, {frame.x, frame.y}, 0.5 * hole.diameter, drain_sides),
+    return {geometry::prism(ends, {frame.x, frame.y}, 0.5 * diameter, drain_sides),
             !contains(solid, ends[0]) && contains(cavities, ends[1])};
 }
 

@@ -132,11 +132,11 @@ offset_result surface_at(mesh_view given, double distance, wanted_side side, boo
     const prepared_mesh around = prepared_mesh::borrow(given);
     offset_result result;
     result.certificate.precision = options.precision;
-    result.statistics.distance = distance;
-    result.statistics.resolution = step;
+    result.distance = distance;
+    result.resolution = step;
     const auto grid = detail::offset::cells_at(asked.verb, around, distance, side, step, progress);
     if (progress.cancelled()) return ended(status::cancelled, options);
-    result.statistics.cells = grid.cells.size();
+    result.cells = grid.cells.size();
     result.mesh =
         detail::offset::level_surface(around, grid, distance, outward, progress.part(0.3, 0.6));
     if (progress.cancelled()) return ended(status::cancelled, options);
@@ -149,8 +149,8 @@ offset_result surface_at(mesh_view given, double distance, wanted_side side, boo
     }
     const auto [least, greatest] = detail::offset::bounds_of_distance(
         result.mesh, around, slack_share * step, progress.part(0.6, 0.7));
-    result.statistics.least = least;
-    result.statistics.greatest = greatest;
+    result.least = least;
+    result.greatest = greatest;
     if (!progress.cancelled()) certify(result, progress.part(0.7, 0.9));
     if (progress.cancelled() || result.certificate.status == status::cancelled)
         return ended(status::cancelled, options);
@@ -187,14 +187,15 @@ offset_result offset(const mesh_ref& given, double distance, const offset_option
                       outward ? wanted_side::outside : wanted_side::inside, outward, asked);
 }
 
-offset_result hollow(const mesh_ref& given, double wall, std::span<const drain> drains,
+offset_result hollow(const mesh_ref& given, double wall,
+                     std::span<const std::pair<point3, double>> drains,
                      const offset_options& options) {
     work_progress progress(options.progress);
     const request asked{"hollow", options, progress};
     asked.require_positive(wall, "the wall");
-    for (const drain& hole : drains) {
-        asked.require_positive(hole.diameter, "the diameter of a drain");
-        if (!detail::base::is_finite(hole.at)) asked.refuse("the place of a drain is not finite");
+    for (const auto& [at, diameter] : drains) {
+        asked.require_positive(diameter, "the diameter of a drain");
+        if (!detail::base::is_finite(at)) asked.refuse("the place of a drain is not finite");
     }
     boolean_result solid = solid_of(given, asked);
     if (!solid.certificate) return with_certificate(solid.certificate);
@@ -207,7 +208,8 @@ offset_result hollow(const mesh_ref& given, double wall, std::span<const drain> 
     const prepared_mesh cavities = prepared_mesh::borrow(gone[0]);
     std::vector<mesh> prisms;
     for (std::uint32_t i = 0; i < drains.size(); ++i) {
-        detail::offset::drilled made = detail::offset::drill(drains[i], outer, cavities);
+        detail::offset::drilled made =
+            detail::offset::drill(drains[i].first, drains[i].second, outer, cavities);
         if (!made.leads) result.blind_drains.push_back(i);
         prisms.push_back(std::move(made.prism));
     }
@@ -219,23 +221,21 @@ offset_result hollow(const mesh_ref& given, double wall, std::span<const drain> 
     result.certificate = std::move(made.certificate);
     if (!result.certificate) return result;
     // Shells that are no part of their own are around cavities.
-    result.statistics.sealed_cavities =
+    result.sealed_cavities =
         count_topology(result.mesh.points.size(), result.mesh.faces).components_by_point -
         components(result.mesh).size();
     return result;
 }
 
-offset_result thicken(const mesh_ref& given, double thickness, thick_side side,
-                      const offset_options& options) {
+offset_result thicken(const mesh_ref& given, double thickness, const offset_options& options) {
     work_progress progress(options.progress);
     const request asked{"thicken", options, progress};
     asked.require_positive(thickness, "the thickness");
     mesh surface = used_part(asked.verb, given.view());
     if (surface.faces.empty()) asked.refuse("the mesh has no faces");
-    const double half = 0.5 * thickness;
-    if (side != thick_side::both)
-        surface = detail::offset::moved_to_front(surface, side == thick_side::front ? half : -half);
-    return surface_at(surface, half, wanted_side::any, true, asked);
+    if (!std::isfinite(options.shift)) asked.refuse("the shift is not finite");
+    if (options.shift != 0.0) surface = detail::offset::moved_to_front(surface, options.shift);
+    return surface_at(surface, 0.5 * thickness, wanted_side::any, true, asked);
 }
 
 }  // namespace treeform

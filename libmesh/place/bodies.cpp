@@ -93,8 +93,8 @@ body_file& body_set::add(mesh_file content, std::string label, std::string name)
             file.cloud ? cloud_of(content.mesh, usable)
                        : prepared_mesh(join_equal_points(select_faces(content.mesh, usable))));
         file.box = bounding_box(shapes.back().view().points);
-        bodies.push_back({.file = files.size() - 1});
-        if (usable.size() < all) bodies.back().triangle_of_face = std::move(usable);
+        bodies_.push_back({.file = files.size() - 1});
+        if (usable.size() < all) bodies_.back().triangle_of_face = std::move(usable);
     }
     file.content = std::move(content);
     return file;
@@ -107,55 +107,64 @@ body_file& body_set::add_parts(mesh_file content, std::string label, std::string
     const mesh_view mesh = shapes.back().view();
     std::vector<std::uint32_t> number;
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f)
-        number.push_back(stored_face(bodies.size() - 1, f));
+        number.push_back(stored_face(bodies_.size() - 1, f));
     const std::vector<scene_part> parts = scene_parts(mesh, names, number);
     if (parts.size() < 2) return file;
     std::vector<prepared_mesh> split = split_up(mesh, parts);
     shapes.pop_back();
     std::move(split.begin(), split.end(), std::back_inserter(shapes));
-    const file_body whole = std::move(bodies.back());
-    bodies.pop_back();
+    std::vector<std::uint32_t> triangle;
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f)
+        triangle.push_back(this->triangle(bodies_.size() - 1, f));
+    bodies_.pop_back();
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        file_body& body = bodies.emplace_back();
-        body.file = whole.file;
-        body.name = parts[i].name.empty() ? "part " + std::to_string(i) : parts[i].name;
-        for (const std::uint32_t f : parts[i].faces)
-            body.triangle_of_face.push_back(whole.triangle(f));
+        body& one = bodies_.emplace_back();
+        one.file = files.size() - 1;
+        one.part = parts[i].name.empty() ? "part " + std::to_string(i) : parts[i].name;
+        for (const std::uint32_t f : parts[i].faces) one.triangle_of_face.push_back(triangle[f]);
     }
     return file;
 }
 
-const body_file& body_set::file_of(std::size_t body) const { return files[bodies[body].file]; }
+const body_file& body_set::file_of(std::size_t body) const { return files[bodies_[body].file]; }
+
+std::size_t body_set::file_number(std::size_t body) const { return bodies_[body].file; }
+
+const std::string& body_set::part_name(std::size_t body) const { return bodies_[body].part; }
+
+std::uint32_t body_set::triangle(std::size_t body, std::uint32_t f) const {
+    const std::vector<std::uint32_t>& triangles = bodies_[body].triangle_of_face;
+    return triangles.empty() ? f : triangles[f];
+}
 
 std::uint32_t body_set::stored_face(std::size_t body, std::uint32_t f) const {
     const std::vector<std::uint32_t>& stored = file_of(body).content.stored_face;
-    const std::uint32_t t = bodies[body].triangle(f);
+    const std::uint32_t t = triangle(body, f);
     return stored.empty() ? t : stored[t];
 }
 
 std::string body_set::label(std::size_t body) const {
-    const std::string& part = bodies[body].name;
+    const std::string& part = part_name(body);
     return part.empty() ? file_of(body).label : file_of(body).label + ": " + part;
 }
 
 std::vector<std::string> body_set::labels() const {
     std::vector<std::string> all;
-    for (std::size_t i = 0; i < bodies.size(); ++i) all.push_back(label(i));
+    for (std::size_t i = 0; i < bodies_.size(); ++i) all.push_back(label(i));
     return all;
 }
 
 void body_set::put_back(std::size_t number, points_view placed, const transform<3>& matrix,
                         precision written_as) {
-    const file_body& body = bodies[number];
     const prepared_mesh& shape = shapes[number];
-    mesh& file = files[body.file].content.mesh;
+    mesh& file = files[file_number(number)].content.mesh;
     for (point3& p : file.points) {
         p = matrix(p);
         if (written_as == precision::float32) p = rounded(p);
     }
     const std::span<const face> faces = shape.view().faces;
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
-        const std::uint32_t t = body.triangle(f);
+        const std::uint32_t t = triangle(number, f);
         if (shape.is_cloud()) {
             file.points[t] = placed[f];
             continue;

@@ -9,6 +9,7 @@
 #include <treeform/tree/search_pair.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -19,25 +20,31 @@ namespace {
 using detail::base::triangle_of;
 
 using detail::place::shape;
-using classes = std::vector<contact_class>;
+using relations = std::vector<mesh_relation>;
 
-/// The gravest class stays.
-void mark(contact_class& present, contact_class one) {
-    if (present == contact_class::none || one < present) present = one;
+int gravity(mesh_relation how) {
+    constexpr std::array<int, 5> of{0, 2, 3, 1, 0};
+    return of[static_cast<std::size_t>(how)];
 }
 
-void mark_meeting(const shape& placed, const shape& part, classes& a, classes& b) {
+/// The gravest relation stays.
+void mark(mesh_relation& present, mesh_relation one) {
+    if (gravity(one) > gravity(present)) present = one;
+}
+
+void mark_meeting(const shape& placed, const shape& part, relations& a, relations& b) {
     const auto found = detail::intersect::mesh_intersections(placed.mesh(), placed.faces(),
                                                              part.mesh(), part.faces());
     for (const face_pair& pair : found.pairs) {
-        const contact_class one =
-            pair.kind == pair_kind::crossing ? contact_class::penetrating : contact_class::touching;
+        const mesh_relation one =
+            pair.kind == pair_kind::crossing ? mesh_relation::penetrating : mesh_relation::touching;
         mark(a[pair.a], one);
         mark(b[pair.b], one);
     }
 }
 
-void mark_near(const shape& placed, const shape& part, double clearance, classes& a, classes& b) {
+void mark_near(const shape& placed, const shape& part, double clearance, relations& a,
+               relations& b) {
     const mesh_view mesh = placed.mesh();
     const auto wide = build(mesh.faces, [&](const face& f) {
         aabb<double, 3> box;
@@ -58,31 +65,33 @@ void mark_near(const shape& placed, const shape& part, double clearance, classes
         });
     for (const pairs& chunk : chunks)
         for (const auto& [i, j] : chunk) {
-            mark(a[i], contact_class::near);
-            mark(b[j], contact_class::near);
+            mark(a[i], mesh_relation::closer_than_clearance);
+            mark(b[j], mesh_relation::closer_than_clearance);
         }
 }
 
 /// A clearance that was given is kept: what stopped at it is not closer, and shown all the same.
 void mark_contacts(mesh_view placed, std::span<const prepared_mesh> fixed, const placement& at,
-                   contact_classes& found) {
-    const contact_class one = at.clearance > 0.0 ? contact_class::near : contact_class::touching;
+                   std::vector<relations>& found) {
+    const mesh_relation one =
+        at.clearance > 0.0 ? mesh_relation::closer_than_clearance : mesh_relation::touching;
     for (const placement_contact& c : at.contacts) {
-        mark(found.moving[c.moving], one);
+        mark(found[0][c.moving], one);
         if (!c.fixed_face) continue;
-        found.fixed[c.fixed].resize(fixed[c.fixed].view().faces.size());
-        mark(found.fixed[c.fixed][*c.fixed_face], one);
+        found[1 + c.fixed].resize(fixed[c.fixed].view().faces.size());
+        mark(found[1 + c.fixed][*c.fixed_face], one);
     }
-    if (!at.on_bed || !at.bed) return;
+    if (at.end != placement_end::bed || !at.bed) return;
     for (std::uint32_t f = 0; f < placed.faces.size(); ++f)
         for (const std::uint32_t corner : placed.faces[f])
-            if (placed.points[corner].z <= *at.bed) mark(found.moving[f], one);
+            if (placed.points[corner].z <= *at.bed) mark(found[0][f], one);
 }
 
 }  // namespace
 
-contact_classes contact_classes::of(const mesh_ref& given_moving, const mesh_refs& given_fixed,
-                                    const placement& at) {
+std::vector<relations> placement::face_relations(const mesh_ref& given_moving,
+                                                 const mesh_refs& given_fixed) const {
+    const placement& at = *this;
     const detail::base::prepared_ref moving(given_moving);
     const detail::base::prepared_refs all_fixed(given_fixed);
     const std::span<const prepared_mesh> fixed = all_fixed;
@@ -93,14 +102,15 @@ contact_classes contact_classes::of(const mesh_ref& given_moving, const mesh_ref
         own = build_face_tree(there);
     const shape placed = own ? shape(moving, at.points, *own) : shape(moving);
     const auto box = detail::place::box_of_faces(there);
-    contact_classes found{classes(here.faces.size()), std::vector<classes>(fixed.size())};
+    std::vector<relations> found(1 + fixed.size());
+    found[0].resize(here.faces.size());
     for (std::size_t i = 0; i < fixed.size(); ++i) {
         const auto other = bounding_box(fixed[i].view().points);
         if (!box || !other || !detail::place::within(*box, *other, at.clearance)) continue;
         const shape part(fixed[i]);
-        found.fixed[i].resize(part.mesh().faces.size());
-        if (at.clearance > 0.0) mark_near(placed, part, at.clearance, found.moving, found.fixed[i]);
-        mark_meeting(placed, part, found.moving, found.fixed[i]);
+        found[1 + i].resize(part.mesh().faces.size());
+        if (at.clearance > 0.0) mark_near(placed, part, at.clearance, found[0], found[1 + i]);
+        mark_meeting(placed, part, found[0], found[1 + i]);
     }
     mark_contacts(there, fixed, at, found);
     return found;

@@ -25,6 +25,7 @@ using row_classes = std::vector<std::uint8_t>;
 constexpr std::array<const char*, 7> colors_of_classes{"#b4bac2", "#e02020", "#ecd000", "#00a0c0",
                                                        "#ee9a9a", "#f6ec94", "#90d2e2"};
 constexpr std::uint8_t tint = 3;
+constexpr std::array<std::uint8_t, 5> class_of{0, 2, 1, 3, 0};  ///< by `mesh_relation`
 
 /// Whether no edge is longer than this, which a NaN is.
 bool is_small(const std::array<point3, 3>& t, double longest) {
@@ -74,49 +75,37 @@ bool has_colors(const mesh_file& file) {
                        [](const element& e) { return e.find("red") != nullptr; });
 }
 
-/// Adds a class for each triangle of the files of `set`; `of_body` are those by body.
-void append_classes(std::vector<contact_class>& all, const body_set& set,
-                    std::span<const std::vector<contact_class>> of_body, bool with_clouds) {
+}  // namespace
+
+std::vector<mesh_relation> body_set::relations_in_files(
+    std::span<const std::vector<mesh_relation>> relations, bool clouds) const {
+    std::vector<mesh_relation> all;
     std::size_t first = 0;
-    for (std::size_t i = 0; i < set.bodies.size(); ++i) {
-        const body_file& file = set.file_of(i);
-        if (file.cloud && !with_clouds) continue;
-        if (i == 0 || set.bodies[i].file != set.bodies[i - 1].file) {
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        const body_file& file = file_of(i);
+        if (file.cloud && !clouds) continue;
+        if (i == 0 || file_number(i) != file_number(i - 1)) {
             first = all.size();
             const mesh& content = file.content.mesh;
             all.resize(first + (file.cloud ? content.points.size() : content.faces.size()));
         }
-        for (std::uint32_t f = 0; f < of_body[i].size(); ++f)
-            all[first + set.bodies[i].triangle(f)] = of_body[i][f];
+        for (std::uint32_t f = 0; f < relations[i].size(); ++f)
+            all[first + triangle(i, f)] = relations[i][f];
     }
-}
-
-}  // namespace
-
-std::vector<contact_class> contact_classes::in_files(const body_set& moving,
-                                                     const body_set& fixed) const {
-    const bool with_clouds = fixed.bodies.empty();
-    std::vector<contact_class> all;
-    append_classes(all, moving, {&this->moving, 1}, with_clouds);
-    append_classes(all, fixed, this->fixed, with_clouds);
     return all;
 }
 
-std::vector<contact_class> contact_classes::in_files(const body_set& moving) const {
-    return in_files(moving, {});
-}
-
-void contact_classes::color(mesh_file& file, std::span<const contact_class> classes,
-                            const contact_color_options& options) {
-    const bool cloud = file.mesh.faces.empty() && !classes.empty();
-    if (classes.size() != (cloud ? file.mesh.points.size() : file.mesh.faces.size()))
+void placement::color(mesh_file& file, std::span<const mesh_relation> relations, double halo,
+                      bool keep_colors) {
+    const bool cloud = file.mesh.faces.empty() && !relations.empty();
+    if (relations.size() != (cloud ? file.mesh.points.size() : file.mesh.faces.size()))
         throw std::invalid_argument(
-            "treeform::contact_classes::color: a class for each triangle is needed");
-    if (options.split_polygons && !cloud) file.split_polygons();
+            "treeform::placement::color: a relation for each triangle is needed");
     row_classes of_row;
-    for (const contact_class c : classes) of_row.push_back(static_cast<std::uint8_t>(c));
-    const bool colors = !(options.keep_colors && has_colors(file));
-    if (!cloud && colors && options.halo > 0.0) add_halo(file.mesh, options.halo, of_row);
+    for (const mesh_relation how : relations)
+        of_row.push_back(class_of[static_cast<std::size_t>(how)]);
+    const bool colors = !(keep_colors && has_colors(file));
+    if (!cloud && colors && halo > 0.0) add_halo(file.mesh, halo, of_row);
     if (!cloud) of_row = by_stored_face(file, of_row);
     element& rows = file.attributes.obtain(cloud ? "vertex" : "face", of_row.size());
     if (colors) detail::attribute::set_colors(rows, of_row, colors_of_classes);

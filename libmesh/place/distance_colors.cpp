@@ -28,13 +28,12 @@ rgb color_of(double d, double low, double high) {
 
 std::vector<double> body_set::distances_in_file(std::size_t number,
                                                 std::span<const double> distances) const {
-    const file_body& body = bodies[number];
     const prepared_mesh& shape = shapes[number];
     const mesh& file = file_of(number).content.mesh;
     std::vector<double> all(file.points.size(), std::nan(""));
     const std::span<const face> faces = shape.view().faces;
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
-        const std::uint32_t t = body.triangle(f);
+        const std::uint32_t t = triangle(number, f);
         if (shape.is_cloud())
             all[t] = distances[f];
         else

@@ -39,13 +39,17 @@ void check(mesh_view mesh, const lay_flat_options& options) {
                                         " is not finite");
     if (!(options.tolerance >= 0.0) || std::isinf(options.tolerance))
         throw std::invalid_argument("treeform::lay_flat: the tolerance is negative or not finite");
-    if (!std::isfinite(options.bed) || !detail::base::is_finite(options.toward))
+    if (!std::isfinite(options.bed) ||
+        !detail::base::is_finite(options.normal.value_or(options.point.value_or(point3{}))))
         throw std::invalid_argument(
             "treeform::lay_flat: the bed, direction or point is not finite");
     if (!(options.overhang_angle >= 0.0 && options.overhang_angle <= 90.0))
         throw std::invalid_argument("treeform::lay_flat: the overhang angle is not 0 to 90");
-    if (options.choose == lay_choice::nearest_normal && options.toward == point3{})
+    if (options.normal == point3{})
         throw std::invalid_argument("treeform::lay_flat: the direction is zero");
+    if (options.normal.has_value() + options.point.has_value() + options.most_stable > 1)
+        throw std::invalid_argument(
+            "treeform::lay_flat: several choices of a side: normal, point, most_stable");
 }
 
 /// Numbers of the points that faces use, ascending; of all when there are no faces.
@@ -208,26 +212,21 @@ bool is_down(const candidates& c, const hull_side& side) {
            });
 }
 
-std::size_t choose(const candidates& c, const std::vector<side_stability>& stability,
+std::size_t choose(const candidates& c, std::span<const double> tip_angles,
                    const lay_flat_options& options) {
     const std::vector<hull_side>& sides = c.hull.sides;
     std::vector<double> cost;
     double slack = equally_good;
-    switch (options.choose) {
-        case lay_choice::largest:
-            for (const hull_side& side : sides)
-                cost.push_back(side.area == sides[0].area ? 0.0 : 1.0 - side.area / sides[0].area);
-            break;
-        case lay_choice::nearest_normal:
-            for (const hull_side& side : sides)
-                cost.push_back(angle_between(side.normal, options.toward));
-            break;
-        case lay_choice::holding_point:
-            cost = distances_to(options.toward, c);
-            break;
-        case lay_choice::most_stable:
-            for (const side_stability& s : stability) cost.push_back(1.0 - s.tip_angle / 90.0);
-            break;
+    if (options.normal) {
+        for (const hull_side& side : sides)
+            cost.push_back(angle_between(side.normal, *options.normal));
+    } else if (options.point) {
+        cost = distances_to(*options.point, c);
+    } else if (options.most_stable) {
+        for (const double angle : tip_angles) cost.push_back(1.0 - angle / 90.0);
+    } else {
+        for (const hull_side& side : sides)
+            cost.push_back(side.area == sides[0].area ? 0.0 : 1.0 - side.area / sides[0].area);
     }
     slack += *std::min_element(cost.begin(), cost.end());
     std::size_t first = sides.size();
@@ -368,16 +367,19 @@ void look_at_stability(laid_flat& laid, mesh_view mesh, const std::vector<std::u
                        const candidates& found, const lay_flat_options& options) {
     const auto center = detail::place::center_of_mass(mesh, ids);
     laid.center_of_mass = center.at;
-    laid.mass = center.what;
-    laid.stability = detail::place::stabilities(found.points, found.hull, center.at);
-    laid.chosen = choose(found, laid.stability, options);
+    laid.mass_dimension = center.dimension;
+    laid.center_heights = detail::place::heights_over_sides(found.hull, center.at);
+    laid.tip_angles =
+        detail::place::tip_angles(found.points, found.hull, center.at, laid.center_heights);
+    laid.overhangs.assign(laid.sides.size(), std::numeric_limits<double>::quiet_NaN());
+    laid.chosen = choose(found, laid.tip_angles, options);
     double size = 0.0;
     for (const point3& p : found.points) size = std::max(size, detail::base::largest_of(p));
     const double flat = std::max(options.tolerance, size * 0x1p-40);
     for_chunks(laid.sides.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i)
             if (i < options.overhang_sides || i == laid.chosen)
-                laid.stability[i].overhang =
+                laid.overhangs[i] =
                     detail::place::overhang_of(mesh, laid.sides[i], options.overhang_angle, flat);
     });
 }

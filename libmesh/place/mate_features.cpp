@@ -51,7 +51,7 @@ std::pair<transform<3>, double> turn_between(const point3& a, const point3& b) {
         if (cosine < 0.0) axis = cross(a, other);
     }
     const double angle = std::atan2(sine, cosine);
-    return {detail::place::unit_axis({.origin = {}, .direction = axis}).by(angle), angle};
+    return {detail::place::unit_axis({}, axis).by(angle), angle};
 }
 
 /// `first`, then what takes the point `from` to `to`.

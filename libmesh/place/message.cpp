@@ -31,12 +31,12 @@ std::string too_far(const placement& p) {
 
 /// "touching bed.stl", and the first pair of faces that meet.
 std::string meeting_in_words(const placement& at, const body_set& moving, const body_set& fixed) {
-    const nearest_fixed& near = *at.nearest;
-    std::string text = name_of(at.at_place) + (" " + fixed.label(near.fixed));
-    const mesh_relation_result& how = near.how.relation;
+    std::string text = name_of(at.at_place) + (" " + fixed.label(at.nearest_fixed));
+    const mesh_relation_result& how = at.nearest->relation;
     // Of a cloud it says only that some of the points are.
     if (how.a_inside_b) return text + (moving.file_of(0).cloud ? "" : ", inside it");
-    if (how.b_inside_a) return text + (fixed.file_of(near.fixed).cloud ? "" : ", which is inside");
+    if (how.b_inside_a)
+        return text + (fixed.file_of(at.nearest_fixed).cloud ? "" : ", which is inside");
     if (at.contacts.empty() || !at.contacts[0].fixed_face) return text;
     const placement_contact& first = at.contacts[0];
     const bool cloud = moving.file_of(0).cloud, to_cloud = fixed.file_of(first.fixed).cloud;
@@ -66,17 +66,18 @@ const char* name_of(mesh_relation how) {
 std::string placement::relation_in_words(const body_set& moving, const body_set& fixed) const {
     const placement& at = *this;
     std::string how = name_of(at.at_place);
-    if (at.on_bed) return how + (at.at_place == mesh_relation::clear ? " of the bed" : " the bed");
+    if (at.end == placement_end::bed)
+        return how + (at.at_place == mesh_relation::clear ? " of the bed" : " the bed");
     if (!at.nearest) return how;
     if (at.at_place == mesh_relation::touching || at.at_place == mesh_relation::penetrating)
         return meeting_in_words(at, moving, fixed);
-    return how + ", " + brief(at.nearest->how.distance) + " from " + fixed.label(at.nearest->fixed);
+    return how + ", " + brief(at.nearest->distance) + " from " + fixed.label(at.nearest_fixed);
 }
 
 std::string placement::message(std::span<const std::string> names) const {
     const bool floats = certificate.precision == treeform::precision::float32;
-    const bool named = nearest && nearest->fixed < names.size();
-    const std::string other = named ? names[nearest->fixed] : "a fixed mesh";
+    const bool named = nearest && nearest_fixed < names.size();
+    const std::string other = named ? names[nearest_fixed] : "a fixed mesh";
     switch (end) {
         case placement_end::starts_penetrating:
             return "penetrates " + other + " at the start";
@@ -138,7 +139,6 @@ placement laid_flat::as_placement() const {
                  .points = points,
                  .matrix = matrix,
                  .bed = bed,
-                 .on_bed = true,
                  .at_place = mesh_relation::touching};
     if (contact) at.contacts = {*contact};
     at.contact_count = at.contacts.size();

@@ -43,6 +43,7 @@ void check(const pack_options& o) {
     if (!(o.spacing >= 0.0) || std::isinf(o.spacing))
         refuse("the spacing is negative or not finite");
     if (o.stack && std::isinf(o.size.z)) refuse("the box to be filled has no height");
+    if (o.turns == 0 || 24 % o.turns != 0) refuse("the turns are not 1, 2, 3, 4, 6, 8, 12 or 24");
     if (o.plates == 0) refuse("no plate is allowed");
     if (o.tries == 0) refuse("no try is allowed");
     if (!(o.seconds >= 0.0)) refuse("the seconds are negative or NaN");

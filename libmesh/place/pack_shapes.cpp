@@ -14,13 +14,9 @@ namespace {
 constexpr std::size_t most_faces_kept = 8'000'000;
 
 /// Number of 15 degree steps of the turns to try.
-std::vector<unsigned> turns_of(plate_turns set) {
-    unsigned step = 24;
-    if (set == plate_turns::quarter) step = 6;
-    if (set == plate_turns::eighth) step = 3;
-    if (set == plate_turns::any) step = 1;
+std::vector<unsigned> turns_of(unsigned count) {
     std::vector<unsigned> turns;
-    for (unsigned turn = 0; turn < 24; turn += step) turns.push_back(turn);
+    for (unsigned turn = 0; turn < 24; turn += 24 / count) turns.push_back(turn);
     return turns;
 }
 

@@ -105,10 +105,10 @@ placement placing::finished() {
     return std::move(result_);
 }
 
-mesh_relation placing::relation_of(const std::optional<nearest_fixed>& near) const {
+mesh_relation placing::relation_of(const std::optional<mesh_measure>& near) const {
     const double c = options_.clearance;
     if (!near) return c > 0.0 ? mesh_relation::clear : mesh_relation::separate;
-    switch (near->how.relation.relation) {
+    switch (near->relation.relation) {
         case mesh_relation::penetrating:
             return mesh_relation::penetrating;
         case mesh_relation::touching:
@@ -117,12 +117,19 @@ mesh_relation placing::relation_of(const std::optional<nearest_fixed>& near) con
             break;
     }
     if (!(c > 0.0)) return mesh_relation::separate;
-    return near->how.distance < c ? mesh_relation::closer_than_clearance : mesh_relation::clear;
+    return near->distance < c ? mesh_relation::closer_than_clearance : mesh_relation::clear;
+}
+
+void placing::find_nearest(const shape& a, const box3& box, double radius, double begin,
+                           double end) {
+    const auto near = among_.nearest(a, box, radius, work_.part(begin, end));
+    result_.nearest.reset();
+    result_.nearest_fixed = near ? near->number : 0;
+    if (near) result_.nearest = near->how;
 }
 
 void placing::look_at_start() {
-    if (!among_.empty() && box_)
-        result_.nearest = among_.nearest(moving_, *box_, radius(0.0), work_.part(0.0, 0.2));
+    if (!among_.empty() && box_) find_nearest(moving_, *box_, radius(0.0), 0.0, 0.2);
     over();
     result_.at_start = result_.at_place = relation_of(result_.nearest);
 }
@@ -217,7 +224,6 @@ void placing::slide(const point3& direction) {
         result_.contact_count = met.contact_count;
         settle(parts, motion, met.time, placement_end::contact, options_.close_in);
     } else if (std::isfinite(bed_time) && bed_time <= allowed) {
-        result_.on_bed = true;
         settle(parts, motion, bed_time, placement_end::bed);
     } else {
         result_.end = placement_end::nothing_met;
@@ -239,7 +245,6 @@ void placing::lift(const point3& motion, double above) {
         result_.end = placement_end::too_far;
         return;
     }
-    result_.on_bed = true;
     settle({}, {0.0 - motion.x, 0.0 - motion.y, 0.0 - motion.z}, time, placement_end::bed);
 }
 
@@ -249,7 +254,7 @@ void placing::mate() {
         return;
     }
     if (stuck_at_start()) return;
-    const mesh_measure near = result_.nearest->how;
+    const mesh_measure near = *result_.nearest;
     const point3 way = way_between(near);
     if (way == point3{}) return stay();
     const chosen_parts parts = among_.on_the_way(*box_, way, 1.0 + 0x1p-20, options_.clearance);
@@ -317,7 +322,6 @@ void placing::leave(const chosen_parts& parts, base::effort& effort) {
 
 void placing::forget_place() {
     result_.end = placement_end::stays;
-    result_.on_bed = false;
     result_.contacts.clear();
     result_.contact_count = 0;
     result_.points.assign(prepared_.view().points.begin(), prepared_.view().points.end());
@@ -337,13 +341,12 @@ void placing::look_at_place() {
     if (moved) {
         if (!among_.empty()) {
             const box3 box = *box_of_faces(there);
-            result_.nearest =
-                among_.nearest(at, box, radius(box.diagonal() * 0x1p-10), work_.part(0.85, 1.0));
+            find_nearest(at, box, radius(box.diagonal() * 0x1p-10), 0.85, 1.0);
             over();
         }
         result_.at_place = relation_of(result_.nearest);
     }
-    if (result_.on_bed) on_bed_at_place(there);
+    if (result_.end == placement_end::bed) on_bed_at_place(there);
     if (among_.empty() || !result_.contacts.empty()) return;
     if (result_.at_place == mesh_relation::touching ||
         result_.at_place == mesh_relation::penetrating)

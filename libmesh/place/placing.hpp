@@ -71,9 +71,10 @@ class placing {
     }
     void in_range(const function_ref<void()>& find);
     [[nodiscard]] placement finished();
-    [[nodiscard]] mesh_relation relation_of(const std::optional<nearest_fixed>& near) const;
+    [[nodiscard]] mesh_relation relation_of(const std::optional<mesh_measure>& near) const;
     [[nodiscard]] double radius(double more) const;
     [[nodiscard]] bool placed() const { return result_.end <= placement_end::moved_apart; }
+    void find_nearest(const shape& a, const box3& box, double radius, double begin, double end);
     void look_at_start();
     void look_at_place();
     void on_bed_at_place(mesh_view there);

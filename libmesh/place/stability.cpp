@@ -61,23 +61,30 @@ mass_center center_of_mass(mesh_view mesh, std::span<const std::uint32_t> ids) {
         surface.add(std::sqrt(dot(normal, normal)), middle_of(t, 3.0));
     }
     for (const std::uint32_t i : ids) points.add(1.0, local(mesh.points[i]));
-    const auto center = [&](const moments& m, mass_of what) {
+    const auto center = [&](const moments& m, int dimension) {
         point3 at;
         for (std::size_t k = 0; k < 3; ++k) at[k] = middle[k] + unit * (m.sum[k] / m.weight);
-        return mass_center{at, what};
+        return mass_center{at, dimension};
     };
     if (std::abs(solid.weight) > 0x1p-40 * solid.weight_of_all && !find_open_edge(mesh))
-        return center(solid, mass_of::solid);
-    if (surface.weight > 0.0) return center(surface, mass_of::surface);
-    return center(points, mass_of::points);
+        return center(solid, 3);
+    if (surface.weight > 0.0) return center(surface, 2);
+    return center(points, 0);
 }
 
-std::vector<side_stability> stabilities(points_view points, const convex_hull_result& hull,
-                                        const point3& center) {
-    std::vector<side_stability> all;
+std::vector<double> heights_over_sides(const convex_hull_result& hull, const point3& center) {
+    std::vector<double> all;
+    for (const hull_side& side : hull.sides)
+        all.push_back(std::max(0.0, -dot(side.normal, minus(center, side.center))));
+    return all;
+}
+
+std::vector<double> tip_angles(points_view points, const convex_hull_result& hull,
+                               const point3& center, std::span<const double> heights) {
+    std::vector<double> all;
     for (const hull_side& side : hull.sides) {
         const point3& n = side.normal;
-        const double height = std::max(0.0, -dot(n, minus(center, side.center)));
+        const double height = heights[all.size()];
         double least = std::numeric_limits<double>::infinity();
         const std::vector<std::uint32_t> corners = hull.corners_of(side, points);
         for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -89,9 +96,7 @@ std::vector<side_stability> stabilities(points_view points, const convex_hull_re
             const point3 inward = cross(n, along);
             least = std::min(least, dot(inward, minus(center, from)) / length);
         }
-        const double angle =
-            height == 0.0 && least >= 0.0 ? 90.0 : std::atan2(least, height) * degrees;
-        all.push_back({angle, height, std::numeric_limits<double>::quiet_NaN()});
+        all.push_back(height == 0.0 && least >= 0.0 ? 90.0 : std::atan2(least, height) * degrees);
     }
     return all;
 }

@@ -15,7 +15,7 @@ namespace treeform::detail::place {
 
 struct mass_center {
     point3 at{};
-    mass_of what = mass_of::solid;
+    int dimension = 3;  ///< as in `laid_flat`
 };
 
 /// The center of mass; `ids` are the points that count of a mesh without faces. Of a closed mesh it
@@ -26,10 +26,13 @@ struct mass_center {
 /// \cost O(F); rounded
 [[nodiscard]] mass_center center_of_mass(mesh_view mesh, std::span<const std::uint32_t> ids);
 
-/// Of each side of the hull of `points`; no overhang is known yet.
-[[nodiscard]] std::vector<side_stability> stabilities(points_view points,
-                                                      const convex_hull_result& hull,
-                                                      const point3& center);
+/// How high `center` is over each side of the hull of `points`.
+[[nodiscard]] std::vector<double> heights_over_sides(const convex_hull_result& hull,
+                                                     const point3& center);
+
+/// The tilt at which what has this center of mass, at these heights, tips over on each side.
+[[nodiscard]] std::vector<double> tip_angles(points_view points, const convex_hull_result& hull,
+                                             const point3& center, std::span<const double> heights);
 
 /// Area of the faces that look down by more than that, if the side is on the bed, and are not on
 /// it.

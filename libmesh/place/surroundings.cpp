@@ -52,11 +52,11 @@ double box_distance(const box3& a, const box3& b) {
 }
 
 /// The order of what matters more: penetrating, touching, then the nearer.
-bool before(const nearest_fixed& a, const nearest_fixed& b) {
+bool before(const measured_part& a, const measured_part& b) {
     if (a.how.relation.relation != b.how.relation.relation)
         return a.how.relation.relation > b.how.relation.relation;
     if (a.how.distance != b.how.distance) return a.how.distance < b.how.distance;
-    return a.fixed < b.fixed;
+    return a.number < b.number;
 }
 
 aabb<double, 3> tree_box(const box3& box) {
@@ -112,9 +112,9 @@ bool surroundings::others_around(const box3& box, double reach, const chosen_par
     return !std::includes(known.number.begin(), known.number.end(), found.begin(), found.end());
 }
 
-std::optional<nearest_fixed> surroundings::nearest(const shape& a, const box3& box, double radius,
+std::optional<measured_part> surroundings::nearest(const shape& a, const box3& box, double radius,
                                                    const progress_callback& progress) const {
-    std::optional<nearest_fixed> best;
+    std::optional<measured_part> best;
     base::work_progress work(progress);
     std::size_t looked_at = 0;
     // The nearest come first: of many meshes few are looked at.
@@ -127,7 +127,7 @@ std::optional<nearest_fixed> surroundings::nearest(const shape& a, const box3& b
         const auto how = measure_of(a, shape_of(number), radius, go_on);
         if (work.cancelled()) return 0.0;
         if (how) {
-            const nearest_fixed one{number, *how};
+            const measured_part one{number, *how};
             if (!best || before(one, *best)) best = one;
             radius = best->how.distance;
         }

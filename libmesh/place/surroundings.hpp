@@ -22,6 +22,12 @@ struct chosen_parts {
     std::vector<std::size_t> number{};
 };
 
+/// How a mesh lies to one of the fixed meshes.
+struct measured_part {
+    std::size_t number = 0;
+    mesh_measure how{};
+};
+
 class surroundings {
   public:
     /// Meshes without faces are passed over.
@@ -42,7 +48,7 @@ class surroundings {
     /// The mesh that `a` penetrates, else one that it touches, else the nearest one; of several the
     /// lowest. None when there is no mesh within `radius`; those whose boxes are further away are
     /// not indexed for this.
-    [[nodiscard]] std::optional<nearest_fixed> nearest(const shape& a, const box3& box,
+    [[nodiscard]] std::optional<measured_part> nearest(const shape& a, const box3& box,
                                                        double radius,
                                                        const progress_callback& progress) const;
     /// Of mesh `number` among all; it has faces.

@@ -27,13 +27,13 @@ using detail::place::unit_axis;
 constexpr double degrees_of_radian = 180.0 / std::numbers::pi;
 constexpr unsigned most_steps_back = 60;
 
-void check(const turn_axis& axis, const placement_options& o) {
+void check(const point3& origin, const point3& direction, const placement_options& o) {
     const auto refuse = [](const char* what) {
         throw std::invalid_argument(std::string("treeform::turn: ") + what);
     };
-    if (!detail::base::is_finite(axis.direction) || axis.direction == point3{})
+    if (!detail::base::is_finite(direction) || direction == point3{})
         refuse("the axis is zero or not finite");
-    if (!detail::base::is_finite(axis.origin)) refuse("the origin of the axis is not finite");
+    if (!detail::base::is_finite(origin)) refuse("the origin of the axis is not finite");
     if (!(o.clearance >= 0.0) || !std::isfinite(o.clearance))
         refuse("the clearance is negative or not finite");
     if (!(o.max_angle > 0.0 && o.max_angle <= 360.0))
@@ -45,7 +45,7 @@ void check(const turn_axis& axis, const placement_options& o) {
 class turning {
   public:
     turning(const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
-            const turn_axis& axis, const placement_options& options)
+            const unit_axis& axis, const placement_options& options)
         : moving_(moving),
           fixed_(fixed),
           axis_(axis),
@@ -191,16 +191,16 @@ class turning {
 
 }  // namespace
 
-placement turn(const mesh_ref& given_moving, const mesh_refs& given_fixed, const turn_axis& axis,
-               const placement_options& options) {
+placement turn(const mesh_ref& given_moving, const mesh_refs& given_fixed, const point3& origin,
+               const point3& direction, const placement_options& options) {
     const detail::base::prepared_ref moving(given_moving);
     const detail::base::prepared_refs all_fixed(given_fixed);
     const std::span<const prepared_mesh> fixed = all_fixed;
-    check(axis, options);
+    check(origin, direction, options);
     detail::place::check_operand("turn", "moving", moving.view());
     for (std::size_t i = 0; i < fixed.size(); ++i)
         detail::place::check_operand("turn", "fixed " + std::to_string(i), fixed[i].view());
-    return turning(moving, fixed, axis, options).run();
+    return turning(moving, fixed, {origin, direction}, options).run();
 }
 
 }  // namespace treeform

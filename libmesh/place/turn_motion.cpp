@@ -227,7 +227,8 @@ class turn_searching {
 
 }  // namespace
 
-unit_axis::unit_axis(const turn_axis& axis) : origin(axis.origin), direction(axis.direction) {
+unit_axis::unit_axis(const point3& through, const point3& along)
+    : origin(through), direction(along) {
     const double largest = base::largest_of(direction);
     for (std::size_t k = 0; k < 3; ++k) direction[k] /= largest;
     direction = scaled(direction, 1.0 / length_of(direction));

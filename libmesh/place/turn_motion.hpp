@@ -20,8 +20,8 @@ struct unit_axis {
     point3 origin;
     point3 direction;
 
-    /// \pre `axis` is finite and not zero
-    explicit unit_axis(const turn_axis& axis);
+    /// \pre both are finite, and `along` is not zero
+    unit_axis(const point3& through, const point3& along);
 
     [[nodiscard]] point3 across(const point3& p) const;    ///< from the nearest point of the line
     [[nodiscard]] point3 velocity(const point3& p) const;  ///< a radian in a unit of time

@@ -130,8 +130,8 @@ offset_result wrap(const mesh_ref& given, double size, const offset_options& opt
     check_sizes(box, around, offset, options.precision);
 
     offset_result result;
-    result.statistics.resolution = size;
-    result.statistics.distance = offset;
+    result.resolution = size;
+    result.distance = offset;
     const auto cancelled = [&result]() -> offset_result& {
         result.mesh = {};
         result.certificate.status = status::cancelled;
@@ -152,9 +152,9 @@ offset_result wrap(const mesh_ref& given, double size, const offset_options& opt
                                    (looked_at + 8.0 * static_cast<double>(waiting) + 1000.0));
         });
     if (!space) return std::move(cancelled());
-    result.statistics.filled = detail::wrap::fill_pinched_vertices(*space);
-    result.statistics.points = space->cells.points().size();
-    result.statistics.tetrahedra = space->cells.count();
+    result.filled_tetrahedra = detail::wrap::fill_pinched_vertices(*space);
+    result.tetrahedra_points = space->cells.points().size();
+    result.tetrahedra = space->cells.count();
     result.mesh = boundary_of(*space);
     space.reset();
     result.certificate = checked(result.mesh, options.precision, progress);

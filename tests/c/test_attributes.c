@@ -109,16 +109,16 @@ static void test_of_one(void) {
 
 static void test_colors(void) {
     const double distances[8] = {-1, 0, 1, 0, 0, 0, 0, 0};
-    uint8_t classes[12] = {1, 2, 3};
+    uint8_t relations[12] = {1, 2, 3};
     treeform_mesh* mesh = cube(0, 0, 0, 1);
     treeform_file* file = NULL;
     treeform_file_view* view = NULL;
     OK(treeform_file_create(mesh, &file));
     OK(treeform_color_distances(file, distances, 8, -1.0, 1.0));
     INVALID("", treeform_color_distances(file, distances, 7, -1.0, 1.0));
-    OK(treeform_color_contacts(file, classes, 12, 0.0));
-    classes[5] = 4;
-    INVALID("class is 4", treeform_color_contacts(file, classes, 12, 0.0));
+    OK(treeform_color_contacts(file, relations, 12, 0.0));
+    relations[5] = 5;
+    INVALID("relation is 5", treeform_color_contacts(file, relations, 12, 0.0));
     OK(treeform_file_look(file, &view));
     CHECK(column(view, "vertex", "distance") != NULL && column(view, "face", "tf_class") != NULL);
     treeform_free(view);

@@ -14,7 +14,7 @@ static void test_moves(void) {
     const double zero[3] = {0, 0, 0};
     treeform_place_options options;
     treeform_placement* placement = NULL;
-    treeform_contact_classes* classes = NULL;
+    treeform_face_relations* faces = NULL;
     treeform_mesh_set* set = NULL;
     int calls = 0;
     fixed[0] = base;
@@ -26,11 +26,13 @@ static void test_moves(void) {
     CHECK(placement->contact_listed > 0 && placement->contacts[0].fixed == 0);
     CHECK(placement->matrix[11] == -4.0 && is(placement->message, ""));
     CHECK(placement->point_count == 8 && isnan(placement->bed));
-    OK(treeform_classify_contacts(moving, fixed, 2, placement, &classes));
-    CHECK(classes->moving_count == 12 && classes->moving[0] == 2 && classes->moving[2] == 0);
-    CHECK(classes->fixed_count == 2 && classes->fixed[1] == NULL && classes->fixed[0][2] == 2);
-    treeform_free(classes);
-    INVALID("other meshes", treeform_classify_contacts(moving, fixed, 0, placement, &classes));
+    OK(treeform_find_face_relations(moving, fixed, 2, placement, &faces));
+    CHECK(faces->moving_count == 12 && faces->moving[0] == TREEFORM_MEETING &&
+          faces->moving[2] == TREEFORM_SEPARATE);
+    CHECK(faces->fixed_count == 2 && faces->fixed[1] == NULL &&
+          faces->fixed[0][2] == TREEFORM_MEETING);
+    treeform_free(faces);
+    INVALID("other meshes", treeform_find_face_relations(moving, fixed, 0, placement, &faces));
     treeform_free(placement);
     treeform_place_options_init(&options, sizeof options);
     options.clearance = 0.125;
@@ -69,10 +71,10 @@ static void test_other_moves(void) {
     treeform_features* of_fixed = NULL;
     fixed[0] = base;
     OK(treeform_drop(moving, NULL, 0, NULL, NULL, &placement));
-    CHECK(placement->on_bed == 1 && placement->travel == 5.0 && placement->bed == 0.0);
+    CHECK(placement->end == TREEFORM_END_BED && placement->travel == 5.0 && placement->bed == 0.0);
     treeform_free(placement);
     OK(treeform_drop(moving, fixed, 1, down, NULL, &placement));
-    CHECK(placement->travel == 4.0 && placement->on_bed == 0);
+    CHECK(placement->travel == 4.0 && placement->end == TREEFORM_END_CONTACT);
     treeform_free(placement);
     INVALID("", treeform_drop(moving, NULL, 0, up, NULL, &placement));
     OK(treeform_mate(moving, fixed, 1, NULL, &placement));
@@ -158,19 +160,21 @@ void test_placement(void) {
 }
 
 static void test_lay_flat(void) {
+    const double zero[3] = {0, 0, 0}, right[3] = {1, 0, 0};
     treeform_mesh* mesh = cube(0, 0, 3, 1);
     treeform_mesh* point = NULL;
     treeform_lay_flat_options options;
     treeform_laid_flat* laid = NULL;
     OK(treeform_lay_flat(mesh, NULL, &laid));
     CHECK(laid->side_count == 6 && laid->on_bed_count == 4 && laid->sides[0].area == 1.0);
-    CHECK(laid->center_of_mass[2] == 3.5 && laid->mass_of == 0 && laid->stability[0].height == 0.5);
+    CHECK(laid->center_of_mass[2] == 3.5 && laid->mass_dimension == 3 &&
+          laid->center_heights[0] == 0.5);
     CHECK(laid->certificate->status == TREEFORM_STATUS_OK && laid->point_count == 8);
     treeform_free(laid);
     treeform_lay_flat_options_init(&options, sizeof options);
-    options.choose = TREEFORM_LAY_NEAREST_NORMAL;
+    options.normal = zero;
     INVALID("", treeform_lay_flat(mesh, &options, &laid));
-    options.toward[0] = 1.0;
+    options.normal = right;
     options.bed = 2.0;
     OK(treeform_lay_flat(mesh, &options, &laid));
     CHECK(laid->bed == 2.0 && laid->points[2] >= 2.0);

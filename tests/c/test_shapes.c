@@ -1,11 +1,13 @@
 /* Offsets, fewer faces, thickness, boxes, isolines. */
 #include "test.h"
 
+#include <math.h>
+
 static void test_offsets(void) {
     treeform_mesh* mesh = cube(0, 0, 0, 2);
     const double points[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     const uint32_t faces[6] = {0, 1, 2, 0, 2, 3};
-    const treeform_drain holes[1] = {{{1, 1, 0}, 0.5}};
+    const double holes[4] = {1, 1, 0, 0.5};
     treeform_mesh* sheet = NULL;
     treeform_offset_options options;
     treeform_offset_result* made = NULL;
@@ -25,10 +27,16 @@ static void test_offsets(void) {
     treeform_free(made);
     INVALID("wall", treeform_hollow(mesh, -1, NULL, 0, NULL, &made));
     OK(treeform_mesh_create(points, 4, faces, 2, TREEFORM_COPY, &sheet));
-    OK(treeform_thicken(sheet, 0.2, TREEFORM_THICK_BOTH, NULL, &made));
+    OK(treeform_thicken(sheet, 0.2, NULL, &made));
     CHECK(made && made->certificate->status == TREEFORM_STATUS_OK);
     treeform_free(made);
-    INVALID("side", treeform_thicken(sheet, 0.2, 7, NULL, &made));
+    treeform_offset_options_init(&options, sizeof options);
+    options.shift = 0.1;
+    OK(treeform_thicken(sheet, 0.2, &options, &made));
+    CHECK(made && made->certificate->status == TREEFORM_STATUS_OK);
+    treeform_free(made);
+    options.shift = HUGE_VAL;
+    INVALID("shift", treeform_thicken(sheet, 0.2, &options, &made));
     treeform_free(sheet);
     treeform_free(mesh);
 }

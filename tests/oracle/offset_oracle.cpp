@@ -87,9 +87,8 @@ void check(const tf::offset_result& made, const tf::mesh& of, bool outer_stays,
     if (made.certificate.status == tf::status::vanished) return;
     REQUIRE_MESSAGE(made.certificate, made.certificate.message());
     check_by_cgal(made.mesh);
-    const tf::offset_statistics& s = made.statistics;
-    CHECK(s.least >= s.distance - 2 * s.resolution);
-    CHECK(s.greatest <= s.distance + 2 * s.resolution);
+    CHECK(made.least >= made.distance - 2 * made.resolution);
+    CHECK(made.greatest <= made.distance + 2 * made.resolution);
     test::random source(test::stress_seed());
     const auto box = *tf::bounding_box(made.mesh.points);
     const double tiny = 1e-12 * box.diagonal();
@@ -98,11 +97,11 @@ void check(const tf::offset_result& made, const tf::mesh& of, bool outer_stays,
         const double d = distance_to(of, on_face(made.mesh, source));
         CAPTURE(d);
         const bool outer = outer_stays && d <= tiny;
-        CHECK((outer || (d >= s.least - tiny && d <= s.greatest + tiny)));
+        CHECK((outer || (d >= made.least - tiny && d <= made.greatest + tiny)));
         tf::point3 p = on_face(of, source);
-        for (std::size_t k = 0; k < 3; ++k) p[k] += source.in(-2, 2) * s.distance;
+        for (std::size_t k = 0; k < 3; ++k) p[k] += source.in(-2, 2) * made.distance;
         const double away = distance_to(of, p);
-        if (std::abs(away - s.distance) > 2 * s.resolution + tiny)
+        if (std::abs(away - made.distance) > 2 * made.resolution + tiny)
             CHECK(tf::contains(result, p) == inside(p, away));
     }
 }
@@ -123,7 +122,7 @@ TEST_CASE("any real mesh is made thick") {
     test::for_each_model(1'000'000, [&](const tf::mesh& mesh) {
         const double half = diagonal_of(mesh) / 20;
         if (!(half > 0.0) || half >= 0x1p140) return;  // beyond 2^150 it is refused
-        const auto made = tf::thicken(mesh, 2 * half, {}, {.resolution = half / 2});
+        const auto made = tf::thicken(mesh, 2 * half, {.resolution = half / 2});
         check(made, mesh, false, [&](const tf::point3&, double away) { return away < half; });
         ++models;
     });

@@ -101,7 +101,7 @@ def test_moved_meshes_keep_theirs_and_normals_turn():
     slid = tf.slide(mesh, CUBE, [0, 0, -1]).mesh
     assert columns(slid).keys() == columns(mesh).keys()
     assert all(np.array_equal(columns(slid)[key], value) for key, value in columns(mesh).items())
-    laid = tf.lay_flat(mesh, choose="nearest_normal", toward=[1, 0, 0])
+    laid = tf.lay_flat(mesh, normal=[1, 0, 0])
     normals = np.column_stack([laid.mesh.attributes.vertex[name] for name in ("nx", "ny", "nz")])
     assert np.allclose(normals, laid.matrix[:3, :3] @ [0, 0, 1]) and abs(normals[0, 2]) < 1e-9
     assert np.array_equal(mesh.attributes.vertex["nz"], np.ones(8))

@@ -36,14 +36,14 @@ def test_slide():
     assert tf.measure(made, CUBE).relation == "touching"
     assert np.allclose(made.vertices, ball.vertices + made.matrix[:3, 3])
     assert made.contacts.points.shape == (made.contact_count, 3)
-    assert made.nearest[0] == 0 and made.nearest[1].distance == 0
+    assert made.nearest_fixed == 0 and made.nearest.distance == 0
     gap = tf.slide(ball, CUBE, [0, 0, -1], 0.25)
     assert gap.at_place == "clear" and tf.distance(gap, CUBE) == pytest.approx(0.25)
     none = tf.slide(ball, CUBE, [0, 0, 1])
     assert not none and none.end == "nothing_met" and none.message
     assert np.array_equal(none.vertices, ball.vertices)
     nearest_of = tf.slide(ball, [box([0, 0, 3], [1, 1, 4]), CUBE], [0, 0, -1])
-    assert nearest_of.travel == pytest.approx(4) and nearest_of.nearest[0] == 0
+    assert nearest_of.travel == pytest.approx(4) and nearest_of.nearest_fixed == 0
     with pytest.raises(ValueError, match="direction"):
         tf.slide(ball, CUBE, [0, 0, 0])
 
@@ -103,9 +103,9 @@ def test_lay_flat():
     assert laid.mesh.bounds[0, 2] == 0 and len(laid.on_bed) == 4
     assert len(laid.areas) == 6 and laid.areas[laid.chosen] == pytest.approx(1)
     assert laid.tip_angles[laid.chosen] == pytest.approx(45)
-    assert laid.mass == "solid" and laid.certificate
+    assert laid.mass_dimension == 3 and laid.certificate
     assert np.allclose(laid.center_of_mass, turned.vertices.mean(axis=0))
-    up = tf.lay_flat(CUBE, choose="nearest_normal", toward=[0, 0, 1])
+    up = tf.lay_flat(CUBE, normal=[0, 0, 1])
     assert up.normals[up.chosen].tolist() == [0, 0, 1]
     with pytest.raises(ValueError, match="no side"):
         tf.lay_flat(([[0, 0, 0]], []))

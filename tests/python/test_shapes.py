@@ -10,12 +10,12 @@ from support import CUBE, SHEET, SPHERES
 def test_solids_are_grown_shrunk_and_hollowed():
     grown = tf.offset(CUBE, 0.25, resolution=0.1)
     assert grown.certificate and grown.mesh.is_solid and 2.9 < grown.mesh.volume < 3.2
-    assert 0.2 < grown.statistics["least"] <= grown.statistics["greatest"] < 0.3
+    assert 0.2 < grown.least <= grown.greatest < 0.3
     assert tf.offset(CUBE, -0.25, resolution=0.1).mesh.volume == pytest.approx(0.125, rel=0.1)
     shell = tf.hollow(CUBE, 0.1, resolution=0.05)
     drained = tf.hollow(CUBE, 0.1, drains=[[0.5, 0.5, 0, 0.2]], resolution=0.05)
-    assert drained.statistics["sealed_cavities"] == 0 and len(drained.blind_drains) == 0
-    assert shell.statistics["sealed_cavities"] == 1
+    assert drained.sealed_cavities == 0 and len(drained.blind_drains) == 0
+    assert shell.sealed_cavities == 1
     assert shell.mesh.is_solid and drained.mesh.is_solid
     assert drained.mesh.volume < shell.mesh.volume < 0.5
     with pytest.raises(tf.NotSolidError):
@@ -25,10 +25,10 @@ def test_solids_are_grown_shrunk_and_hollowed():
 
 
 def test_a_surface_is_made_thick():
-    for side in ("both", "front", "back"):
-        assert tf.thicken(SHEET, 0.2, side=side).mesh.is_solid
-    with pytest.raises(ValueError, match="side"):
-        tf.thicken(SHEET, 0.2, side="left")
+    for shift in (0, 0.1, -0.1):
+        assert tf.thicken(SHEET, 0.2, shift=shift).mesh.is_solid
+    with pytest.raises(ValueError, match="shift"):
+        tf.thicken(SHEET, 0.2, shift=np.nan)
 
 
 def test_fewer_faces_stay_within_the_distance():

@@ -74,7 +74,7 @@ def test_places_are_those_of_the_tool(folder, mode, moving, fixed, options, verb
 
 @pytest.mark.parametrize("options, named", [
     ("--size 5,5", {}), ("--size 3,3 --plates 3 --spacing 0.5", {"plates": 3, "spacing": 0.5}),
-    ("--size 6,6,6 --rotate 45 --seed 7", {"turns": "eighth", "seed": 7, "stack": True})])
+    ("--size 6,6,6 --rotate 45 --seed 7", {"turns": 8, "seed": 7, "stack": True})])
 def test_plates_are_those_of_the_tool(folder, options, named):
     names = ["inside", "side", "ball", "cube"]
     report = run_tool("tf-place", "pack", *options.split(), *[folder / f"{n}.off" for n in names],

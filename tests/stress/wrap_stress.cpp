@@ -48,13 +48,13 @@ void check_wrap(const tf::mesh& mesh, double size, const tf::offset_options& opt
     for (const tf::face& f : mesh.faces) CHECK(tf::contains(made.mesh, mesh.points[f[0]]));
     const tf::prepared_mesh inner = tf::prepared_mesh::borrow(mesh);
     double most = 0.0;
-    double least = 2.0 * made.statistics.distance;
+    double least = 2.0 * made.distance;
     for (const auto& near : tf::closest_point(inner, made.mesh.points)) {
         most = std::max(most, near->distance);
         least = std::min(least, near->distance);
     }
-    CHECK(most < 1.02 * made.statistics.distance);
-    CHECK(least > 0.98 * made.statistics.distance);
+    CHECK(most < 1.02 * made.distance);
+    CHECK(least > 0.98 * made.distance);
 }
 
 }  // namespace

@@ -19,6 +19,8 @@ PARAMETERS = {
     "span<const string>": ("const char* const* {n}, size_t {c}", 'glue::texts({n}, {c}, "{n}")'),
     "span<const point3>": ("const double* {n}, size_t {c}", 'glue::points({n}, {c}, "{n}")'),
     "span<const double> heights": ("const double* {n}, size_t {c}", "glue::heights({n}, {c})"),
+    "span<const pair<point3,double>>": ("const double* {n}, size_t {c}",
+                                        'glue::points_and_numbers({n}, {c}, "{n}")'),
     "span<const face_pair>": ("const treeform_face_pair* {n}, size_t {c}",
                               "glue::pairs_of(mesh, {n}, {c})"),
     "string_view": ("const char* {n}", 'std::string(&glue::need({n}, "{n}"))'),

@@ -208,6 +208,7 @@ class Language:
         simple = {
             "point3": (f"double {name}[3]", f'point({o}, "{name}")', f"copy({source}, {to});"),
             "optional<double>": (f"double {name}", f"given({o})", f"{to} = not_known;"),
+            "optional<point3>": (f"const double* {name}", f'point_if({o}, "{name}")', ""),
             "transform<3>": (f"const double* {name}", f"matrix({o})", ""),
             "string": (f"const char* {name}", f"text({o})", ""),
             "filesystem::path": (f"const char* {name}", f"text({o})", ""),
@@ -217,7 +218,8 @@ class Language:
             "communicator": (f"const treeform_communicator* {name}", f"communicator_of({o})", "")}
         if type in simple:
             decl, value, default = simple[type]
-            prefix = {"transform<3>": "[12] ", "optional<array<double,3>>": "[3] "}.get(type, "")
+            prefix = {"transform<3>": "[12] ", "optional<point3>": "[3] ",
+                      "optional<array<double,3>>": "[3] "}.get(type, "")
             ending = "; or null" if "*" in decl and "char" not in decl else ""
             if type == "optional<double>" and "NaN" not in doc:
                 ending = "; NaN: not given"

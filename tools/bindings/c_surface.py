@@ -21,16 +21,12 @@ ENUMS = {
     "feature": ("uint8_t", ""),
     "feature_kind": ("treeform_feature_kind", ""),
     "placement_end": ("treeform_placement_end", "END_"),
-    "mass_of": ("int32_t", ""),
     "urdf_joint_kind": ("int32_t", ""),
-    "lay_choice": ("treeform_lay_choice", "LAY_"),
-    "plate_turns": ("treeform_plate_turns", "TURNS_"),
     "align_method": ("treeform_align_method", {"automatic": "ALIGN_AUTOMATIC"}),
     "align_end": ("treeform_align_end", {"converged": "ALIGN_CONVERGED",
                                          "out_of_iterations": "ALIGN_OUT_OF_ITERATIONS",
                                          "doubtful": "ALIGN_DOUBTFUL",
                                          "nothing_to_align": "ALIGN_NOTHING"}),
-    "thick_side": ("treeform_thick_side", "THICK_"),
     "thickness_by": ("treeform_thickness_by", "THICKNESS_BY_"),
     "weld_rule": ("treeform_weld_rule", "WELD_"),
     "weld_keep": ("treeform_weld_keep", "KEEP_"),
@@ -108,7 +104,6 @@ BOUND = [
     Bound("cut_result", counts={"pieces": "count"}),
     Bound("mesh_part", kind="part"),
     # shapes.h
-    Bound("drain", kind="same"),
     Bound("offset_options"),
     Bound("offset_result"),
     Bound("simplify_options"),
@@ -212,15 +207,6 @@ BOUND = [
                "to.fixed = static_cast<std::uint32_t>(from.fixed);")]}),
     Bound("placement", leave="max_travel predicates", counts={"contacts": "contact_listed",
                                                                 "points": "point_count"}, custom={
-        "nearest": [
-            Member("uint32_t nearest_fixed",
-                   "the fixed mesh that matters most; `TREEFORM_NONE` for none",
-                   "to.nearest_fixed = from.nearest ? "
-                   "static_cast<std::uint32_t>(from.nearest->fixed) : TREEFORM_NONE;"),
-            Member("const treeform_relation* nearest",
-                   "how it lies to the moving one, `a`; or null",
-                   "if (from.nearest) "
-                   "to.nearest = &filled<treeform_relation>(kept, from.nearest->how);")],
         "+": [MESSAGE]}),
     Bound("impact", leave="predicates", counts={"contacts": "contact_listed"}),
     Bound("face_contact", "impact_contact", "same", custom={"at": [
@@ -228,9 +214,7 @@ BOUND = [
         Member("uint8_t on_b")]}),
     Bound("impact_options"),
     Bound("lay_flat_options"),
-    Bound("side_stability", "stability", "same"),
-    Bound("laid_flat", leave="contact", names={"mass": "mass_of"}, counts={"stability": "",
-                                                                        "points": "point_count"},
+    Bound("laid_flat", leave="contact", counts={"points": "point_count"},
           custom={"+": [MESSAGE]}),
     Bound("pack_options", names={"size": "plate"}),
     Bound("packed_part", kind="part", counts={"points": "point_count"}),

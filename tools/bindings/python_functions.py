@@ -15,7 +15,8 @@ _ERRORS = {r"std::(invalid_argument|length_error)": "ValueError",
 #: Types of options in Python, where the default of C++ is none of Python's.
 _OPTIONAL = {"vector<named_column>": "Columns | None",
              "optional<array<double,3>>": "Sequence[float] | None",
-             "transform<3>": "ArrayLike | None", "pair_kinds": "Iterable[str] | None",
+             "optional<point3>": "ArrayLike | None", "transform<3>": "ArrayLike | None",
+             "pair_kinds": "Iterable[str] | None",
              "optional<array<double,2>>": "tuple[float, float] | None",
              "vector<weld_condition>": "Mapping[str, float] | None"}
 _EMPTY = {"string": ("str", '""'), "filesystem::path": ("Path", '""'),

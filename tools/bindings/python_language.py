@@ -151,7 +151,7 @@ ARGUMENTS = {
     "Words": ("const std::vector<std::string>&", "list[str]", "{}", "", ""),
     "Heights": ("const array_of<double>&", "Floats", "rows_of<double>({})", "ArrayLike | None",
                 "heights_of({})"),
-    "Drains": ("const array_of<double>&", "Floats", "rows_of<tf::drain>({})", "ArrayLike",
+    "Drains": ("const array_of<double>&", "Floats", "points_and_numbers({})", "ArrayLike",
                "drains_of({})"),
     "Poses": ("const array_of<double>&", "Floats", "transforms_of({})", "ArrayLike | None",
               'poses_of({0}, "{0}")'),

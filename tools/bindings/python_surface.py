@@ -126,7 +126,7 @@ RESULTS = [
     # _shapes
     Result("offset_result", "OffsetResult", "_shapes", "MadeMesh",
            doc="A solid at a distance from a mesh: around it, hollow, or a wrap.",
-           inherited="mesh certificate", docs={"statistics": "What it took, and was measured."}),
+           inherited="mesh certificate"),
     Result("simplify_result", "SimplifyResult", "_shapes", "MadeMesh", context="attributes",
            doc="A mesh with fewer faces.", inherited="mesh certificate"),
     Result("thickness_result", "Thickness", "_shapes"),
@@ -346,7 +346,7 @@ RESULTS = [
     Result("placement", "Placement", "_placement", "MeshResult", context="moving",
            true="bool(self.certificate)",
            doc="Where a mesh goes. True where it has a place; else `message` says why not.",
-           leave="clearance bed below_bed on_bed max_travel statistics",
+           leave="clearance bed below_bed max_travel statistics",
            docs={"end": "Why it ended there: 'contact', 'bed', 'stays', 'moved_apart', "
                         "'nothing_met', 'too_far', 'starts_penetrating', 'starts_too_near', "
                         "'starts_touching', 'starts_below_bed', 'no_coordinates', "
@@ -357,11 +357,6 @@ RESULTS = [
                "contacts": [Attribute(
                    "contacts", "Contacts", "Pairs of faces that meet there, or keep the clearance.",
                    "as_python(std::move(from.contacts))")],
-               "nearest": [Attribute(
-                   "nearest", "tuple[int, Measure] | None", "The fixed mesh that matters most, and "
-                   "how the mesh lies to it; None where all are far.",
-                   "from.nearest ? py::object(py::make_tuple(from.nearest->fixed, "
-                   "as_python(std::move(from.nearest->how)))) : py::none()")],
                "+": [Attribute("message", "str", "Half a sentence; empty where there is a place.",
                                "py::cast(from.message())")]}),
     Result("impact", "Impact", "_placement", "NamedTuple",
@@ -385,11 +380,6 @@ RESULTS = [
                                 "largest first.", "sides", "one.area"),
                          column("normals", "Floats", "(S, 3) outward, before the turn.", "sides",
                                 "one.normal")],
-               "stability": [column("tip_angles", "Floats", "(S,) degrees of tilt at which it tips "
-                                    "over; negative: by itself.", "stability", "one.tip_angle"),
-                             column("overhangs", "Floats", "(S,) area of the faces that would need "
-                                    "support; NaN where it was not computed.", "stability",
-                                    "one.overhang")],
                "+": [MESSAGE]}),
     Result("align_result", "Alignment", "_placement", "MeshResult", context="moving",
            leave="pivot pivot_moved freedoms", true="self.converged",
@@ -444,7 +434,7 @@ RESULTS = [
 
 #: Counters as dictionaries, and what is not among them.
 COUNTERS = {"boolean_statistics": "", "repair_statistics": "",
-            "offset_statistics": "", "weld_statistics": "",
+            "weld_statistics": "",
             "weld_stream_counts": "kept groups max_displacement faces"}
 
 #: Structs as bytes, for pickle, and the fields that are left out.

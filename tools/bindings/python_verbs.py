@@ -52,7 +52,8 @@ def _of_others(own: str) -> str:
 
 
 def _placed(signature: str, call: str, own: str = "", **more: dict[str, str]) -> Function:
-    words = {"fixed": "onto"} if "onto" in signature else {}
+    words = {"fixed": "onto"} if "onto" in signature else \
+        {"direction": "axis"} if "axis:" in signature else {}
     return Function(f"{signature} -> Placement", call, "moving", leave=_of_others(own),
                     words=words, **more)
 
@@ -160,19 +161,18 @@ FUNCTIONS = [
     # _shapes
     Function("offset(mesh: Mesh, distance: float, options: offset_options) -> OffsetResult",
              "tf::offset($mesh, distance, options)", kind="long_work", check="solid",
-             leave="offset"),
+             leave="offset shift"),
     Function("hollow(mesh: Mesh, wall: float, *, drains: Drains = (), options: offset_options) "
              "-> OffsetResult",
              "tf::hollow($mesh, wall, $drains, options)", kind="long_work", check="solid",
-             leave="offset",
+             leave="offset shift",
              docs={"drains": "(n, 4) holes through the wall: a point, and the diameter of the hole "
                              "at the nearest point of the surface."}),
-    Function("thicken(mesh: Mesh, thickness: float, *, side: thick_side = \"both\", "
-             "options: offset_options) -> OffsetResult",
-             "tf::thicken($mesh, thickness, $side, options)", kind="long_work", check="solid",
+    Function("thicken(mesh: Mesh, thickness: float, options: offset_options) -> OffsetResult",
+             "tf::thicken($mesh, thickness, options)", kind="long_work", check="solid",
              leave="offset",
-             docs={"side": "'both', or where the thickness goes: 'front' (faces are "
-                           "counter-clockwise there) or 'back'."}),
+             docs={"shift": "how far the surface is first moved to its front; negative: to its "
+                            "back. Half of the thickness leaves its back where it is."}),
     Function("simplify(mesh: Mesh, max_distance: float, *, face_groups: Groups = None, "
              "options: simplify_options) -> SimplifyResult",
              "attributes.simplify($mesh, max_distance, $face_groups, options)",
@@ -210,7 +210,7 @@ FUNCTIONS = [
                    "inside": "'automatic', 'nonzero', 'odd' or 'positive': what is solid."}),
     Function("wrap(mesh: Mesh, size: float, options: offset_options) -> OffsetResult",
              "tf::wrap($mesh, size, options)", kind="long_work", check="mesh",
-             leave="resolution"),
+             leave="resolution shift"),
     Function("convex_hull(points: Cloud) -> ConvexHull", "tf::convex_hull($points, report)",
              docs={"points": "(n, 3), or a mesh."}),
     Function("rounded(points: Points, precision: precision = \"float32\") -> Floats",
@@ -423,7 +423,7 @@ FUNCTIONS = [
                           "do not count."}),
     _placed("turn(moving: Body, fixed: Bodies, axis: Vector, "
             "origin: Vector = (0.0, 0.0, 0.0), options: placement_options)",
-            "tf::turn($moving, $fixed, {$origin, $axis}, options)", "max_angle tolerance",
+            "tf::turn($moving, $fixed, $origin, $axis, options)", "max_angle tolerance",
             docs={"fixed": _FIXED, "axis": "(3,) of any length.",
                   "origin": "(3,) a point of the axis.",
                   "max_angle": "in degrees; greater than 0, up to 360.",
@@ -445,8 +445,6 @@ FUNCTIONS = [
              docs=_MOVES | {"motion": "(3,)"}),
     Function("lay_flat(mesh: Mesh, options: lay_flat_options) -> Optional[LaidFlat]",
              "tf::lay_flat(mesh.prepared(), options)", "mesh",
-             docs={"choose": "'largest' area, 'nearest_normal' to the direction `toward`, "
-                             "'holding_point' `toward`, or 'most_stable'."},
              missing="no side: fewer than three points, or all on a line"),
     Function("align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False, "
              "options: align_options) -> Alignment",

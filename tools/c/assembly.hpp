@@ -22,14 +22,14 @@ inline answer_of<treeform_bodies> bodies_of(const treeform_file* const* files,
     auto& set = made->keep(tf::body_set{});
     for (std::size_t i = 0; i < count; ++i)
         (set.*add[which])(content(array(files, count, "files")[i], "files"), names[i], names[i]);
-    auto& bodies = made->keep(std::vector<treeform_body>(set.bodies.size()));
+    auto& bodies = made->keep(std::vector<treeform_body>(set.shapes.size()));
     made->value.meshes = handles(*made, set.shapes);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         auto& faces = made->keep(std::vector<std::uint32_t>(set.shapes[i].view().faces.size()));
         for (std::uint32_t f = 0; f < faces.size(); ++f) faces[f] = set.stored_face(i, f);
         bodies[i] = {made->value.meshes[i],
-                     static_cast<std::uint32_t>(set.bodies[i].file),
-                     set.bodies[i].name.c_str(),
+                     static_cast<std::uint32_t>(set.file_number(i)),
+                     set.part_name(i).c_str(),
                      made->keep(set.label(i)).c_str(),
                      faces.data(),
                      faces.size()};
@@ -45,7 +45,7 @@ inline answer_of<treeform_bodies> bodies_of(const treeform_file* const* files,
 inline tf::mesh_file put_back(treeform_bodies* bodies, std::size_t body, const double* points,
                               std::size_t count, const double* matrix, tf::precision written_as) {
     auto& set = kept_in<tf::body_set>(need(bodies, "bodies"), "bodies");
-    if (body >= set.bodies.size())
+    if (body >= set.shapes.size())
         throw std::invalid_argument("body " + std::to_string(body) + " is not there");
     const std::size_t wanted = set.shapes[body].view().points.size();
     if (count != wanted)

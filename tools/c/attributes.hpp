@@ -110,16 +110,14 @@ inline void color_distances(tf::mesh_file& file, std::span<const double> distanc
 }
 
 /// Gives the triangles of a file (of a cloud, its points) the property tf_class and its color:
-/// `classes` [count] are those of `treeform_contact_classes`. Triangles up to twice `halo` wide
+/// `relations` [count] are those of `treeform_face_relations`. Triangles up to twice `halo` wide
 /// around them have a tint.
-inline void color_contacts(tf::mesh_file& file, std::span<const std::uint8_t> classes,
+inline void color_contacts(tf::mesh_file& file, std::span<const std::uint8_t> relations,
                            double halo) {
-    std::vector<tf::contact_class> all;
-    for (const std::uint8_t one : classes)
-        all.push_back(choice<tf::contact_class>(one, 4, "a class"));
-    tf::contact_color_options how;
-    how.halo = halo;
-    tf::contact_classes::color(file, all, how);
+    std::vector<tf::mesh_relation> all;
+    for (const std::uint8_t one : relations)
+        all.push_back(choice<tf::mesh_relation>(one, 5, "a relation"));
+    tf::placement::color(file, all, halo);
 }
 
 }  // namespace glue

@@ -181,6 +181,9 @@ template <class T, class C>  // of the same bytes
 [[nodiscard]] inline std::optional<tf::box3> box(const treeform_box* b) {
     return b ? std::optional(box(*b)) : std::nullopt;
 }
+[[nodiscard]] inline std::optional<tf::point3> point_if(const double* three, const char* name) {
+    return three ? std::optional(point(three, name)) : std::nullopt;
+}
 [[nodiscard]] inline std::optional<std::array<double, 3>> axes(const double* three) {
     if (!three) return std::nullopt;
     return std::array{three[0], three[1], three[2]};
@@ -195,6 +198,14 @@ template <class Row, class T>
 [[nodiscard]] inline tf::points_view points(const double* data, std::size_t count,
                                             const char* name) {
     return rows_of<tf::point3>(data, count, name);
+}
+/// Rows [count][4]: a point, and a number.
+[[nodiscard]] inline std::vector<std::pair<tf::point3, double>> points_and_numbers(
+    const double* data, std::size_t count, const char* name) {
+    std::vector<std::pair<tf::point3, double>> all;
+    for (const auto& [x, y, z, number] : rows_of<std::array<double, 4>>(data, count, name))
+        all.push_back({{x, y, z}, number});
+    return all;
 }
 [[nodiscard]] inline std::span<const tf::face> faces(const std::uint32_t* data, std::size_t count,
                                                      const char* name) {

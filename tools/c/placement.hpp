@@ -26,14 +26,6 @@ inline tf::placement drop(const tf::mesh_ref& moving, const tf::mesh_refs& fixed
                     direction ? point(direction, "direction") : tf::point3{0.0, 0.0, -1.0});
 }
 
-/// Turns `moving` about the axis through `origin` along `direction` until it first comes within the
-/// tolerance of one of `fixed`, or of the clearance from one.
-inline tf::placement turn(const tf::mesh_ref& moving, const tf::mesh_refs& fixed,
-                          const tf::point3& origin, const tf::point3& direction,
-                          const tf::placement_options& options) {
-    return tf::turn(moving, fixed, {origin, direction}, options);
-}
-
 inline tf::mesh_feature feature_of(const treeform_feature* from, const char* name) {
     const treeform_feature& f = need(from, name);
     tf::mesh_feature feature;
@@ -57,10 +49,10 @@ inline tf::placement mate_features(const tf::mesh_ref& moving, const tf::mesh_re
                              feature_of(of_fixed, "of_fixed"), options);
 }
 
-/// The class of each face; `placement` is one of `moving` among `fixed`.
-inline answer_of<treeform_contact_classes> classify_contacts(const treeform_mesh* moving,
-                                                             const tf::mesh_refs& fixed,
-                                                             const treeform_placement* placement) {
+/// How each face lies to the other meshes; `placement` is one of `moving` among `fixed`.
+inline answer_of<treeform_face_relations> find_face_relations(const treeform_mesh* moving,
+                                                              const tf::mesh_refs& fixed,
+                                                              const treeform_placement* placement) {
     const tf::prepared_mesh& m = *need(moving, "moving").prepared;
     const auto& at = kept_in<tf::placement>(need(placement, "placement"), "placement");
     if (at.points.size() != m.view().points.size())
@@ -68,15 +60,15 @@ inline answer_of<treeform_contact_classes> classify_contacts(const treeform_mesh
     for (const tf::placement_contact& one : at.contacts)
         if (one.moving >= m.view().faces.size() || (one.fixed_face && one.fixed >= fixed.size()))
             throw std::invalid_argument("placement is of other meshes");
-    auto made = make<treeform_contact_classes>();
-    const auto& found = made->keep(tf::contact_classes::of(m, fixed, at));
-    const auto bytes = [](const std::vector<tf::contact_class>& of) {
+    auto made = make<treeform_face_relations>();
+    const auto& found = made->keep(at.face_relations(m, fixed));
+    const auto bytes = [](const std::vector<tf::mesh_relation>& of) {
         return reinterpret_cast<const std::uint8_t*>(or_null(of));
     };
     auto& of_fixed = made->keep(std::vector<const std::uint8_t*>());
-    for (const auto& one : found.fixed) of_fixed.push_back(bytes(one));
-    made->value.moving = bytes(found.moving);
-    made->value.moving_count = found.moving.size();
+    for (std::size_t i = 1; i < found.size(); ++i) of_fixed.push_back(bytes(found[i]));
+    made->value.moving = bytes(found[0]);
+    made->value.moving_count = found[0].size();
     made->value.fixed_count = of_fixed.size();
     made->value.fixed = of_fixed.data();
     return made;

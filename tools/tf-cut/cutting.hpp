@@ -53,8 +53,8 @@ inline constexpr std::array<const char*, 3> wall_measures{"ray", "sphere", "none
 struct shape_settings {
     tools::distance distance{};  ///< that of `offset` may be below 0
     std::optional<double> resolution{};
-    std::vector<tf::drain> drains{};
-    tf::thick_side side = tf::thick_side::both;
+    std::vector<std::pair<tf::point3, double>> drains{};
+    double shift = 0.0;  ///< of `thicken`, in thicknesses
     std::uint64_t fewest_faces = 0;
 };
 

@@ -31,7 +31,12 @@ void add_distances(command_line& line, shape_settings& s) {
                  "the distance; by default a quarter of it, or larger\n"
                  "to stay near 170,000 faces"},
                 [&s](std::string_view v) { s.resolution = parse_number("--resolution", v); });
-    line.option(s.side, {"--side", "SIDE", "thicken: both | front | back", "both"}, thick_sides);
+    line.option({"--side", "SIDE", "thicken: both | front | back", "both"},
+                [&s](std::string_view v) {
+                    constexpr std::array shifts{0.0, 0.5, -0.5};
+                    s.shift = shifts[parse_choice("--side", v, thick_sides)];
+                });
+    line.offer("--side", {thick_sides.begin(), thick_sides.end()});
     line.option({"--drain", "X,Y,Z,D",
                  "hollow: a hole of this diameter at the nearest point;\n"
                  "may be repeated"},

@@ -21,14 +21,14 @@ json distances_entry(const cut_settings& s, double used, double resolution, doub
 
 /// Enters what cavities have no way out, and says which drains lead nowhere.
 void say_drains(job& work, const cut_settings& s, const tf::offset_result& made) {
-    work.entry["cavities"] = {{"sealed", made.statistics.sealed_cavities},
+    work.entry["cavities"] = {{"sealed", made.sealed_cavities},
                               {"blind_drains", made.blind_drains}};
     for (const std::uint32_t i : made.blind_drains)
-        work.warn("blind-drain", "the drain at " + in_words(s.shape.drains[i].at) +
+        work.warn("blind-drain", "the drain at " + in_words(s.shape.drains[i].first) +
                                      " may not lead from outside into a cavity");
-    if (!s.shape.drains.empty() && made.statistics.sealed_cavities > 0)
-        work.warn("sealed", "no drain leads into " +
-                                counted(made.statistics.sealed_cavities, "cavity", "cavities"));
+    if (!s.shape.drains.empty() && made.sealed_cavities > 0)
+        work.warn("sealed",
+                  "no drain leads into " + counted(made.sealed_cavities, "cavity", "cavities"));
 }
 
 }  // namespace
@@ -55,15 +55,16 @@ cut_off shape_of(job& work, const cut_settings& s, const usable_input& input,
         return piece;
     }
     const tf::offset_options options{.resolution = s.shape.resolution,
+                                     .shift = s.shape.shift * distance,
                                      .precision = precision,
                                      .progress = work.progress(s.mode_text)};
     tf::offset_result made = s.mode == cut_mode::offset ? tf::offset(mesh, distance, options)
                              : s.mode == cut_mode::hollow
                                  ? tf::hollow(mesh, distance, s.shape.drains, options)
-                                 : tf::thicken(mesh, distance, s.shape.side, options);
+                                 : tf::thicken(mesh, distance, options);
     work.call_ended(made.certificate.status == tf::status::cancelled);
-    work.entry["distances"] = distances_entry(s, distance, made.statistics.resolution,
-                                              made.statistics.least, made.statistics.greatest);
+    work.entry["distances"] =
+        distances_entry(s, distance, made.resolution, made.least, made.greatest);
     if (s.mode == cut_mode::hollow && made.certificate) say_drains(work, s, made);
     return cut_off_of(std::move(made.mesh), {}, {}, std::move(made.certificate));
 }

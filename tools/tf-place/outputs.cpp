@@ -52,7 +52,7 @@ void write_result(job& work, const place_settings& settings, tf::body_set& movin
     };
     for (const placed_body& at : placed) {
         moving.put_back(at.number, at.points, at.matrix, precision);
-        tf::body_file& file = moving.files[moving.bodies[at.number].file];
+        tf::body_file& file = moving.files[moving.file_number(at.number)];
         file.content.turn_normals(at.matrix);
         add(file);
     }
@@ -64,14 +64,19 @@ void write_result(job& work, const place_settings& settings, tf::body_set& movin
     // `fit` looks at no faces, and without fixed meshes there is nothing to meet.
     if (!fixed.files.empty() && settings.mode != place_mode::fit &&
         (form.format == "ply" || form.format == "glb")) {
-        const auto classes = tf::contact_classes::of(moving.shapes[0], fixed.shapes, met);
+        const auto of_bodies = met.face_relations(moving.shapes[0], fixed.shapes);
+        auto relations = moving.relations_in_files(std::span(of_bodies).first(1), !scene);
+        if (scene) {
+            const auto more = fixed.relations_in_files(std::span(of_bodies).subspan(1), false);
+            relations.insert(relations.end(), more.begin(), more.end());
+        }
         // What has been moved stays what it is, with its polygons, and its colors where it has
         // some.
-        tf::contact_classes::color(
-            file, scene ? classes.in_files(moving, fixed) : classes.in_files(moving),
-            {.split_polygons = picture && !scene,
-             .keep_colors = !picture && !scene,
-             .halo = 0.02 * tf::bounding_box(file.mesh.points).value_or(tf::box3{}).diagonal()});
+        if (picture && !scene) file.split_polygons();
+        tf::placement::color(
+            file, relations,
+            0.02 * tf::bounding_box(file.mesh.points).value_or(tf::box3{}).diagonal(),
+            !picture && !scene);
     }
     const auto written =
         write_mesh(work, file, {.format = form.format, .ascii = form.ascii, .precision = precision},

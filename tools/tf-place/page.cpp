@@ -48,17 +48,20 @@ std::string in_unit(const scene& shown, double value) {
     return brief(value) + (shown.unit.empty() ? "" : " " + shown.unit);
 }
 
+/// By `mesh_relation`: behind `mark::penetrates`, or none.
+constexpr std::array<int, 5> place_of_relation{-1, 1, 0, 2, -1};
+
 /// A body as faces, or as dots where it is a cloud. Its points may be elsewhere.
 void add_body(scene& shown, const tf::body_set& set, std::size_t body, tf::points_view points,
-              mark::number plain, std::span<const tf::contact_class> classes,
+              mark::number plain, std::span<const tf::mesh_relation> relations,
               std::vector<double> values = {}) {
     const tf::prepared_mesh& shape = set.shapes[body];
     std::vector<std::uint32_t> numbers;
     std::vector<std::uint8_t> kinds;
     for (std::uint32_t f = 0; f < shape.view().faces.size(); ++f) {
         numbers.push_back(set.stored_face(body, f));
-        const auto how = classes.empty() ? tf::contact_class::none : classes[f];
-        const int worse = static_cast<int>(how) - static_cast<int>(tf::contact_class::penetrating);
+        const auto how = relations.empty() ? tf::mesh_relation::separate : relations[f];
+        const int worse = place_of_relation[static_cast<std::size_t>(how)];
         kinds.push_back(
             static_cast<std::uint8_t>(worse < 0 ? int{plain} : mark::penetrates + worse));
     }
@@ -165,8 +168,8 @@ void add_contacts(scene& shown, const placing& p) {
     }
     dots.kind = {mark::contact};
     if (!dots.points.empty()) shown.dots.push_back(std::move(dots));
-    if (!p.at.nearest || !(p.at.nearest->how.surface_distance > 0.0)) return;
-    const auto& how = p.at.nearest->how;
+    if (!p.at.nearest || !(p.at.nearest->surface_distance > 0.0)) return;
+    const auto& how = *p.at.nearest;
     shown.lines.push_back({.kind = mark::shortest_way,
                            .ends = {{how.on_a.point, how.on_b.point}},
                            .word = "nearest points",
@@ -192,20 +195,20 @@ std::vector<double> add_map(scene& shown, const placing& p, const tf::deviation_
 }
 
 /// How faces lie; where there is no place, where they are.
-tf::contact_classes classes_at(const placing& p) {
+std::vector<std::vector<tf::mesh_relation>> face_relations(const placing& p) {
     if (p.fixed.shapes.empty() || p.settings.mode == place_mode::fit) return {};
     const tf::prepared_mesh& shape = p.moving.shapes[0];
     const double clearance = p.used(p.settings.clearance);
-    return tf::contact_classes::of(
-        shape, p.fixed.shapes,
-        p.at ? p.at : tf::measure_among(shape, p.fixed.shapes, {.clearance = clearance}));
+    const tf::placement at =
+        p.at ? p.at : tf::measure_among(shape, p.fixed.shapes, {.clearance = clearance});
+    return at.face_relations(shape, p.fixed.shapes);
 }
 
 /// Parts in the colors of their files, with their names above.
 void add_parts(scene& shown, const tf::body_set& parts, const tf::packing& found,
                std::span<const std::string> labels, std::uint8_t no_place) {
     scene_table table{.title = "Parts", .columns = {"part", "file", "plate", "place"}};
-    for (std::size_t i = 0; i < parts.bodies.size(); ++i) {
+    for (std::size_t i = 0; i < parts.shapes.size(); ++i) {
         const tf::packed_part& at = found.parts[i];
         const tf::body_file& file = parts.file_of(i);
         const auto number = std::min<std::size_t>(
@@ -280,14 +283,14 @@ void write_page(job& work, const placing& p, const tf::deviation_result* known) 
     if (found) known = &*found;
     std::vector<double> values;
     if (known != nullptr) values = add_map(shown, p, *known);
-    const tf::contact_classes classes = classes_at(p);
-    add_body(shown, p.moving, 0, points, mark::moving, classes.moving, std::move(values));
+    std::vector<std::vector<tf::mesh_relation>> relations = face_relations(p);
+    relations.resize(1 + p.fixed.shapes.size());
+    add_body(shown, p.moving, 0, points, mark::moving, relations[0], std::move(values));
     const tf::box3 from = tf::bounding_box(before).value_or(tf::box3{});
     const tf::box3 to = tf::bounding_box(points).value_or(tf::box3{});
     if (moves && from != to) add_body(shown, p.moving, 0, before, mark::start, {});
     for (std::size_t i = 0; i < p.fixed.shapes.size(); ++i)
-        add_body(shown, p.fixed, i, p.fixed.shapes[i].view().points, mark::fixed,
-                 classes.fixed.empty() ? std::vector<tf::contact_class>{} : classes.fixed[i]);
+        add_body(shown, p.fixed, i, p.fixed.shapes[i].view().points, mark::fixed, relations[1 + i]);
     tf::mesh floor;
     if (p.at.bed || p.laid) floor = bed_under(to, p.at.bed.value_or(to.min.z));
     if (!floor.faces.empty())

@@ -102,7 +102,8 @@ tf::placement fit(placing& p, const tf::progress_callback& progress) {
 }
 
 tf::placement turn(placing& p, double clearance, const tf::progress_callback& progress) {
-    return tf::turn(p.moving.shapes[0], p.fixed.shapes, p.settings.turn.axis,
+    return tf::turn(p.moving.shapes[0], p.fixed.shapes, p.settings.turn.origin,
+                    p.settings.turn.axis,
                     {.clearance = clearance,
                      .max_angle = p.settings.turn.max_angle,
                      .precision = p.precision,
@@ -179,11 +180,11 @@ void find_place(job& work, placing& p) {
 /// Of what has been looked at: the others are apart, whatever is inside.
 void warn_of_inside_out(job& work, const placing& p) {
     const auto look_at = [&](const tf::body_set& set) {
-        for (std::size_t i = 0; i < set.bodies.size(); ++i)
+        for (std::size_t i = 0; i < set.shapes.size(); ++i)
             if (set.shapes[i].indexes_built() > 0)
                 warn_of_inside_out(work, set.shapes[i], set.label(i));
     };
-    if (p.fixed.bodies.empty()) return;
+    if (p.fixed.shapes.empty()) return;
     look_at(p.moving);
     look_at(p.fixed);
 }
@@ -280,7 +281,7 @@ exit_status arrange_all(job& work, const place_settings& settings) {
     write_page(work, settings, parts, plate);
     std::vector<placed_body> placed;
     std::string matrix_lines;
-    for (std::size_t i = 0; i < parts.bodies.size(); ++i) {
+    for (std::size_t i = 0; i < parts.shapes.size(); ++i) {
         const tf::packed_part& at = plate.parts[i];
         const tf::transform<3> matrix = at.matrix.after(start);
         matrix_lines += matrix_text(matrix);

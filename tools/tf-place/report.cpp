@@ -43,17 +43,17 @@ void enter_lay(json& entry, const placing& p) {
 void enter_skipped(json& entry, const placing& p) {
     std::uint64_t bodies = 0, faces = 0;
     for (json& file : entry["fixed"]) file.update({{"indexed", false}, {"parts", json::array()}});
-    for (std::size_t i = 0; i < p.fixed.bodies.size(); ++i) {
-        const tf::file_body& body = p.fixed.bodies[i];
+    for (std::size_t i = 0; i < p.fixed.shapes.size(); ++i) {
+        const std::string& part = p.fixed.part_name(i);
         const tf::prepared_mesh& shape = p.fixed.shapes[i];
         const tf::mesh_view mesh = shape.view();
         const bool indexed = shape.indexes_built() > 0;
-        json& file = entry["fixed"][body.file];
+        json& file = entry["fixed"][p.fixed.file_number(i)];
         if (indexed) file["indexed"] = true;
         bodies += indexed ? 0 : 1;
         faces += indexed ? 0 : mesh.faces.size();
-        if (!body.name.empty())
-            file["parts"].push_back({{"name", body.name},
+        if (!part.empty())
+            file["parts"].push_back({{"name", part},
                                      {"triangles", mesh.faces.size()},
                                      {"box", tf::bounding_box(mesh.points)},
                                      {"indexed", indexed}});
@@ -93,8 +93,9 @@ void enter_place(json& entry, const placing& p) {
     enter_skipped(entry, p);
     entry["clearance"]["used"] = at.clearance;
     if (at.bed)
-        entry["bed"] = {
-            {"given", p.settings.bed.value_or(0.0)}, {"used", *at.bed}, {"reached", at.on_bed}};
+        entry["bed"] = {{"given", p.settings.bed.value_or(0.0)},
+                        {"used", *at.bed},
+                        {"reached", at.end == tf::placement_end::bed}};
     entry["placed"] = static_cast<bool>(at);
     entry["status_at_start"] = name_of(at.at_start);
     entry["status"] = name_of(at.at_place);
@@ -102,7 +103,7 @@ void enter_place(json& entry, const placing& p) {
         entry["contacts"].push_back(contact_entry(p.moving, p.fixed, c));
     entry["contact_count"] = at.contact_count;
     if (at.effort.bound > 0) entry["effort"] = effort_entry(at.effort);
-    if (at.nearest) enter_nearest(entry, p.moving, p.fixed, p.settings.fixed, *at.nearest);
+    if (at.nearest) enter_nearest(entry, p.moving, p.fixed, p.settings.fixed, at);
     if (p.settings.mode == place_mode::turn) entry["turn"] = turn_entry(p.settings.turn, at);
     if (p.mated) entry["features"] = mating_entry(*p.mated, at);
     if (!at) {
@@ -124,7 +125,7 @@ std::string sentence(const placing& p) {
     if (!at) {
         std::string text = "not placed: " + p.reason;
         if (at.at_place != tf::mesh_relation::penetrating || !at.nearest) return text;
-        const std::string seen = "penetrating " + p.fixed.label(at.nearest->fixed);
+        const std::string seen = "penetrating " + p.fixed.label(at.nearest_fixed);
         constexpr std::string_view where = " at the start";
         const std::size_t at_end = std::min(text.find(where), text.size() - where.size());
         return text.insert(at_end + where.size(),
@@ -154,9 +155,9 @@ void say_place(job& work, const placing& p) {
     say("translation " + in_words({rows[0][3], rows[1][3], rows[2][3]}) + ", " +
         std::to_string(at.statistics.backed_off) + " steps taken back for rounding");
     if (at.nearest)
-        say("nearest points " + in_words(at.nearest->how.on_a.point) + " and " +
-            in_words(at.nearest->how.on_b.point) + " of " + p.fixed.label(at.nearest->fixed));
-    const std::size_t all = p.fixed.bodies.size();
+        say("nearest points " + in_words(at.nearest->on_a.point) + " and " +
+            in_words(at.nearest->on_b.point) + " of " + p.fixed.label(at.nearest_fixed));
+    const std::size_t all = p.fixed.shapes.size();
     const auto not_indexed = work.entry["skipped"]["parts_not_indexed"].get<std::size_t>();
     say(counted(all - not_indexed, "fixed part", "fixed parts") + " of " + std::to_string(all) +
         " indexed, " + grouped(at.statistics.pairs_tested) + " pairs of faces looked at in motion");

@@ -126,7 +126,6 @@ void check_settings(const command_line& line, place_settings& s, common_options&
          "--output-format, --ascii, --binary and --precision need -o, --output-dir or --in-place"}};
     for (const auto& [broken, text] : refused)
         if (broken) refuse(text);
-    if (s.lay.stable) s.lay.options.choose = tf::lay_choice::most_stable;
     if (!is(measure)) require_output(line, o);
 }
 

@@ -34,14 +34,13 @@ tf::offset_result wrapped(job& work, const dirty_mesh& input, const wrap_setting
 }
 
 void enter(job& work, const dirty_mesh& input, const tf::offset_result& made, double volume) {
-    const tf::offset_statistics& did = made.statistics;
     const auto topology = tf::count_topology(made.mesh.points.size(), made.mesh.faces);
     work.entry["wrap"] = {{"certified", static_cast<bool>(made.certificate)},
-                          {"size", did.resolution},
-                          {"offset", did.distance},
-                          {"points", did.points},
-                          {"tetrahedra", did.tetrahedra},
-                          {"filled", did.filled},
+                          {"size", made.resolution},
+                          {"offset", made.distance},
+                          {"points", made.tetrahedra_points},
+                          {"tetrahedra", made.tetrahedra},
+                          {"filled", made.filled_tetrahedra},
                           {"volume", {{"before", input.volume}, {"after", volume}}},
                           {"precision_out", name_of(made.certificate.precision)},
                           {"vertices", made.mesh.points.size()},
@@ -61,8 +60,7 @@ void warn_of_skin(job& work, const dirty_mesh& input, const tf::offset_result& m
     // Where parts overlap or are within each other, volumes say nothing.
     if (edges.boundary_edges <= edges.nonmanifold_edges) return;
     work.warn("skin", "the wrap covers both sides of the faces: it enters holes wider than about " +
-                          brief(2.0 * made.statistics.resolution) +
-                          "; a larger --wrap closes them");
+                          brief(2.0 * made.resolution) + "; a larger --wrap closes them");
 }
 
 }  // namespace
@@ -103,7 +101,7 @@ exit_status wrap(job& work, const dirty_mesh& input, const wrap_settings& settin
         throw std::logic_error("the wrap is no solid: " + made.certificate.message());
     const std::string verdict = "wrap, " + counted(made.mesh.faces.size(), "face", "faces") +
                                 ", volume " + brief(volume) + " (was " + brief(input.volume) +
-                                "), " + brief(made.statistics.distance) + " from the faces";
+                                "), " + brief(made.distance) + " from the faces";
     work.out.result(work.name + ": " + verdict);
     warn_of_skin(work, input, made, volume);
     write_page(work, input, verdict, true, made.mesh,

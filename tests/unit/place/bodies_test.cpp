@@ -41,14 +41,14 @@ TEST_CASE("bodies: equal corners are one, faces that are not finite are left out
     file.mesh.points[3].x = std::numeric_limits<double>::quiet_NaN();
     tf::body_set found;
     CHECK(found.add(file).left_out == 1);
-    REQUIRE(found.bodies.size() == 1);
+    REQUIRE(found.shapes.size() == 1);
     CHECK(found.shapes[0].view().points.size() == 8);
     CHECK(found.shapes[0].view().faces.size() == 11);
-    CHECK(found.bodies[0].triangle(0) == 0);
-    CHECK(found.bodies[0].triangle(1) == 2);
+    CHECK(found.triangle(0, 0) == 0);
+    CHECK(found.triangle(0, 1) == 2);
     CHECK(found.shapes[0].indexes_built() == 0);
     CHECK_FALSE(found.add({}).box);
-    CHECK(found.bodies.size() == 1);
+    CHECK(found.shapes.size() == 1);
     CHECK(found.files.size() == 2);
 }
 
@@ -60,7 +60,7 @@ TEST_CASE("bodies: a file without faces is a cloud of its finite points") {
     CHECK(file.left_out == 1);
     CHECK(file.box->max == tf::point3{1, 1, 1});
     CHECK(found.shapes[0].is_cloud());
-    CHECK(found.bodies[0].triangle(1) == 2);
+    CHECK(found.triangle(0, 1) == 2);
     found.put_back(0, std::vector<tf::point3>{{5, 5, 5}, {6, 6, 6}}, tf::transform<3>{},
                    tf::precision::float64);
     CHECK(file.content.mesh.points[0] == tf::point3{5, 5, 5});
@@ -75,20 +75,23 @@ TEST_CASE("bodies: each part of a file is the mesh of its faces alone") {
     const tf::body_file& first = found.add(file, "whole.obj");
     CHECK(found.add_parts(file, "parts.obj").box == first.box);
     CHECK(first.label == "whole.obj");
-    REQUIRE(found.bodies.size() == 3);
+    REQUIRE(found.shapes.size() == 3);
     CHECK(found.labels() ==
           std::vector<std::string>{"whole.obj", "parts.obj: small", "parts.obj: part 1"});
     for (std::size_t i = 1; i < 3; ++i) {
-        const tf::mesh expected = tf::submesh(both, found.bodies[i].triangle_of_face).mesh;
         const tf::mesh_view view = found.shapes[i].view();
+        std::vector<std::uint32_t> triangles;
+        for (std::uint32_t f = 0; f < view.faces.size(); ++f)
+            triangles.push_back(found.triangle(i, f));
+        const tf::mesh expected = tf::submesh(both, triangles).mesh;
         CHECK(tf::mesh{{view.points.begin(), view.points.end()},
                        {view.faces.begin(), view.faces.end()}} == expected);
-        CHECK(found.bodies[i].file == 1);
+        CHECK(found.file_number(i) == 1);
         CHECK(found.stored_face(i, 0) == 12 * (i - 1));
     }
     file.attributes.parts[1].object = "small";
     found.add_parts(file);
-    CHECK(found.bodies.size() == 4);
+    CHECK(found.shapes.size() == 4);
     CHECK(found.label(3).empty());
 }
 
@@ -150,8 +153,9 @@ TEST_CASE("what has been laid flat or aligned says so in words") {
           "after 1 step; rms 0.5, from 0; overlap 1");
 }
 
-TEST_CASE("classes in files: those of bodies, by file, and of clouds only where they are alone") {
-    using tf::contact_class;
+TEST_CASE(
+    "relations in files: those of bodies, by file, and of clouds only where they are wanted") {
+    using tf::mesh_relation;
     tf::body_set moving, fixed;
     moving.add(file_of(box(1, 1, 1)));
     tf::mesh_file parts =
@@ -159,29 +163,31 @@ TEST_CASE("classes in files: those of bodies, by file, and of clouds only where 
     parts.attributes.parts = {{.object = "a", .first_face = 0}, {.object = "b", .first_face = 12}};
     fixed.add(file_of({{{0, 0, 9}}, {}}));
     fixed.add_parts(parts);
-    tf::contact_classes met;
-    met.moving.assign(12, contact_class::near);
-    met.fixed = {{contact_class::near}, {}, std::vector(12, contact_class::touching)};
-    CHECK(met.in_files(moving) == met.moving);
-    std::vector<contact_class> expected(36);
-    std::fill_n(expected.begin(), 12, contact_class::near);
-    std::fill_n(expected.begin() + 24, 12, contact_class::touching);
-    CHECK(met.in_files(moving, fixed) == expected);
+    using relations = std::vector<mesh_relation>;
+    const std::vector<relations> of_moving{relations(12, mesh_relation::closer_than_clearance)};
+    const std::vector<relations> of_fixed{
+        {mesh_relation::closer_than_clearance}, {}, relations(12, mesh_relation::touching)};
+    CHECK(moving.relations_in_files(of_moving, true) == of_moving[0]);
+    relations expected(24);
+    std::fill_n(expected.begin() + 12, 12, mesh_relation::touching);
+    CHECK(fixed.relations_in_files(of_fixed, false) == expected);
+    expected.insert(expected.begin(), mesh_relation::closer_than_clearance);
+    CHECK(fixed.relations_in_files(of_fixed, true) == expected);
     tf::body_set cloud;
     cloud.add(file_of({{{0, 0, 9}}, {}}));
-    CHECK(tf::contact_classes{.moving = {contact_class::near}}.in_files(cloud) ==
-          std::vector{contact_class::near});
+    const std::vector<relations> of_cloud{relations{mesh_relation::touching}};
+    CHECK(cloud.relations_in_files(of_cloud, true) == of_cloud[0]);
 }
 
 TEST_CASE("contact colors: a stored face has the gravest class of its triangles") {
-    using tf::contact_class;
+    using tf::mesh_relation;
     tf::mesh_file file = file_of(box(1, 1, 1));
     file.stored_face = {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5};
     file.stored_faces = 6;
-    std::vector<contact_class> classes(12);
-    classes[2] = contact_class::near;
-    classes[3] = contact_class::touching;
-    classes[4] = contact_class::penetrating;
+    std::vector<mesh_relation> relations(12);
+    relations[2] = mesh_relation::closer_than_clearance;
+    relations[3] = mesh_relation::touching;
+    relations[4] = mesh_relation::penetrating;
     tf::mesh_file picture = file;
     const auto numbers = [](const tf::mesh_file& from) {
         std::vector<double> found;
@@ -190,11 +196,12 @@ TEST_CASE("contact colors: a stored face has the gravest class of its triangles"
             found.push_back(rows->find("tf_class")->number(i));
         return found;
     };
-    tf::contact_classes::color(file, classes);
+    tf::placement::color(file, relations);
     CHECK(numbers(file) == std::vector<double>{0, 2, 1, 0, 0, 0});
-    tf::contact_classes::color(picture, classes, {.split_polygons = true});
+    picture.split_polygons();
+    tf::placement::color(picture, relations);
     CHECK(numbers(picture) == std::vector<double>{0, 0, 3, 2, 1, 0, 0, 0, 0, 0, 0, 0});
-    CHECK_THROWS_AS(tf::contact_classes::color(file, {}), std::invalid_argument);
+    CHECK_THROWS_AS(tf::placement::color(file, {}), std::invalid_argument);
 }
 
 TEST_CASE("rounding effects: far away float32 folds what it has not folded before") {
@@ -230,15 +237,15 @@ TEST_CASE("rounding effects: far away float32 folds what it has not folded befor
 TEST_CASE("bodies: what is around a contact has a tint, but no class") {
     tf::mesh_file file;
     file.mesh = test::ball(4, 1.0);
-    std::vector<tf::contact_class> classes(file.mesh.faces.size());
-    classes[0] = tf::contact_class::touching;
+    std::vector<tf::mesh_relation> relations(file.mesh.faces.size());
+    relations[0] = tf::mesh_relation::touching;
     const auto yellow = [&](double halo) {
         tf::mesh_file colored = file;
-        tf::contact_classes::color(colored, classes, {.halo = halo});
+        tf::placement::color(colored, relations, halo);
         const tf::element* const rows = colored.attributes.find("face");
         REQUIRE(rows != nullptr);
         std::size_t tinted = 0, classed = 0;
-        for (std::size_t f = 0; f < classes.size(); ++f) {
+        for (std::size_t f = 0; f < relations.size(); ++f) {
             tinted += rows->find("blue")->number(f) < rows->find("red")->number(f);
             classed += rows->find("tf_class")->number(f) != 0.0;
         }
@@ -248,5 +255,5 @@ TEST_CASE("bodies: what is around a contact has a tint, but no class") {
     CHECK(yellow(0.0) == 1);
     CHECK(yellow(0.2) > 8);
     CHECK(yellow(0.2) < yellow(0.5));
-    CHECK(yellow(3.0) == classes.size());
+    CHECK(yellow(3.0) == relations.size());
 }

@@ -19,8 +19,6 @@
 
 namespace {
 
-using tf::lay_choice;
-
 tf::transform<3> random_rotation(test::random& source) {
     double q[4], length = 0.0;
     for (double& x : q) {
@@ -190,8 +188,9 @@ TEST_CASE(
         std::vector<tf::face> none;
         mesh.faces.swap(none);  // all points count, as in `check`
         tf::lay_flat_options options;
-        options.choose = static_cast<lay_choice>(round % 3);
-        options.toward = {source.in(-1, 1), source.in(-1, 1), source.in(-1, 1)};
+        const tf::point3 toward{source.in(-1, 1), source.in(-1, 1), source.in(-1, 1)};
+        if (round % 3 == 1) options.normal = toward;
+        if (round % 3 == 2) options.point = toward;
         options.keep_spin = source.below(2) != 0;
         if (source.below(3) == 0) options.precision = tf::precision::float32;
         options.bed = source.in(-1, 1);
@@ -210,7 +209,7 @@ TEST_CASE("lay flat: the choice is that of looking at all sides") {
         CHECK(std::is_sorted(largest.sides.begin(), largest.sides.end(),
                              [](const auto& a, const auto& b) { return a.area > b.area; }));
         CHECK(largest.sides[largest.chosen].area >= largest.sides[0].area * (1 - 0x1p-39));
-        const auto facing = *tf::lay_flat(mesh, {lay_choice::nearest_normal, toward});
+        const auto facing = *tf::lay_flat(mesh, {.normal = toward});
         const auto along = [&](const tf::hull_side& s) {
             return s.normal.x * toward.x + s.normal.y * toward.y + s.normal.z * toward.z;
         };
@@ -221,7 +220,7 @@ TEST_CASE("lay flat: the choice is that of looking at all sides") {
             if (facing.sides[i].area < 0.01) continue;
             const tf::point3 &c = facing.sides[i].center, &n = facing.sides[i].normal;
             const tf::point3 off{c.x + 1e-4 * n.x, c.y + 1e-4 * n.y, c.z + 1e-4 * n.z};
-            const auto held = *tf::lay_flat(mesh, {lay_choice::holding_point, off});
+            const auto held = *tf::lay_flat(mesh, {.point = off});
             CHECK(held.chosen == i);
         }
     }
@@ -235,7 +234,7 @@ TEST_CASE(
             tf::mesh sheet;
             sheet.points = {{0, 0, 0}, {1, 0, x}, {1, 1, x}, {0, 1, 0}};
             sheet.faces = {{0, 1, 2}, {0, 2, 3}};
-            const tf::lay_flat_options options{lay_choice::nearest_normal, {0, 0, z}, true};
+            const tf::lay_flat_options options{.normal = tf::point3{0, 0, z}, .keep_spin = true};
             const auto laid = tf::lay_flat(sheet, options);
             REQUIRE(laid);
             REQUIRE(laid->on_bed.size() == 4);
@@ -302,8 +301,11 @@ TEST_CASE("lay flat: what cannot be meant is refused") {
         CHECK_THROWS_AS(static_cast<void>(tf::lay_flat(mesh, options)), std::invalid_argument);
     };
     tf::mesh box = test::box(1, 1, 1);
-    refused(box, {lay_choice::nearest_normal});
-    refused(box, {lay_choice::nearest_normal, {nan, 0, 1}});
+    refused(box, {.normal = tf::point3{}});
+    refused(box, {.normal = tf::point3{nan, 0, 1}});
+    refused(box, {.point = tf::point3{0, nan, 1}});
+    refused(box, {.normal = tf::point3{0, 0, 1}, .point = tf::point3{}});
+    refused(box, {.point = tf::point3{}, .most_stable = true});
     refused(box, {.bed = nan});
     refused(box, {.tolerance = -1.0});
     box.faces[3][1] = 8;
@@ -316,20 +318,19 @@ TEST_CASE("lay flat: what cannot be meant is refused") {
 
 TEST_CASE("lay flat: a box tips over the nearest edge of the side that it stands on") {
     const tf::mesh box = test::moved(test::box(6, 4, 2), {100, -20, 3});
-    const auto laid = tf::lay_flat(box, {.choose = lay_choice::most_stable});
+    const auto laid = tf::lay_flat(box, {.most_stable = true});
     REQUIRE(laid);
-    CHECK(laid->mass == tf::mass_of::solid);
+    CHECK(laid->mass_dimension == 3);
     CHECK(distance_between(laid->center_of_mass, {103, -18, 4}) < 1e-12);
-    REQUIRE(laid->stability.size() == 6);
+    REQUIRE(laid->tip_angles.size() == 6);
     for (std::size_t i = 0; i < 6; ++i) {
         const double height = 48.0 / laid->sides[i].area;  // the box has a volume of 48
         const double half = height == 2 ? 2.0 : 1.0;       // of the shorter edge of that side
-        const tf::side_stability& s = laid->stability[i];
-        CHECK(s.height == doctest::Approx(0.5 * height).epsilon(1e-13));
-        CHECK(s.tip_angle ==
+        CHECK(laid->center_heights[i] == doctest::Approx(0.5 * height).epsilon(1e-13));
+        CHECK(laid->tip_angles[i] ==
               doctest::Approx(std::atan2(half, 0.5 * height) * 180 / 3.14159265358979)
                   .epsilon(1e-13));
-        CHECK(s.overhang == 0.0);
+        CHECK(laid->overhangs[i] == 0.0);
     }
     CHECK(laid->sides[laid->chosen].area == 24);
 }
@@ -340,26 +341,25 @@ TEST_CASE("lay flat: the most stable side need not be the largest, and some do n
         test::together(test::box(8, 8, 2), test::moved(test::box(1, 1, 30), {0, 3.5, 2}));
     flag = test::together(flag, test::moved(test::box(20, 1, 6), {1, 3.5, 26}));
     const auto largest = tf::lay_flat(flag);
-    const auto stable = tf::lay_flat(flag, {.choose = lay_choice::most_stable});
+    const auto stable = tf::lay_flat(flag, {.most_stable = true});
     REQUIRE(largest);
     REQUIRE(stable);
     CHECK(largest->sides == stable->sides);
     double most = -90.0;
     bool falls = false;
-    for (const tf::side_stability& s : stable->stability) {
-        most = std::max(most, s.tip_angle);
-        falls = falls || s.tip_angle < 0.0;
+    for (const double angle : stable->tip_angles) {
+        most = std::max(most, angle);
+        falls = falls || angle < 0.0;
     }
-    CHECK(stable->stability[stable->chosen].tip_angle == most);
+    CHECK(stable->tip_angles[stable->chosen] == most);
     CHECK(falls);
     // A heavy foot on a sheet that reaches out: the sheet is larger, and the foot's end firmer.
     const tf::mesh sign =
         test::together(test::box(10, 10, 4), test::moved(test::box(60, 0.1, 1), {10, 0, 1.5}));
     const auto by_area = tf::lay_flat(sign);
-    const auto by_angle = tf::lay_flat(sign, {.choose = lay_choice::most_stable});
-    CHECK(by_area->stability[by_area->chosen].tip_angle <
-          by_angle->stability[by_angle->chosen].tip_angle);
-    check_laid(flag, *stable, {.choose = lay_choice::most_stable});
+    const auto by_angle = tf::lay_flat(sign, {.most_stable = true});
+    CHECK(by_area->tip_angles[by_area->chosen] < by_angle->tip_angles[by_angle->chosen]);
+    check_laid(flag, *stable, {.most_stable = true});
     // By its definition: the least tilt over an edge of the side, seen from above after the turn.
     for (const auto* laid : {&*largest, &*stable}) {
         const tf::point3 c = laid->matrix(laid->center_of_mass);
@@ -377,7 +377,7 @@ TEST_CASE("lay flat: the most stable side need not be the largest, and some do n
                 if (std::all_of(down.begin(), down.end(), [&](auto& p) { return left(p) > -1e-9; }))
                     least = std::min(least, left(c));
             }
-        CHECK(laid->stability[laid->chosen].tip_angle ==
+        CHECK(laid->tip_angles[laid->chosen] ==
               doctest::Approx(std::atan2(least, c.z) * 180 / 3.14159265358979).epsilon(1e-9));
     }
 }
@@ -387,15 +387,15 @@ TEST_CASE("lay flat: the center of mass is of the solid, of the surface, or of t
     box.faces.erase(box.faces.begin() + 2, box.faces.begin() + 4);  // without its top
     const auto open = tf::lay_flat(box);
     REQUIRE(open);
-    CHECK(open->mass == tf::mass_of::surface);
+    CHECK(open->mass_dimension == 2);
     CHECK(distance_between(open->center_of_mass, {1, 1, 0.8}) < 1e-14);
     tf::mesh inside_out = test::box(2, 2, 2);
     for (auto& [a, b, c] : inside_out.faces) std::swap(a, b);
-    CHECK(tf::lay_flat(inside_out)->mass == tf::mass_of::solid);
+    CHECK(tf::lay_flat(inside_out)->mass_dimension == 3);
     CHECK(distance_between(tf::lay_flat(inside_out)->center_of_mass, {1, 1, 1}) < 1e-14);
     const auto cloud = tf::lay_flat(tf::mesh{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}, {}});
     REQUIRE(cloud);
-    CHECK(cloud->mass == tf::mass_of::points);
+    CHECK(cloud->mass_dimension == 0);
     CHECK(distance_between(cloud->center_of_mass, {1, 1, 1}) < 1e-14);
 }
 
@@ -404,11 +404,11 @@ TEST_CASE("lay flat: overhang is what looks down by more than the angle and is n
     const tf::mesh feet =
         test::together(test::box(1, 5, 3), test::moved(test::box(1, 5, 3), {4, 0, 0}));
     const tf::mesh table = test::together(feet, test::moved(test::box(9, 5, 1), {-2, 0, 4}));
-    const tf::lay_flat_options down{.choose = lay_choice::nearest_normal, .toward = {0, 0, -1}};
+    const tf::lay_flat_options down{.normal = tf::point3{0, 0, -1}};
     const auto laid = tf::lay_flat(table, down);
     REQUIRE(laid);
-    CHECK(laid->stability[laid->chosen].overhang == 45.0);  // the beam's, all of it
-    tf::mesh wedge;                                         // leans over by 45 degrees
+    CHECK(laid->overhangs[laid->chosen] == 45.0);  // the beam's, all of it
+    tf::mesh wedge;                                // leans over by 45 degrees
     wedge.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 1}, {1, 0, 1},
                     {0, 3, 0}, {1, 3, 0}, {2, 3, 1}, {1, 3, 1}};
     wedge.faces = {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}, {0, 5, 1}, {0, 4, 5},
@@ -418,12 +418,12 @@ TEST_CASE("lay flat: overhang is what looks down by more than the angle and is n
          {std::pair(44.9, 3 * std::sqrt(2.0)), {45.0, 0.0}, {50.0, 0.0}}) {
         options.overhang_angle = angle;
         const auto leaning = tf::lay_flat(wedge, options);
-        CHECK(leaning->stability[leaning->chosen].overhang == doctest::Approx(area));
+        CHECK(leaning->overhangs[leaning->chosen] == doctest::Approx(area));
     }
     options.overhang_angle = 91;
     CHECK_THROWS_AS(static_cast<void>(tf::lay_flat(wedge, options)), std::invalid_argument);
     options = {.overhang_sides = 1};
     const auto few = tf::lay_flat(table, options);
     for (std::size_t i = 0; i < few->sides.size(); ++i)
-        CHECK(std::isnan(few->stability[i].overhang) == (i >= 1 && i != few->chosen));
+        CHECK(std::isnan(few->overhangs[i]) == (i >= 1 && i != few->chosen));
 }

@@ -37,7 +37,7 @@ TEST_CASE("mate: a corner comes to a corner, or to the clearance from it") {
     CHECK(found.at_start == tf::mesh_relation::separate);
     CHECK(found.at_place == tf::mesh_relation::touching);
     REQUIRE(found.nearest);
-    CHECK(found.nearest->fixed == 1);
+    CHECK(found.nearest_fixed == 1);
     CHECK(found.travel == 5.0);
     CHECK(found.direction == tf::point3{-0.6, -0.8, 0});
     CHECK(found.points == moved(box(1, 1, 1), {4, 4, 1}).points);
@@ -62,13 +62,13 @@ TEST_CASE("mate: of nothing there is no way, and what meets stays") {
     const auto touching = tf::mate(a, among.prepared);
     REQUIRE(touching);
     CHECK(touching.end == placement_end::stays);
-    CHECK(touching.nearest->fixed == 1);
+    CHECK(touching.nearest_fixed == 1);
     CHECK(touching.at_place == tf::mesh_relation::touching);
     CHECK(touching.travel == 0.0);
     CHECK(tf::mate(a, among.prepared, {.clearance = 1}).end == placement_end::starts_touching);
     among.add(moved(box(1, 1, 1), {0.5, 0, 0}));
     const auto inside = tf::mate(a, among.prepared);
-    CHECK(inside.nearest->fixed == 2);
+    CHECK(inside.nearest_fixed == 2);
     CHECK(inside.end == placement_end::starts_penetrating);
     CHECK(inside.certificate.status == tf::status::no_place);
     CHECK(tf::mate(prepared_mesh(), among.prepared).end == placement_end::nothing_met);

@@ -26,8 +26,6 @@
 
 namespace {
 
-using tf::plate_turns;
-
 constexpr double any_height = std::numeric_limits<double>::infinity();
 
 std::vector<tf::mesh_view> views(const std::vector<tf::mesh>& parts) {
@@ -190,15 +188,15 @@ TEST_CASE("pack: a part as large as the plate fits, turned if need be; a larger 
         check_packed(parts, o, found);
         return found.not_placed.empty();
     };
-    CHECK(placed({.size = {30, 100, 20}, .turns = plate_turns::none}));
+    CHECK(placed({.size = {30, 100, 20}, .turns = 1}));
     CHECK(placed({.size = {100, 30, 20}}));
-    CHECK_FALSE(placed({.size = {100, 30, 20}, .turns = plate_turns::none}));
+    CHECK_FALSE(placed({.size = {100, 30, 20}, .turns = 1}));
     CHECK_FALSE(placed({.size = {std::nextafter(30.0, 0.0), 100, 20}}));
     CHECK_FALSE(placed({.size = {100, 100, std::nextafter(20.0, 0.0)}}));
     CHECK_FALSE(placed({.size = {0, 0, 20}}));
     // across: 100 x 30 at 45 degrees is 92 wide
     CHECK_FALSE(placed({.size = {93, 93, 20}}));
-    CHECK(placed({.size = {93, 93, 20}, .turns = plate_turns::eighth}));
+    CHECK(placed({.size = {93, 93, 20}, .turns = 8}));
 }
 
 TEST_CASE("pack: parts stand in the holes of others when they are small enough") {
@@ -359,7 +357,7 @@ TEST_CASE("pack: no two parts nearer than the spacing, none off the plate, whate
         options.corner = round % 2 == 0 ? tf::point3{} : tf::point3{-30.1, 12.3, 0.7};
         if (round == 7) options.corner = {1e5, -1e5, 1e5};
         options.spacing = round % 5 == 0 ? 0.0 : source.in(0.1, 4.0);
-        options.turns = static_cast<plate_turns>(round % 4);
+        options.turns = std::array{1U, 4U, 8U, 24U}[round % 4];
         options.tighten = round % 6 != 5;
         options.precision = round % 2 == 1 ? tf::precision::float32 : tf::precision::float64;
         const auto found = tf::pack(views(parts), options);
@@ -374,8 +372,7 @@ TEST_CASE("pack: no two parts nearer than the spacing, none off the plate, whate
 TEST_CASE("pack: the same on any number of threads, and in every run") {
     test::random source(2);
     const std::vector<tf::mesh> parts = mixed_parts(source, 6);
-    const tf::pack_options options{
-        .size = {40, 40, any_height}, .turns = plate_turns::any, .tries = 10};
+    const tf::pack_options options{.size = {40, 40, any_height}, .turns = 24, .tries = 10};
     const auto one = tf::pack(views(parts), options);
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
@@ -395,6 +392,8 @@ TEST_CASE("pack: what cannot be meant is refused, and the part is named") {
         CHECK_THROWS_AS(static_cast<void>(tf::pack(views(parts), o)), std::invalid_argument);
     };
     refused({.size = {10, -1, 10}});
+    refused({.size = {10, 10, 10}, .turns = 0});
+    refused({.size = {10, 10, 10}, .turns = 5});
     refused({.size = {10, any_height, 10}});
     refused({.size = {10, 10, nan}});
     refused({.size = {10, 10, 10}, .corner = {nan, 0, 0}});

@@ -186,7 +186,6 @@ TEST_CASE("drop: on the bed exactly, from above and from below") {
                          .precision = single ? tf::precision::float32 : tf::precision::float64,
                          .bed = bed});
         REQUIRE(found);
-        CHECK(found.on_bed);
         CHECK(found.end == placement_end::bed);
         REQUIRE(found.bed);
         CHECK(*found.bed >= bed + clearance);
@@ -272,18 +271,19 @@ TEST_CASE(
 
 TEST_CASE("contacts are classified as the faces lie at the place") {
     const prepared_mesh floor(box(4, 4, 1));
-    const auto classes_at = [&](double z, double clearance) {
+    const auto relations_at = [&](double z, double clearance) {
         const prepared_mesh a(moved(box(1, 1, 1), {1.25, 1.5, z}));
         const auto at = tf::measure_among(a, floor, {.clearance = clearance});
-        auto found = tf::contact_classes::of(a, floor, at);
-        if (found.fixed[0].empty()) found.fixed[0].resize(1);
-        return std::pair(*std::max_element(found.moving.begin(), found.moving.end()),
-                         *std::max_element(found.fixed[0].begin(), found.fixed[0].end()));
+        auto found = at.face_relations(a, floor);
+        if (found[1].empty()) found[1].resize(1);
+        return std::pair(*std::max_element(found[0].begin(), found[0].end()),
+                         *std::max_element(found[1].begin(), found[1].end()));
     };
-    using tf::contact_class;
-    CHECK(classes_at(3.0, 0.0) == std::pair(contact_class::none, contact_class::none));
-    CHECK(classes_at(1.0, 0.0) == std::pair(contact_class::touching, contact_class::touching));
-    CHECK(classes_at(0.5, 0.0) ==
-          std::pair(contact_class::penetrating, contact_class::penetrating));
-    CHECK(classes_at(1.5, 0.75) == std::pair(contact_class::near, contact_class::near));
+    using tf::mesh_relation;
+    CHECK(relations_at(3.0, 0.0) == std::pair(mesh_relation::separate, mesh_relation::separate));
+    CHECK(relations_at(1.0, 0.0) == std::pair(mesh_relation::touching, mesh_relation::touching));
+    CHECK(relations_at(0.5, 0.0) ==
+          std::pair(mesh_relation::penetrating, mesh_relation::penetrating));
+    CHECK(relations_at(1.5, 0.75) ==
+          std::pair(mesh_relation::closer_than_clearance, mesh_relation::closer_than_clearance));
 }

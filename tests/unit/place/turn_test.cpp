@@ -22,6 +22,8 @@ namespace {
 
 using std::numbers::pi;
 
+constexpr tf::point3 up{0, 0, 1};
+
 tf::mesh turned_by(const tf::mesh& mesh, const tf::transform<3>& by) {
     tf::mesh there = mesh;
     for (tf::point3& p : there.points) p = by(p);
@@ -46,7 +48,7 @@ void check_turn(const tf::mesh& moving, const tf::mesh& fixed, const tf::placeme
     const double gap = tf::distance(there, fixed);
     CAPTURE(found.statistics.steps);
     CAPTURE(found.statistics.backed_off);
-    CAPTURE(found.nearest->how.distance);
+    CAPTURE(found.nearest->distance);
     CAPTURE(found.contacts.size());
     CHECK(gap >= options.clearance);
     double largest = 0.0;
@@ -76,7 +78,7 @@ TEST_CASE("turn: a door stops at the wall, at the angle that it is known to") {
     for (const double clearance : {0.0, 0.25})
         for (const auto precision : {tf::precision::float64, tf::precision::float32}) {
             const tf::placement_options options{.clearance = clearance, .precision = precision};
-            const auto found = tf::turn(door, wall, {}, options);
+            const auto found = tf::turn(door, wall, {}, up, options);
             check_turn(door, wall, found, options);
             const double angle = (std::asin((5 - clearance) / radius) - begin) * 180 / pi;
             const double unit = precision == tf::precision::float32 ? 1e-4 : 1e-7;
@@ -85,24 +87,24 @@ TEST_CASE("turn: a door stops at the wall, at the angle that it is known to") {
             CHECK(found.statistics.steps < 100);
         }
     // The other way round it comes to the wall's other end.
-    const auto back = tf::turn(door, wall, {.direction = {0, 0, -3}});
+    const auto back = tf::turn(door, wall, {}, {0, 0, -3});
     check_turn(door, wall, back);
 }
 
 TEST_CASE("turn: what is free all around meets nothing, also in a bore that it nearly fills") {
     const tf::mesh shaft = test::tube(10, 8, 20, 48);
     const tf::mesh bore = test::moved(test::tube(20, 10 + 0.05, 10, 96), {0, 0, 5});
-    const auto found = tf::turn(shaft, bore, {});
+    const auto found = tf::turn(shaft, bore, {}, up);
     CHECK_FALSE(found);
     CHECK(found.end == tf::placement_end::nothing_met);
     CHECK(found.statistics.steps < 5000);
-    const auto nothing = tf::turn(shaft, test::moved(bore, {100, 0, 0}), {});
+    const auto nothing = tf::turn(shaft, test::moved(bore, {100, 0, 0}), {}, up);
     CHECK(nothing.end == tf::placement_end::nothing_met);
     CHECK(nothing.statistics.fixed_culled == 1);
     // A hexagonal shaft in a hexagonal bore gets stuck.
     const tf::mesh nut = test::tube(20, 11, 10, 6),
                    screw = test::moved(test::tube(10.5, 5, 10, 6), {0, 0, 0.5});
-    const auto stuck = tf::turn(screw, nut, {});
+    const auto stuck = tf::turn(screw, nut, {}, up);
     check_turn(screw, nut, stuck);
     CHECK(stuck.angle > 1.0);
     CHECK(stuck.angle < 30.0);
@@ -110,9 +112,9 @@ TEST_CASE("turn: what is free all around meets nothing, also in a bore that it n
     const double angle = 30 - std::acos(11 * std::cos(pi / 6) / 10.5) * 180 / pi;
     CHECK(stuck.angle == doctest::Approx(angle).epsilon(1e-7));
     tf::placement_options few{.max_steps = 3};
-    CHECK(tf::turn(shaft, bore, {}, few).end == tf::placement_end::too_many_steps);
+    CHECK(tf::turn(shaft, bore, {}, up, few).end == tf::placement_end::too_many_steps);
     few = {.max_angle = 0.5 * angle};
-    CHECK(tf::turn(screw, nut, {}, few).end == tf::placement_end::nothing_met);
+    CHECK(tf::turn(screw, nut, {}, up, few).end == tf::placement_end::nothing_met);
 }
 
 TEST_CASE("turn: on the way nothing is met, and a little further something is") {
@@ -128,7 +130,7 @@ TEST_CASE("turn: on the way nothing is met, and a little further something is") 
         if (tf::relation(a, b).relation != tf::mesh_relation::separate) continue;
         const tf::placement_options options{.clearance = round % 3 == 0 ? 0.1 : 0.0};
         if (tf::distance(a, b) <= options.clearance) continue;
-        const auto found = tf::turn(a, b, {}, options);
+        const auto found = tf::turn(a, b, {}, up, options);
         const double last = found ? found.angle * pi / 180 : 2 * pi;
         if (found) check_turn(a, b, found, options);
         ++(found ? met : free);
@@ -156,12 +158,12 @@ TEST_CASE("turn: about any line, with others about, the same on any number of th
             test::moved(test::ball(2, 0.7),
                         {100 + source.in(-9, 9), 50 + source.in(2, 9), 20 + source.in(-4, 4)}));
     const tf::prepared_mesh moving(tf::mesh{arm});
-    const tf::turn_axis axis{{100, 50, 20}, {0.3, -0.2, 1.0}};
-    const auto one = tf::turn(moving, fixed, axis);
+    const tf::point3 origin{100, 50, 20}, direction{0.3, -0.2, 1.0};
+    const auto one = tf::turn(moving, fixed, origin, direction);
     CHECK(one.points.size() == arm.points.size());
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        const auto other = tf::turn(moving, fixed, axis);
+        const auto other = tf::turn(moving, fixed, origin, direction);
         CHECK(other.points == one.points);
         CHECK(other.angle == one.angle);
         CHECK(other.statistics.steps == one.statistics.steps);
@@ -170,34 +172,37 @@ TEST_CASE("turn: about any line, with others about, the same on any number of th
 
 TEST_CASE("turn: what touches at the start stays, what penetrates has no place") {
     const tf::mesh box = test::box(1, 1, 1);
-    const auto touching = tf::turn(box, test::moved(box, {1, 0, 0}), {});
+    const auto touching = tf::turn(box, test::moved(box, {1, 0, 0}), {}, up);
     REQUIRE(touching);
     CHECK(touching.end == tf::placement_end::stays);
     CHECK(touching.points == box.points);
     CHECK(touching.angle == 0.0);
-    CHECK(tf::turn(box, test::moved(box, {1, 0, 0}), {}, {.clearance = 1}).end ==
+    CHECK(tf::turn(box, test::moved(box, {1, 0, 0}), {}, up, {.clearance = 1}).end ==
           tf::placement_end::starts_touching);
-    CHECK(tf::turn(box, test::moved(box, {0.5, 0, 0}), {}).end ==
+    CHECK(tf::turn(box, test::moved(box, {0.5, 0, 0}), {}, up).end ==
           tf::placement_end::starts_penetrating);
-    CHECK(tf::turn(box, test::moved(box, {1.5, 0, 0}), {}, {.clearance = 1}).end ==
+    CHECK(tf::turn(box, test::moved(box, {1.5, 0, 0}), {}, up, {.clearance = 1}).end ==
           tf::placement_end::starts_too_near);
-    CHECK(tf::turn(box, tf::mesh{}, {}).end == tf::placement_end::nothing_met);
-    CHECK(tf::turn(tf::mesh{}, box, {}).end == tf::placement_end::nothing_met);
-    CHECK(tf::turn(box, test::moved(box, {3, 0, 0}), {}, {.progress = [](double) { return false; }})
+    CHECK(tf::turn(box, tf::mesh{}, {}, up).end == tf::placement_end::nothing_met);
+    CHECK(tf::turn(tf::mesh{}, box, {}, up).end == tf::placement_end::nothing_met);
+    CHECK(tf::turn(box, test::moved(box, {3, 0, 0}), {}, up,
+                   {.progress = [](double) { return false; }})
               .end == tf::placement_end::cancelled);
 }
 
 TEST_CASE("turn: what cannot be meant is refused") {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     const tf::mesh box = test::box(1, 1, 1), other = test::moved(box, {3, 0, 0});
-    const auto refused = [&](const tf::turn_axis& axis, const tf::placement_options& o = {}) {
-        CHECK_THROWS_AS(static_cast<void>(tf::turn(box, other, axis, o)), std::invalid_argument);
+    const auto refused = [&](const tf::point3& origin, const tf::point3& direction,
+                             const tf::placement_options& o = {}) {
+        CHECK_THROWS_AS(static_cast<void>(tf::turn(box, other, origin, direction, o)),
+                        std::invalid_argument);
     };
-    refused({.direction = {0, 0, 0}});
-    refused({.direction = {0, nan, 1}});
-    refused({.origin = {nan, 0, 0}});
-    refused({}, {.clearance = -1});
-    refused({}, {.max_angle = 0});
-    refused({}, {.max_angle = 361});
-    refused({}, {.tolerance = 0.0});
+    refused({}, {0, 0, 0});
+    refused({}, {0, nan, 1});
+    refused({nan, 0, 0}, up);
+    refused({}, up, {.clearance = -1});
+    refused({}, up, {.max_angle = 0});
+    refused({}, up, {.max_angle = 361});
+    refused({}, up, {.tolerance = 0.0});
 }

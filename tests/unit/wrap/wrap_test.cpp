@@ -37,7 +37,7 @@ tf::offset_result wrapped(const tf::mesh& mesh, double size,
     const double offset = options.offset.value_or(size / 30);
     for (const tf::point3& p : made.mesh.points)
         CHECK(tf::closest_point(mesh, p)->distance == doctest::Approx(offset).epsilon(0.02));
-    CHECK(made.statistics.distance == offset);
+    CHECK(made.distance == offset);
     return made;
 }
 

@@ -59,10 +59,10 @@ treeform_code treeform_color_distances(treeform_file* file, const double* distan
     });
 }
 
-treeform_code treeform_color_contacts(treeform_file* file, const uint8_t* classes, size_t count,
+treeform_code treeform_color_contacts(treeform_file* file, const uint8_t* relations, size_t count,
                                       double halo) {
     return glue::guard([&] {
-        glue::color_contacts(glue::content(file, "file"), glue::array(classes, count, "classes"),
-                             halo);
+        glue::color_contacts(glue::content(file, "file"),
+                             glue::array(relations, count, "relations"), halo);
     });
 }

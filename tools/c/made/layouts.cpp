@@ -7,14 +7,6 @@
 
 namespace tf = treeform;
 
-static_assert(TREEFORM_LAY_LARGEST == static_cast<int>(tf::lay_choice::largest));
-static_assert(TREEFORM_LAY_NEAREST_NORMAL == static_cast<int>(tf::lay_choice::nearest_normal));
-static_assert(TREEFORM_LAY_HOLDING_POINT == static_cast<int>(tf::lay_choice::holding_point));
-static_assert(TREEFORM_LAY_MOST_STABLE == static_cast<int>(tf::lay_choice::most_stable));
-static_assert(TREEFORM_TURNS_NONE == static_cast<int>(tf::plate_turns::none));
-static_assert(TREEFORM_TURNS_QUARTER == static_cast<int>(tf::plate_turns::quarter));
-static_assert(TREEFORM_TURNS_EIGHTH == static_cast<int>(tf::plate_turns::eighth));
-static_assert(TREEFORM_TURNS_ANY == static_cast<int>(tf::plate_turns::any));
 static_assert(TREEFORM_POINT_TO_PLANE == static_cast<int>(tf::align_method::point_to_plane));
 static_assert(TREEFORM_POINT_TO_POINT == static_cast<int>(tf::align_method::point_to_point));
 static_assert(TREEFORM_ALIGN_AUTOMATIC == static_cast<int>(tf::align_method::automatic));
@@ -30,8 +22,9 @@ tf::lay_flat_options glue::read(const treeform_lay_flat_options* options) {
 }
 tf::lay_flat_options glue::read(const treeform_lay_flat_options& o) {
     tf::lay_flat_options how;
-    how.choose = choice<tf::lay_choice>(o.choose, 4, "choose");
-    how.toward = point(o.toward, "toward");
+    how.normal = point_if(o.normal, "normal");
+    how.point = point_if(o.point, "point");
+    how.most_stable = o.most_stable != 0;
     how.keep_spin = o.keep_spin != 0;
     how.tolerance = o.tolerance;
     how.bed = o.bed;
@@ -46,9 +39,7 @@ tf::lay_flat_options glue::read(const treeform_lay_flat_options& o) {
 void treeform_lay_flat_options_init(treeform_lay_flat_options* options, size_t size) {
     treeform_lay_flat_options to{};
     const tf::lay_flat_options from;
-    using namespace glue;
-    to.choose = static_cast<treeform_lay_choice>(from.choose);
-    copy(from.toward, to.toward);
+    to.most_stable = from.most_stable;
     to.keep_spin = from.keep_spin;
     to.tolerance = from.tolerance;
     to.bed = from.bed;
@@ -58,11 +49,6 @@ void treeform_lay_flat_options_init(treeform_lay_flat_options* options, size_t s
     glue::init(options, size, to);
 }
 
-static_assert(sizeof(treeform_stability) == sizeof(tf::side_stability));
-static_assert(offsetof(treeform_stability, tip_angle) == offsetof(tf::side_stability, tip_angle));
-static_assert(offsetof(treeform_stability, height) == offsetof(tf::side_stability, height));
-static_assert(offsetof(treeform_stability, overhang) == offsetof(tf::side_stability, overhang));
-
 void glue::fill(keeper& kept, const tf::laid_flat& from, treeform_laid_flat& to) {
     to.points = flat(from.points);
     to.point_count = from.points.size();
@@ -70,9 +56,11 @@ void glue::fill(keeper& kept, const tf::laid_flat& from, treeform_laid_flat& to)
     to.bed = from.bed;
     to.sides = same<treeform_hull_side>(from.sides);
     to.side_count = from.sides.size();
-    to.stability = same<treeform_stability>(from.stability);
+    to.tip_angles = or_null(from.tip_angles);
+    to.center_heights = or_null(from.center_heights);
+    to.overhangs = or_null(from.overhangs);
     copy(from.center_of_mass, to.center_of_mass);
-    to.mass_of = static_cast<int32_t>(from.mass);
+    to.mass_dimension = from.mass_dimension;
     to.chosen = from.chosen;
     to.on_bed = or_null(from.on_bed);
     to.on_bed_count = from.on_bed.size();
@@ -89,7 +77,7 @@ tf::pack_options glue::read(const treeform_pack_options& o) {
     how.size = point(o.plate, "plate");
     how.corner = point(o.corner, "corner");
     how.spacing = o.spacing;
-    how.turns = choice<tf::plate_turns>(o.turns, 4, "turns");
+    how.turns = o.turns;
     how.stack = o.stack != 0;
     how.plates = o.plates;
     how.plate_step = point(o.plate_step, "plate_step");
@@ -110,7 +98,7 @@ void treeform_pack_options_init(treeform_pack_options* options, size_t size) {
     copy(from.size, to.plate);
     copy(from.corner, to.corner);
     to.spacing = from.spacing;
-    to.turns = static_cast<treeform_plate_turns>(from.turns);
+    to.turns = from.turns;
     to.stack = from.stack;
     to.plates = from.plates;
     copy(from.plate_step, to.plate_step);

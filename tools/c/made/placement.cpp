@@ -88,12 +88,10 @@ void glue::fill(keeper& kept, const tf::placement& from, treeform_placement& to)
     to.clearance = from.clearance;
     to.bed = from.bed.value_or(not_known);
     to.below_bed = from.below_bed;
-    to.on_bed = from.on_bed;
     to.at_start = static_cast<treeform_mesh_relation>(from.at_start);
     to.at_place = static_cast<treeform_mesh_relation>(from.at_place);
-    to.nearest_fixed =
-        from.nearest ? static_cast<std::uint32_t>(from.nearest->fixed) : TREEFORM_NONE;
-    if (from.nearest) to.nearest = &filled<treeform_relation>(kept, from.nearest->how);
+    if (from.nearest) to.nearest = &filled<treeform_relation>(kept, *from.nearest);
+    to.nearest_fixed = from.nearest_fixed;
     to.contacts = list<treeform_contact>(kept, from.contacts);
     to.contact_listed = from.contacts.size();
     to.contact_count = from.contact_count;
@@ -194,9 +192,9 @@ treeform_code treeform_turn(const treeform_mesh* moving, const treeform_mesh* co
                             const treeform_place_options* options, treeform_placement** placement) {
     return glue::guard([&] {
         glue::start(placement);
-        return glue::give(glue::turn(glue::ref(moving, "moving"), glue::refs(fixed, count, "fixed"),
-                                     glue::finite(origin, "origin"),
-                                     glue::finite(direction, "direction"), glue::read(options)),
+        return glue::give(tf::turn(glue::ref(moving, "moving"), glue::refs(fixed, count, "fixed"),
+                                   glue::finite(origin, "origin"),
+                                   glue::finite(direction, "direction"), glue::read(options)),
                           placement);
     });
 }
@@ -226,14 +224,15 @@ treeform_code treeform_measure_among(const treeform_mesh* moving, const treeform
     });
 }
 
-treeform_code treeform_classify_contacts(const treeform_mesh* moving,
-                                         const treeform_mesh* const* fixed, size_t count,
-                                         const treeform_placement* placement,
-                                         treeform_contact_classes** classes) {
+treeform_code treeform_find_face_relations(const treeform_mesh* moving,
+                                           const treeform_mesh* const* fixed, size_t count,
+                                           const treeform_placement* placement,
+                                           treeform_face_relations** relations) {
     return glue::guard([&] {
-        glue::start(classes);
+        glue::start(relations);
         return glue::give(
-            glue::classify_contacts(moving, glue::refs(fixed, count, "fixed"), placement), classes);
+            glue::find_face_relations(moving, glue::refs(fixed, count, "fixed"), placement),
+            relations);
     });
 }
 

@@ -9,15 +9,8 @@
 
 namespace tf = treeform;
 
-static_assert(TREEFORM_THICK_BOTH == static_cast<int>(tf::thick_side::both));
-static_assert(TREEFORM_THICK_FRONT == static_cast<int>(tf::thick_side::front));
-static_assert(TREEFORM_THICK_BACK == static_cast<int>(tf::thick_side::back));
 static_assert(TREEFORM_THICKNESS_BY_RAY == static_cast<int>(tf::thickness_by::ray));
 static_assert(TREEFORM_THICKNESS_BY_SPHERE == static_cast<int>(tf::thickness_by::sphere));
-
-static_assert(sizeof(treeform_drain) == sizeof(tf::drain));
-static_assert(offsetof(treeform_drain, at) == offsetof(tf::drain, at));
-static_assert(offsetof(treeform_drain, diameter) == offsetof(tf::drain, diameter));
 
 tf::offset_options glue::read(const treeform_offset_options* options) {
     return read(chosen(options, treeform_offset_options_init));
@@ -26,6 +19,7 @@ tf::offset_options glue::read(const treeform_offset_options& o) {
     tf::offset_options how;
     how.resolution = given(o.resolution);
     how.offset = given(o.offset);
+    how.shift = o.shift;
     how.precision = choice<tf::precision>(o.precision, 2, "precision");
     how.progress = progress(o);
 
@@ -38,6 +32,7 @@ void treeform_offset_options_init(treeform_offset_options* options, size_t size)
     using namespace glue;
     to.resolution = not_known;
     to.offset = not_known;
+    to.shift = from.shift;
     to.precision = static_cast<treeform_precision>(from.precision);
     glue::init(options, size, to);
 }
@@ -45,17 +40,17 @@ void treeform_offset_options_init(treeform_offset_options* options, size_t size)
 void glue::fill(keeper& kept, const tf::offset_result& from, treeform_offset_result& to) {
     to.mesh = arrays(from.mesh);
     to.certificate = &filled<treeform_certificate>(kept, from.certificate);
-    to.distance = from.statistics.distance;
-    to.resolution = from.statistics.resolution;
-    to.least = from.statistics.least;
-    to.greatest = from.statistics.greatest;
-    to.cells = from.statistics.cells;
-    to.sealed_cavities = from.statistics.sealed_cavities;
-    to.points = from.statistics.points;
-    to.tetrahedra = from.statistics.tetrahedra;
-    to.filled = from.statistics.filled;
+    to.distance = from.distance;
+    to.resolution = from.resolution;
+    to.least = from.least;
+    to.greatest = from.greatest;
+    to.cells = from.cells;
+    to.sealed_cavities = from.sealed_cavities;
     to.blind_drains = or_null(from.blind_drains);
     to.blind_drain_count = from.blind_drains.size();
+    to.tetrahedra = from.tetrahedra;
+    to.tetrahedra_points = from.tetrahedra_points;
+    to.filled_tetrahedra = from.filled_tetrahedra;
 }
 
 tf::simplify_options glue::read(const treeform_simplify_options* options) {
@@ -147,27 +142,25 @@ treeform_code treeform_offset(const treeform_mesh* mesh, double distance,
     });
 }
 
-treeform_code treeform_hollow(const treeform_mesh* mesh, double wall, const treeform_drain* drains,
+treeform_code treeform_hollow(const treeform_mesh* mesh, double wall, const double* drains,
                               size_t count, const treeform_offset_options* options,
                               treeform_offset_result** result) {
     return glue::guard([&] {
         glue::start(result);
-        return glue::give(tf::hollow(glue::ref(mesh, "mesh"), wall,
-                                     glue::same_as<tf::drain>(glue::array(drains, count, "drains")),
-                                     glue::read(options)),
-                          result);
+        return glue::give(
+            tf::hollow(glue::ref(mesh, "mesh"), wall,
+                       glue::points_and_numbers(drains, count, "drains"), glue::read(options)),
+            result);
     });
 }
 
 treeform_code treeform_thicken(const treeform_mesh* mesh, double thickness,
-                               treeform_thick_side side, const treeform_offset_options* options,
+                               const treeform_offset_options* options,
                                treeform_offset_result** result) {
     return glue::guard([&] {
         glue::start(result);
-        return glue::give(
-            tf::thicken(glue::ref(mesh, "mesh"), thickness,
-                        glue::choice<tf::thick_side>(side, 3, "side"), glue::read(options)),
-            result);
+        return glue::give(tf::thicken(glue::ref(mesh, "mesh"), thickness, glue::read(options)),
+                          result);
     });
 }
 

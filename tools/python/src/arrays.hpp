@@ -25,6 +25,15 @@ std::span<const Row> rows_of(const array_of<T>& array) {
 
 inline tf::points_view points_of(const points_array& array) { return rows_of<tf::point3>(array); }
 
+/// (n, 4): points, and a number for each.
+inline std::vector<std::pair<tf::point3, double>> points_and_numbers(
+    const array_of<double>& array) {
+    std::vector<std::pair<tf::point3, double>> all;
+    for (const auto& [x, y, z, number] : rows_of<std::array<double, 4>>(array))
+        all.push_back({{x, y, z}, number});
+    return all;
+}
+
 inline std::array<double, 3> numbers(const tf::point3& p) { return {p.x, p.y, p.z}; }
 
 /// The memory of `values` as an array of numbers T, a row for each; it lives as long as the array.

@@ -253,7 +253,7 @@ class OffsetOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
     def __init__(self, *, resolution: Optional[float] = ..., offset: Optional[float] = ...,
-                 precision: str = ...) -> None: ...
+                 shift: float = ..., precision: str = ...) -> None: ...
 
 class SimplifyOptions:
     names: tuple[str, ...]
@@ -326,9 +326,9 @@ class ImpactOptions:
 class LayFlatOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
-    def __init__(self, *, choose: str = ..., toward: Floats = ..., keep_spin: bool = ...,
-                 tolerance: float = ..., bed: float = ..., overhang_angle: float = ...,
-                 precision: str = ...) -> None: ...
+    def __init__(self, *, normal: Optional[Floats] = ..., point: Optional[Floats] = ...,
+                 most_stable: bool = ..., keep_spin: bool = ..., tolerance: float = ...,
+                 bed: float = ..., overhang_angle: float = ..., precision: str = ...) -> None: ...
 
 class AlignOptions:
     names: tuple[str, ...]
@@ -343,7 +343,7 @@ class PackOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
     def __init__(self, *, size: Floats = ..., corner: Floats = ..., spacing: float = ...,
-                 turns: str = ..., stack: bool = ..., plates: Optional[int] = ...,
+                 turns: Optional[int] = ..., stack: bool = ..., plates: Optional[int] = ...,
                  plate_step: Floats = ..., seed: Optional[int] = ..., tries: Optional[int] = ...,
                  seconds: float = ..., precision: str = ...) -> None: ...
 
@@ -388,7 +388,7 @@ def offset(mesh: HeldMesh, distance: float, options: OffsetOptions,
            progress: Watched = ...) -> OffsetResult: ...
 def hollow(mesh: HeldMesh, wall: float, drains: Floats, options: OffsetOptions,
            progress: Watched = ...) -> OffsetResult: ...
-def thicken(mesh: HeldMesh, thickness: float, side: str, options: OffsetOptions,
+def thicken(mesh: HeldMesh, thickness: float, options: OffsetOptions,
             progress: Watched = ...) -> OffsetResult: ...
 def simplify(mesh: HeldMesh, max_distance: float, face_groups: Ids, options: SimplifyOptions,
              progress: Watched = ...) -> SimplifyResult: ...

@@ -80,7 +80,8 @@ class Placement(MeshResult):
         or 'clear'.
     contacts: Pairs of faces that meet there, or keep the clearance.
     contact_count: Number of all contacts, listed or not.
-    nearest: The fixed mesh that matters most, and how the mesh lies to it; None where all are far.
+    nearest: How the mesh, as `a`, lies at the place to the fixed mesh that it penetrates, else to
+        one that it touches, else to the nearest. None if all are too far away.
     certificate: What was checked about the coordinates.
     effort: For `separate`: the effort of its search. If `cut` is not 0, a shorter translation may
         exist; or, if no place was found, a place.
@@ -88,6 +89,7 @@ class Placement(MeshResult):
     tolerance: Of `turn`: the gap, beyond the clearance, that counts as contact.
     offset: Of `mate_features`: how far the center of the moving feature ended from that of the
         fixed one, along the direction of the fixed one. Of planes: their distance.
+    nearest_fixed: Number of that mesh; the lowest if several qualify.
     """
 
     mesh: Mesh
@@ -100,12 +102,13 @@ class Placement(MeshResult):
     at_place: str
     contacts: Contacts
     contact_count: int
-    nearest: tuple[int, Measure] | None
+    nearest: Measure | None
     certificate: Certificate
     effort: SearchEffort
     angle: float
     tolerance: float
     offset: float
+    nearest_fixed: int
 
     def __bool__(self) -> bool:
         return bool(self.certificate)
@@ -285,8 +288,9 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
          clearance: float = 0.0, max_travel: float | None = None, max_angle: float = 360.0,
          tolerance: float | None = None, precision: str = "float64",
          progress: Progress = None) -> Placement:
-    """Turns `moving` about the axis until it first comes within the tolerance of one of `fixed`, or
-    of the clearance from one.
+    """Turns `moving` until it first comes within the tolerance of one of `fixed`, or of the
+    clearance from one. The axis is the line through `origin` along `axis`, of any length but 0.
+    Turns are right-handed: counter-clockwise seen against the direction.
 
     Conservative advancement: in no step can a pair of faces meet, by bounds on the speed of their
     corners, up to the rounding of distances. The returned coordinates are checked exactly: they
@@ -379,12 +383,19 @@ class LaidFlat(MeshResult):
     message: Half a sentence for people.
     areas: (S,) of the flat sides of the convex hull, largest first.
     normals: (S, 3) outward, before the turn.
-    tip_angles: (S,) degrees of tilt at which it tips over; negative: by itself.
-    overhangs: (S,) area of the faces that would need support; NaN where it was not computed.
+    tip_angles: (S,) for each side the least tilt, in degrees, that brings the center of mass over
+        an edge of it, so that the mesh tips over. 90 if the center is in the plane of the side.
+        Negative if the center is not over the side: then the mesh tips over by itself.
+    overhangs: (S,) area of the faces that need support if the side is down: faces off the bed that
+        point down at more than `overhang_angle` from the vertical. Only computed for the first
+        `overhang_sides` sides and the chosen one, else NaN.
     center_of_mass: (3,) before the rotation, rounded.
-    mass: What `center_of_mass` is the center of: 'solid', 'surface' or 'points'.
     on_bed: (n,) points of that side, ascending.
     certificate: What was checked about the coordinates.
+    center_heights: (S,) of the center of mass over the plane of the side.
+    mass_dimension: The dimension of what has the mass: 3 for the solid that a closed mesh bounds; 2
+        for the faces of a mesh that bounds none, as sheets of equal thickness; 0 for the points of
+        a mesh without a face of positive area.
     """
 
     mesh: Mesh
@@ -396,14 +407,15 @@ class LaidFlat(MeshResult):
     tip_angles: Floats
     overhangs: Floats
     center_of_mass: Floats
-    mass: str
     on_bed: Ids
     certificate: Certificate
+    center_heights: Floats
+    mass_dimension: int
 
 
-def lay_flat(mesh: MeshLike, *, choose: str = "largest", toward: ArrayLike = (0.0, 0.0, 0.0),
-             keep_spin: bool = False, tolerance: float = 0.0, bed: float = 0.0,
-             overhang_angle: float = 45.0, precision: str = "float64",
+def lay_flat(mesh: MeshLike, *, normal: ArrayLike | None = None, point: ArrayLike | None = None,
+             most_stable: bool = False, keep_spin: bool = False, tolerance: float = 0.0,
+             bed: float = 0.0, overhang_angle: float = 45.0, precision: str = "float64",
              progress: Progress = None) -> LaidFlat:
     """Rotates `mesh` so that a flat side of its convex hull is on the bed. The center of its box
     keeps x and y. None if there is no side: fewer than three points, or all on a line.
@@ -414,9 +426,10 @@ def lay_flat(mesh: MeshLike, *, choose: str = "largest", toward: ArrayLike = (0.
     else the first in `sides`. Points without faces move along and are otherwise ignored; a mesh
     without faces uses all its points.
 
-    choose: 'largest' area, 'nearest_normal' to the direction `toward`, 'holding_point' `toward`, or
-        'most_stable'.
-    toward: (3,) a direction of any length, or a point, in the coordinates of the mesh.
+    normal: (3,) The side whose outward normal makes the least angle with this direction, of any
+        length, in the coordinates of the mesh.
+    point: (3,) The side nearest to this point: the one that contains it, if one does.
+    most_stable: The side with the largest tip angle.
     keep_spin: Do not rotate about the vertical. Otherwise the mesh is also rotated about it, by at
         most 45 degrees, so that the longest edge of the side runs along x or y.
     tolerance: Points at most this far from the plane of a side belong to it. With 0, a side is
@@ -427,8 +440,9 @@ def lay_flat(mesh: MeshLike, *, choose: str = "largest", toward: ArrayLike = (0.
     precision: 'float32' or 'float64'. Of the points returned.
 
     Raises ValueError naming a point that is not finite or a face with a corner out of range; for a
-    zero direction with `nearest_normal`; for options that are not finite, a negative tolerance, or
-    an overhang angle out of range; OverflowError for coordinates that overflow in the rotation.
+    zero `normal`; for several choices of a side; for options that are not finite, a negative
+    tolerance, or an overhang angle out of range; OverflowError for coordinates that overflow in the
+    rotation.
 
     Cost: `convex_hull`, plus O(F) for the center of mass and for each side with an overhang.
 
@@ -605,7 +619,7 @@ class Packing(Result):
 
 
 def pack(parts: Iterable[Body], size: ArrayLike, *, corner: ArrayLike = (0.0, 0.0, 0.0),
-         spacing: float = 2.0, turns: str = "quarter", stack: bool = False, plates: int = 1,
+         spacing: float = 2.0, turns: int = 4, stack: bool = False, plates: int = 1,
          plate_step: ArrayLike = (0.0, 0.0, 0.0), seed: int = 0, tries: int = 32,
          seconds: float = np.inf, precision: str = "float64", progress: Progress = None) -> Packing:
     """Places the parts on plates, each rotated about z by one of `turns`. Unless stacked, each part
@@ -636,7 +650,8 @@ def pack(parts: Iterable[Body], size: ArrayLike, *, corner: ArrayLike = (0.0, 0.
     size: (2,) or (3,): length, depth and height of a plate.
     corner: (3,) The corner of the first plate with the lowest x and y; its z is the bed.
     spacing: Least distance of any two parts; parts may touch the plate's rim.
-    turns: 'none', 'quarter', 'eighth' or 'any'.
+    turns: Rotations about the vertical that are tried for each part, evenly over the full circle: 1
+        (none), 2, 3, 4, 6, 8, 12 or 24.
     stack: Fill the box up to its height, which must be finite: parts may be above, below and inside
         one another, and hang in the air. Otherwise each part stands on the bed.
     plates: Largest number of plates; at least 1.

@@ -44,7 +44,7 @@ void add_check_options(command_line& line, assembly_settings& s) {
 
 /// "bolts" of "dir/bolts.stl", and a part's name behind it.
 std::string part_name(const tf::body_set& set, std::size_t body, bool several_files) {
-    const std::string& part = set.bodies[body].name;
+    const std::string& part = set.part_name(body);
     const std::string& file = set.file_of(body).name;
     if (part.empty()) return file;
     return several_files ? file + "/" + part : part;
@@ -111,9 +111,9 @@ named_assembly read_assembly(job& work) {
         work.entry["inputs"].push_back(std::move(about));
     }
     work.entry["skipped"]["non_finite"] = non_finite;
-    if (all.set.bodies.empty())
+    if (all.set.shapes.empty())
         throw failure(bad_input, "no-triangles", work.name + ": no part with finite coordinates");
-    for (std::size_t i = 0; i < all.set.bodies.size(); ++i)
+    for (std::size_t i = 0; i < all.set.shapes.size(); ++i)
         all.names.push_back(part_name(all.set, i, all.set.files.size() > 1));
     return all;
 }

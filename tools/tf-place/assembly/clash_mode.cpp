@@ -95,25 +95,21 @@ void say(job& work, const named_assembly& all, const tf::clash_result& r) {
     work.out.result(work.name + ": " + totals(all, r));
 }
 
-/// A class for each face of each part, that of its gravest pair.
-std::vector<std::vector<tf::contact_class>> classes_of(const named_assembly& all,
+/// How each face of each part lies to others: as its gravest pair.
+std::vector<std::vector<mesh_relation>> face_relations(const named_assembly& all,
                                                        const tf::clash_result& r) {
-    std::vector<std::vector<tf::contact_class>> classes(all.names.size());
+    std::vector<std::vector<mesh_relation>> relations(all.names.size());
     const auto mark = [&](std::size_t part, const std::vector<std::uint32_t>& faces,
                           mesh_relation how) {
-        const auto one = how == mesh_relation::penetrating ? tf::contact_class::penetrating
-                                                           : tf::contact_class::touching;
-        classes[part].resize(all.set.shapes[part].view().faces.size());
-        for (const std::uint32_t f : faces)
-            if (classes[part][f] == tf::contact_class::none || one < classes[part][f])
-                classes[part][f] = one;
+        relations[part].resize(all.set.shapes[part].view().faces.size());
+        for (const std::uint32_t f : faces) relations[part][f] = std::max(relations[part][f], how);
     };
-    for (const tf::part_clash& pair : r.pairs)
+    for (const tf::part_clash& pair : r.pairs)  // faces that meet: touching < penetrating
         for (const tf::contact_region& region : pair.regions) {
             mark(pair.a, region.faces_a, pair.how);
             mark(pair.b, region.faces_b, pair.how);
         }
-    return classes;
+    return relations;
 }
 
 void write_parts(job& work, const named_assembly& all, const tf::clash_result& r) {
@@ -131,10 +127,10 @@ void write_parts(job& work, const named_assembly& all, const tf::clash_result& r
     tf::mesh_file file = tf::scene_of(inputs, names, labels);
     work.warn(file.warnings);
     if (form.format == "ply" || form.format == "glb") {
-        const tf::contact_classes classes{{}, classes_of(all, r)};
         const tf::box3 box = tf::bounding_box(file.mesh.points).value_or(tf::box3{});
-        tf::contact_classes::color(file, classes.in_files({}, all.set),
-                                   {.split_polygons = true, .halo = 0.02 * box.diagonal()});
+        file.split_polygons();
+        tf::placement::color(file, all.set.relations_in_files(face_relations(all, r), false),
+                             0.02 * box.diagonal());
     }
     static_cast<void>(write_mesh(work, file,
                                  {.format = form.format,

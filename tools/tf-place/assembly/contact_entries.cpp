@@ -1,12 +1,14 @@
 #include "tools/tf-place/assembly/contact_entries.hpp"
 
+#include "tools/shell/console.hpp"
+
 namespace tools {
 namespace {
 
 /// A point of a body: of a mesh on a face, of a cloud a vertex.
 json side_entry(const tf::body_set& set, std::size_t body, const tf::surface_point& at) {
     const bool cloud = set.file_of(body).cloud;
-    const json number = set.bodies[body].triangle(at.face);
+    const json number = set.triangle(body, at.face);
     return {{"point", at.point},
             {"face", or_null(!cloud, set.stored_face(body, at.face))},
             {"triangle", or_null(!cloud, number)},
@@ -14,33 +16,37 @@ json side_entry(const tf::body_set& set, std::size_t body, const tf::surface_poi
             {"vertex", or_null(cloud, number)}};
 }
 
-json name_entry(const tf::file_body& body) { return or_null(!body.name.empty(), body.name); }
+json name_entry(const tf::body_set& set, std::size_t body) {
+    return or_null(!set.part_name(body).empty(), set.part_name(body));
+}
 
 }  // namespace
 
 void enter_nearest(json& entry, const tf::body_set& moving, const tf::body_set& fixed,
-                   const std::vector<std::string>& files, const tf::nearest_fixed& near) {
-    const tf::file_body& body = fixed.bodies[near.fixed];
-    json there = side_entry(fixed, near.fixed, near.how.on_b);
-    there.update({{"file", files[body.file]}, {"part", body.file}, {"name", name_entry(body)}});
-    entry["distance"] = near.how.distance;
-    entry["surface_distance"] = near.how.surface_distance;
-    entry["closest"] = {{"moving", side_entry(moving, 0, near.how.on_a)}, {"fixed", there}};
-    const tf::mesh_relation_result& how = near.how.relation;
-    const bool cloud = moving.file_of(0).cloud || fixed.file_of(near.fixed).cloud;
+                   const std::vector<std::string>& files, const tf::placement& at) {
+    const tf::mesh_measure& near = *at.nearest;
+    const std::size_t file = fixed.file_number(at.nearest_fixed);
+    json there = side_entry(fixed, at.nearest_fixed, near.on_b);
+    there.update(
+        {{"file", files[file]}, {"part", file}, {"name", name_entry(fixed, at.nearest_fixed)}});
+    entry["distance"] = near.distance;
+    entry["surface_distance"] = near.surface_distance;
+    entry["closest"] = {{"moving", side_entry(moving, 0, near.on_a)}, {"fixed", there}};
+    const tf::mesh_relation_result& how = near.relation;
+    const bool cloud = moving.file_of(0).cloud || fixed.file_of(at.nearest_fixed).cloud;
     if (!cloud && (how.a_inside_b || how.b_inside_a))
         entry["inside"] = how.a_inside_b ? "moving" : "fixed";
 }
 
 json contact_entry(const tf::body_set& moving, const tf::body_set& fixed,
                    const tf::placement_contact& c) {
-    const tf::file_body* const body = c.fixed_face ? &fixed.bodies[c.fixed] : nullptr;
+    const bool on_bed = !c.fixed_face;
     return {{"point", c.point},
             {"normal", c.normal},
             {"moving", moving.stored_face(0, c.moving)},
-            {"fixed", body ? json(fixed.stored_face(c.fixed, *c.fixed_face)) : json(nullptr)},
-            {"part", body ? json(body->file) : json("bed")},
-            {"name", body ? name_entry(*body) : json(nullptr)}};
+            {"fixed", on_bed ? json(nullptr) : json(fixed.stored_face(c.fixed, *c.fixed_face))},
+            {"part", on_bed ? json("bed") : json(fixed.file_number(c.fixed))},
+            {"name", on_bed ? json(nullptr) : name_entry(fixed, c.fixed)}};
 }
 
 std::string cut_in_words(const tf::search_effort& effort) {

@@ -12,8 +12,9 @@
 namespace tools {
 
 /// How the one body of `moving` lies to what is nearest to it; `files` are the paths of `fixed`.
+/// \pre there is something near
 void enter_nearest(json& entry, const tf::body_set& moving, const tf::body_set& fixed,
-                   const std::vector<std::string>& files, const tf::nearest_fixed& near);
+                   const std::vector<std::string>& files, const tf::placement& at);
 
 [[nodiscard]] json contact_entry(const tf::body_set& moving, const tf::body_set& fixed,
                                  const tf::placement_contact& c);

@@ -11,8 +11,8 @@
 namespace tools {
 namespace {
 
-/// By `plate_turns`.
-constexpr std::array<const char*, 4> turns{"none", "90", "45", "any"};
+constexpr std::array<const char*, 4> sets_of_turns{"none", "90", "45", "any"};
+constexpr std::array turns_of_set{1U, 4U, 8U, 24U};
 
 constexpr std::uint64_t most_copies = 10'000;
 
@@ -49,7 +49,11 @@ void add_arrange_options(command_line& line, arrange_settings& s) {
                     if (spacing.relative) refuse("--spacing: expected a length");
                     o.spacing = spacing.value;
                 });
-    line.option(o.turns, {"--rotate", "SET", "arrange: none | 90 | 45 | any", "90"}, turns);
+    line.option({"--rotate", "SET", "arrange: none | 90 | 45 | any", "90"},
+                [&o](std::string_view text) {
+                    o.turns = turns_of_set[parse_choice("--rotate", text, sets_of_turns)];
+                });
+    line.offer("--rotate", {sets_of_turns.begin(), sets_of_turns.end()});
     line.repeatable_option(s.counts,
                            {"--count", "FILE:N", "arrange: N copies of this MOVING (repeatable)"});
     line.option(

@@ -18,19 +18,15 @@ constexpr std::array<const char*, 7> names{"--largest-face",  "--stable",    "--
 void add_lay_options(command_line& line, lay_settings& s) {
     line.flag(s.largest_side,
               {"--largest-face", "", "lay: on the largest side of the convex hull", "this"});
-    line.option({"--face-normal", "X,Y,Z", "lay: on the side whose normal is nearest to this"},
-                [&s](std::string_view text) {
-                    s.options.choose = tf::lay_choice::nearest_normal;
-                    s.options.toward = parse_direction("--face-normal", text);
-                });
-    line.option({"--face-point", "X,Y,Z", "lay: on the side that contains this point"},
-                [&s](std::string_view text) {
-                    s.options.choose = tf::lay_choice::holding_point;
-                    s.options.toward = parse_point("--face-point", text);
-                });
-    line.flag(s.stable, {"--stable", "",
-                         "lay: on the side with the largest tip angle; the mass\n"
-                         "of an open mesh is its surface"});
+    line.option(
+        {"--face-normal", "X,Y,Z", "lay: on the side whose normal is nearest to this"},
+        [&s](std::string_view text) { s.options.normal = parse_direction("--face-normal", text); });
+    line.option(
+        {"--face-point", "X,Y,Z", "lay: on the side that contains this point"},
+        [&s](std::string_view text) { s.options.point = parse_point("--face-point", text); });
+    line.flag(s.options.most_stable, {"--stable", "",
+                                      "lay: on the side with the largest tip angle; the mass\n"
+                                      "of an open mesh is its surface"});
     line.option(s.flatness, {"-t, --tolerance", "DIST",
                              "lay: points this near to the plane of a side belong to\n"
                              "it, and are made flat; 0 = exactly coplanar only",
@@ -52,24 +48,23 @@ std::span<const char* const> lay_option_names() { return names; }
 std::span<const char* const> side_option_names() { return std::span(names).first(4); }
 
 json lay_entry(const tf::laid_flat& laid) {
-    constexpr std::array<const char*, 3> masses{"solid", "surface", "points"};
+    constexpr std::array<const char*, 4> masses{"points", "", "surface", "solid"};
     json sides = json::array();
     for (std::size_t i = 0; i < laid.sides.size(); ++i) {
         const tf::hull_side& side = laid.sides[i];
-        const tf::side_stability& stands = laid.stability[i];
         sides.push_back({{"normal", side.normal},
                          {"area", side.area},
                          {"center", side.center},
-                         {"tip_angle", stands.tip_angle},
-                         {"height", stands.height},
-                         {"overhang", or_null(!std::isnan(stands.overhang), stands.overhang)}});
+                         {"tip_angle", laid.tip_angles[i]},
+                         {"height", laid.center_heights[i]},
+                         {"overhang", or_null(!std::isnan(laid.overhangs[i]), laid.overhangs[i])}});
     }
-    return {
-        {"sides", sides},
-        {"chosen", laid.chosen},
-        {"corrected", laid.corrected},
-        {"center_of_mass",
-         {{"point", laid.center_of_mass}, {"of", masses[static_cast<std::size_t>(laid.mass)]}}}};
+    return {{"sides", sides},
+            {"chosen", laid.chosen},
+            {"corrected", laid.corrected},
+            {"center_of_mass",
+             {{"point", laid.center_of_mass},
+              {"of", masses[static_cast<std::size_t>(laid.mass_dimension)]}}}};
 }
 
 }  // namespace tools

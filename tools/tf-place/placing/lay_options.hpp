@@ -15,7 +15,6 @@ namespace tools {
 struct lay_settings {
     tf::lay_flat_options options{};  ///< which side, and the spin
     bool largest_side = false;
-    bool stable = false;
     /// Flat faces that were turned and rounded, to float32 mostly, are one side of the hull again.
     distance flatness{.given = "0.0001%", .value = 1e-6, .relative = true};
 };

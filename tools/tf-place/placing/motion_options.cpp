@@ -93,11 +93,10 @@ json feature_entry(const tf::mesh_feature& f) {
 }  // namespace
 
 void add_turn_options(command_line& line, turn_settings& s) {
-    line.option(
-        {"--axis", "X,Y,Z", "turn: direction of the axis; right-handed turn", "0,0,1"},
-        [&s](std::string_view text) { s.axis.direction = parse_direction("--axis", text); });
+    line.option({"--axis", "X,Y,Z", "turn: direction of the axis; right-handed turn", "0,0,1"},
+                [&s](std::string_view text) { s.axis = parse_direction("--axis", text); });
     line.option({"--origin", "X,Y,Z", "turn: a point of the axis", "0,0,0"},
-                [&s](std::string_view text) { s.axis.origin = parse_point("--origin", text); });
+                [&s](std::string_view text) { s.origin = parse_point("--origin", text); });
     line.option(
         {"--max-angle", "DEG", "turn: largest angle (exit 1 if it is not enough)", "360"},
         [&s](std::string_view text) {
@@ -154,9 +153,9 @@ std::optional<mating> mate_by_features(const feature_settings& s, const tf::body
 }
 
 json turn_entry(const turn_settings& s, const tf::placement& found) {
-    return {{"axis", s.axis.direction},     {"origin", s.axis.origin},
-            {"max_angle", s.max_angle},     {"angle", found.angle},
-            {"tolerance", found.tolerance}, {"steps", found.statistics.steps}};
+    return {
+        {"axis", s.axis},       {"origin", s.origin},           {"max_angle", s.max_angle},
+        {"angle", found.angle}, {"tolerance", found.tolerance}, {"steps", found.statistics.steps}};
 }
 
 json mating_entry(const mating& m, const tf::placement& at) {

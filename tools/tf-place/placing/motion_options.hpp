@@ -18,7 +18,8 @@
 namespace tools {
 
 struct turn_settings {
-    tf::turn_axis axis{};
+    tf::point3 origin{};
+    tf::point3 axis{0.0, 0.0, 1.0};
     double max_angle = 360.0;
 };
 

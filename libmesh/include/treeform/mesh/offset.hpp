@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace treeform {
@@ -27,33 +28,17 @@ struct offset_options {
     /// twice the resolution is on the right side of the surface. Smaller details may be lost.
     /// Default: a quarter of the distance, at most 1/64 of the diagonal of the result; larger, up
     /// to half of the distance, if there would be more than about 2^16 cells at the surface
-    /// (170,000 faces). `offset_statistics` has the value used, and the error.
+    /// (170,000 faces). `offset_result` has the value used, and the error.
     std::optional<double> resolution{};
     /// `wrap`: how far the vertices of the wrap are from the mesh, in its length unit. Not given: a
     /// thirtieth of the size.
     std::optional<double> offset{};
+    /// `thicken`: how far the surface is first moved to its front, in its length unit; negative: to
+    /// its back. Half of the thickness leaves its back where it is.
+    double shift = 0.0;
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
     progress_callback progress{};
-};
-
-/// Counts and measured distances.
-struct offset_statistics {
-    double distance =
-        0.0;  ///< that was asked for, without its sign; of `wrap`, how far its vertices are
-    double resolution = 0.0;  ///< that was used; of `wrap`, its size
-    /// Bounds of the distance from any point of the surface made, in its faces too, to the mesh
-    /// that it is the offset of: all are in [least, greatest]. Found by branch and bound; each is
-    /// within a sixteenth of the resolution of what is there. 0 where there is no surface, and of
-    /// `wrap`.
-    double least = 0.0;
-    double greatest = 0.0;
-    std::uint64_t cells = 0;  ///< cells that the surface may pass through
-    /// For `hollow`: cavities without an opening, those of the input included.
-    std::uint64_t sealed_cavities = 0;
-    std::uint64_t points = 0;      ///< of `wrap`: of the tetrahedra that were made
-    std::uint64_t tetrahedra = 0;  ///< of `wrap`: at the end
-    std::uint64_t filled = 0;      ///< of `wrap`: tetrahedra filled so that it is a manifold
 };
 
 /// The mesh, and its certificate.
@@ -64,10 +49,23 @@ struct TREEFORM_API offset_result {
     /// `open` lists where. `vanished`: nothing is left, since the solid is nowhere thick enough, or
     /// only by less than a cell.
     treeform::certificate certificate{};
-    offset_statistics statistics{};
+    double distance = 0.0;    ///< asked for, without its sign; of `wrap`, that of its vertices
+    double resolution = 0.0;  ///< that was used; of `wrap`, its size
+    /// Bounds of the distance from any point of the surface made, in its faces too, to the mesh
+    /// that it is the offset of: all are in [least, greatest]. Of `hollow`, of the cavities'
+    /// surface; of `thicken`, to the moved surface. Found by branch and bound; each is within a
+    /// sixteenth of the resolution of what is there. 0 where there is no surface, and of `wrap`.
+    double least = 0.0;
+    double greatest = 0.0;    ///< the upper bound
+    std::uint64_t cells = 0;  ///< cells that the surface may pass through
+    /// For `hollow`: cavities without an opening, those of the input included.
+    std::uint64_t sealed_cavities = 0;
     /// For `hollow`: numbers of drains that do not lead from outside into a cavity, as far as the
     /// ends of their axes show.
     std::vector<std::uint32_t> blind_drains{};
+    std::uint64_t tetrahedra = 0;         ///< of `wrap`: at the end
+    std::uint64_t tetrahedra_points = 0;  ///< of `wrap`: of the tetrahedra that were made
+    std::uint64_t filled_tetrahedra = 0;  ///< of `wrap`: filled so that it is a manifold
 
     /// The mesh.
     /// \throws not_certified_error unless the certificate's status is ok
@@ -92,41 +90,35 @@ struct TREEFORM_API offset_result {
 [[nodiscard]] TREEFORM_API offset_result offset(const mesh_ref& mesh, double distance,
                                                 const offset_options& options = {});
 
-/// A hole through the wall of a hollow solid.
-struct drain {
-    point3 at{};            ///< the hole is drilled at the point of the surface nearest to this
-    double diameter = 0.0;  ///< of the circle through the corners of a regular prism of 32 sides
-};
-
 /// The solid without its points deeper inside than `wall`: the surface stays bit for bit, around
-/// new cavities. Each drain runs along the shortest segment from the surface to a cavity. It
-/// extends beyond both ends by its diameter, but at most half of the way to the next surface.
-/// `statistics` are those of the cavities. The status is `vanished` if there is no cavity.
+/// new cavities. The status is `vanished` if there is no cavity.
+///
+/// `drains` are holes through the wall: a point and a diameter. Each runs from the nearest point of
+/// the surface along the shortest segment to a cavity, as a regular prism of 32 sides; the diameter
+/// is that of the circle through its corners. It extends beyond both ends by its diameter, but at
+/// most half of the way to the next surface.
 ///
 /// \throws std::invalid_argument as `offset`; for a wall that is not positive; for a drain that is
 ///         not finite, or with a diameter that is not positive
 /// \cost   as `offset` and `subtract`
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API offset_result hollow(const mesh_ref& mesh, double wall,
-                                                std::span<const drain> drains = {},
-                                                const offset_options& options = {});
-
-/// The sides to which a surface is thickened; from the front, faces are counter-clockwise.
-enum class thick_side : std::uint8_t { both, front, back };
+[[nodiscard]] TREEFORM_API offset_result
+hollow(const mesh_ref& mesh, double wall, std::span<const std::pair<point3, double>> drains = {},
+       const offset_options& options = {});
 
 /// A solid around any surface: all points at most half of `thickness` away. Its rim is round.
 ///
-/// With `front` or `back` the surface is first moved to that side by half of the thickness: each
-/// vertex so that the planes of its faces move that far, on average. This is exact where the
+/// With a `shift` the surface is first moved to its front, from where faces are counter-clockwise:
+/// each vertex so that the planes of its faces move that far, on average. This is exact where the
 /// surface is flat, and rounds it where it bends. Vertices of sharp folds move by at most twice
-/// that. `statistics` are those of the moved surface. Faces must be consistently oriented.
+/// that. Faces must be consistently oriented.
 ///
 /// \throws std::invalid_argument as `offset`, with half of the thickness as the distance; for a
-///         mesh without faces; for one side, naming a face that is inconsistent with its neighbor
+///         mesh without faces; for a shift that is not finite; with a shift, naming a face that is
+///         inconsistent with its neighbor
 /// \cost   as `offset`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API offset_result thicken(const mesh_ref& mesh, double thickness,
-                                                 thick_side side = thick_side::both,
                                                  const offset_options& options = {});
 
 /// A solid that holds all faces of `mesh`, whatever they are: open, crossing, turned any way, of

@@ -21,38 +21,15 @@
 
 namespace treeform {
 
-/// Which side of the convex hull goes down.
-enum class lay_choice : std::uint8_t {
-    largest,         ///< the side of the largest area
-    nearest_normal,  ///< the side whose outward normal makes the least angle with `toward`
-    holding_point,   ///< the side nearest to `toward`: the one that contains it, if one does
-    most_stable      ///< the side with the largest tip angle
-};
-
-/// What the mass of a mesh is.
-enum class mass_of : std::uint8_t {
-    solid,    ///< the solid that a closed mesh bounds
-    surface,  ///< the faces of a mesh that bounds no solid, as sheets of equal thickness
-    points    ///< the points of a mesh without faces
-};
-
-/// How a mesh stands on a side.
-struct side_stability {
-    /// The least tilt, in degrees, that brings the center of mass over an edge of the side, so that
-    /// the mesh tips over. 90 if the center is in the plane of the side. Negative if the center is
-    /// not over the side: then the mesh tips over by itself.
-    double tip_angle = 0.0;
-    double height = 0.0;  ///< height of the center of mass over the plane of the side
-    /// Area of the faces that need support: faces off the bed that point down at more than
-    /// `overhang_angle` from the vertical. Only computed for the first `overhang_sides` sides and
-    /// the chosen one, else NaN.
-    double overhang = 0.0;
-};
-
-/// How to lay a mesh flat.
+/// How to lay a mesh flat. At most one of `normal`, `point` and `most_stable` chooses the side of
+/// the convex hull that goes down; otherwise the side of the largest area does.
 struct lay_flat_options {
-    lay_choice choose = lay_choice::largest;
-    point3 toward{};  ///< a direction of any length, or a point, in the coordinates of the mesh
+    /// The side whose outward normal makes the least angle with this direction, of any length, in
+    /// the coordinates of the mesh.
+    std::optional<point3> normal{};
+    /// The side nearest to this point: the one that contains it, if one does.
+    std::optional<point3> point{};
+    bool most_stable = false;  ///< the side with the largest tip angle
     /// Do not rotate about the vertical. Otherwise the mesh is also rotated about it, by at most 45
     /// degrees, so that the longest edge of the side runs along x or y.
     bool keep_spin = false;
@@ -78,9 +55,20 @@ struct laid_flat {
     /// The sides of the convex hull before the rotation, largest area first. With a tolerance, a
     /// side includes its neighbors within the tolerance of its plane.
     std::vector<hull_side> sides{};
-    std::vector<side_stability> stability{};     ///< of each of `sides`
-    point3 center_of_mass{};                     ///< before the rotation, rounded
-    mass_of mass = mass_of::solid;               ///< what `center_of_mass` is the center of
+    /// [S] for each side the least tilt, in degrees, that brings the center of mass over an edge of
+    /// it, so that the mesh tips over. 90 if the center is in the plane of the side. Negative if
+    /// the center is not over the side: then the mesh tips over by itself.
+    std::vector<double> tip_angles{};
+    std::vector<double> center_heights{};  ///< [S] of the center of mass over the plane of the side
+    /// [S] area of the faces that need support if the side is down: faces off the bed that point
+    /// down at more than `overhang_angle` from the vertical. Only computed for the first
+    /// `overhang_sides` sides and the chosen one, else NaN.
+    std::vector<double> overhangs{};
+    point3 center_of_mass{};  ///< before the rotation, rounded
+    /// The dimension of what has the mass: 3 for the solid that a closed mesh bounds; 2 for the
+    /// faces of a mesh that bounds none, as sheets of equal thickness; 0 for the points of a mesh
+    /// without a face of positive area.
+    int mass_dimension = 3;
     std::size_t chosen = 0;                      ///< number in `sides`
     std::vector<std::uint32_t> on_bed{};         ///< points of that side, ascending
     std::optional<placement_contact> contact{};  ///< the lowest face with the lowest point
@@ -107,21 +95,13 @@ struct laid_flat {
 /// without faces uses all its points.
 ///
 /// \throws std::invalid_argument naming a point that is not finite or a face with a corner out of
-///         range; for a zero direction with `nearest_normal`; for options that are not finite, a
-///         negative tolerance, or an overhang angle out of range
+///         range; for a zero `normal`; for several choices of a side; for options that are not
+///         finite, a negative tolerance, or an overhang angle out of range
 /// \throws std::overflow_error for coordinates that overflow in the rotation
 /// \cost   `convex_hull`, plus O(F) for the center of mass and for each side with an overhang
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<laid_flat> lay_flat(const mesh_ref& mesh,
                                                              const lay_flat_options& options = {});
-
-/// The rotations about the vertical that are tried for each part.
-enum class plate_turns : std::uint8_t {
-    none,
-    quarter,  ///< 4, by 90 degrees
-    eighth,   ///< 8, by 45 degrees
-    any,      ///< 24, by 15 degrees
-};
 
 /// The plates, and how to fill them.
 struct pack_options {
@@ -130,7 +110,9 @@ struct pack_options {
     /// The corner of the first plate with the lowest x and y; its z is the bed.
     point3 corner{};
     double spacing = 2.0;  ///< least distance of any two parts; parts may touch the plate's rim
-    plate_turns turns = plate_turns::quarter;
+    /// Rotations about the vertical that are tried for each part, evenly over the full circle: 1
+    /// (none), 2, 3, 4, 6, 8, 12 or 24.
+    unsigned turns = 4;
     /// Fill the box up to its height, which must be finite: parts may be above, below and inside
     /// one another, and hang in the air. Otherwise each part stands on the bed.
     bool stack = false;

@@ -48,13 +48,6 @@ struct placement_contact {
     std::size_t fixed = 0;                      ///< number of the fixed mesh
 };
 
-/// The most relevant fixed mesh: one that the moving mesh penetrates, else one that it touches,
-/// else the nearest.
-struct nearest_fixed {
-    std::size_t fixed = 0;  ///< its number; the lowest if several qualify
-    mesh_measure how{};     ///< `a` is the moving mesh
-};
-
 struct placement_statistics {
     unsigned backed_off = 0;          ///< steps back, since rounding made the mesh penetrate
     std::uint64_t fixed_culled = 0;   ///< fixed meshes skipped because of their box
@@ -81,10 +74,12 @@ struct placement {
     double clearance = 0.0;       ///< the given clearance
     std::optional<double> bed{};  ///< least z allowed, rounded: the bed plus the clearance
     double below_bed = 0.0;       ///< how far the mesh was below `bed` at the start
-    bool on_bed = false;          ///< the bed stopped it
     mesh_relation at_start = mesh_relation::separate;  ///< exact
     mesh_relation at_place = mesh_relation::separate;  ///< the same at the place
-    std::optional<nearest_fixed> nearest{};  ///< at the place; none if all are too far away
+    /// How the mesh, as `a`, lies at the place to the fixed mesh that it penetrates, else to one
+    /// that it touches, else to the nearest. None if all are too far away.
+    std::optional<mesh_measure> nearest{};
+    std::size_t nearest_fixed = 0;  ///< number of that mesh; the lowest if several qualify
     std::vector<placement_contact> contacts{};
     std::uint64_t contact_count = 0;     ///< number of all contacts, listed or not
     std::optional<double> max_travel{};  ///< the given limit
@@ -107,63 +102,33 @@ struct placement {
     /// are those of the files.
     [[nodiscard]] TREEFORM_API std::string relation_in_words(const body_set& moving,
                                                              const body_set& fixed) const;
-};
 
-/// How a face lies to the other meshes.
-enum class contact_class : std::uint8_t {
-    none,
-    penetrating,
-    touching,
-    near  ///< closer than the clearance, or where the mesh stopped at the clearance
-};
-
-struct contact_color_options {
-    /// Split polygons into triangles, for pictures. Otherwise a polygon has the worst class of its
-    /// triangles.
-    bool split_polygons = false;
-    bool keep_colors = false;  ///< keep existing colors of the file
-    /// Tints small faces around contacts, so that contacts of a few small faces can be seen: faces
-    /// with edges of at most twice this length, and all corners within this length of a face with a
-    /// class. Their own class stays none.
-    double halo = 0.0;
-};
-
-/// The class of each face.
-struct contact_classes {
-    std::vector<contact_class> moving{};  ///< [F] of the moving mesh
-    /// For each mesh: [F], or empty if all are none.
-    std::vector<std::vector<contact_class>> fixed{};
-
-    /// The classes of all triangles of the files (of a single cloud, of all its points), for
-    /// `color`. `moving` has one body; the files of `fixed` follow. With `fixed`, clouds are
-    /// omitted, as in `scene_of`.
+    /// How each face lies to the other meshes at the place: [0][F] of `moving`, then [1 + i][F] of
+    /// each of `fixed`, empty if all are separate. Faces of `contacts`, and those on the bed, count
+    /// as closer than the clearance or, without one, as touching, even if rounding left a gap.
     ///
-    /// \cost O(V + F)
-    [[nodiscard]] TREEFORM_API std::vector<contact_class> in_files(const body_set& moving,
-                                                                   const body_set& fixed) const;
-    /// The same without `fixed`.
-    [[nodiscard]] TREEFORM_API std::vector<contact_class> in_files(const body_set& moving) const;
-
-    /// The class of each face, with `moving` at the place. Contacts of the placement count as
-    /// contacts, even if rounding left a gap.
-    ///
-    /// \pre    `at` was returned by a placement of `moving` among `fixed`
+    /// \pre    this is a placement of `moving` among `fixed`
     /// \cost   O(P) for the P pairs of faces within the clearance of each other
     /// \same   on any number of threads
-    [[nodiscard]] TREEFORM_API static contact_classes of(const mesh_ref& moving,
-                                                         const mesh_refs& fixed,
-                                                         const placement& at);
+    [[nodiscard]] TREEFORM_API std::vector<std::vector<mesh_relation>> face_relations(
+        const mesh_ref& moving, const mesh_refs& fixed) const;
 
     /// Gives the rows of the element "face" of `file` (of a cloud, "vertex") the property tf_class,
-    /// a number of `contact_class`, and the colors red, green and blue: gray for none, red for
-    /// penetrating, yellow for touching, cyan for near, and tints of these around them (`halo`).
+    /// and the colors red, green and blue: 0 and gray for separate, 1 and red for penetrating, 2
+    /// and yellow for touching, 3 and cyan for closer than the clearance. `keep_colors` leaves
+    /// colors that the file has.
     ///
-    /// `classes` has one entry for each triangle of `file.mesh`; for a cloud, for each point.
+    /// Small faces around these have tints of them, so that contacts of a few small faces can be
+    /// seen: faces with edges of at most twice `halo`, a length, and all corners within it of a
+    /// face that is not separate. Their own number stays 0.
     ///
-    /// \throws std::invalid_argument for another number of classes
+    /// `relations` has one entry for each triangle of `file.mesh`; for a cloud, for each point. A
+    /// polygon has the gravest of its triangles; see `mesh_file::split_polygons`.
+    ///
+    /// \throws std::invalid_argument for another number of relations
     /// \cost   O(F)
-    TREEFORM_API static void color(mesh_file& file, std::span<const contact_class> classes,
-                                   const contact_color_options& options = {});
+    TREEFORM_API static void color(mesh_file& file, std::span<const mesh_relation> relations,
+                                   double halo = 0.0, bool keep_colors = false);
 };
 
 /// A file with its names.
@@ -176,23 +141,10 @@ struct body_file {
     std::optional<box3> box{};  ///< box of its bodies; none without a finite face or point
 };
 
-/// A body of a file: its whole mesh, a part of it, or a cloud.
-struct file_body {
-    std::size_t file = 0;  ///< number of the file
-    std::string name{};    ///< of the part; empty if the file has only one
-    /// [F] the triangle in the file's mesh (the point of a cloud) of each face; empty: the same
-    /// number.
-    std::vector<std::uint32_t> triangle_of_face{};
-
-    [[nodiscard]] std::uint32_t triangle(std::uint32_t f) const {
-        return triangle_of_face.empty() ? f : triangle_of_face[f];
-    }
-};
-
-/// Files and their bodies, ready for placement.
+/// Files and their bodies, ready for placement. A body is the whole mesh of a file, a part of it,
+/// or a cloud.
 struct TREEFORM_API body_set {
-    std::deque<body_file> files{};    ///< references stay valid when files are added
-    std::vector<file_body> bodies{};  ///< [B]
+    std::deque<body_file> files{};  ///< references stay valid when files are added
     /// [B] The mesh of each body: the finite triangles of the file, with equal corners joined, and
     /// only the points that they use. For a cloud, its finite points.
     std::vector<prepared_mesh> shapes{};
@@ -210,6 +162,11 @@ struct TREEFORM_API body_set {
     body_file& add_named_parts(mesh_file file, std::string label = {}, std::string name = {});
 
     [[nodiscard]] const body_file& file_of(std::size_t body) const;
+    [[nodiscard]] std::size_t file_number(std::size_t body) const;
+    /// The name of a part; empty if the file is one body.
+    [[nodiscard]] const std::string& part_name(std::size_t body) const;
+    /// The triangle in its file's mesh (the point of a cloud) of a body's face `f`.
+    [[nodiscard]] std::uint32_t triangle(std::size_t body, std::uint32_t f) const;
     /// The number of a body's face `f` in its file.
     [[nodiscard]] std::uint32_t stored_face(std::size_t body, std::uint32_t f) const;
     /// For messages: the file, and the part.
@@ -221,10 +178,25 @@ struct TREEFORM_API body_set {
     void put_back(std::size_t body, points_view placed, const transform<3>& matrix,
                   precision written_as);
 
+    /// The relations of all triangles of the files (of clouds, of all their points), for
+    /// `placement::color`; `relations` [B] are those of the faces of each body, or empty. Without
+    /// `clouds` these are omitted, as in `scene_of`.
+    ///
+    /// \cost O(V + F)
+    [[nodiscard]] std::vector<mesh_relation> relations_in_files(
+        std::span<const std::vector<mesh_relation>> relations, bool clouds) const;
     /// [V of its file] The distances of a body's points, `distances` by points of its shape; NaN
     /// for points that are not the body's.
     [[nodiscard]] std::vector<double> distances_in_file(std::size_t body,
                                                         std::span<const double> distances) const;
+
+  private:
+    struct body {
+        std::size_t file = 0;
+        std::string part{};
+        std::vector<std::uint32_t> triangle_of_face{};  ///< [F]; empty: the same number
+    };
+    std::vector<body> bodies_{};  ///< [B]
 };
 
 /// "separate", "closer-than-clearance".

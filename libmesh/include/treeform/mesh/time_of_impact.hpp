@@ -99,14 +99,9 @@ struct impact {
                                                    const point3& motion, double distance,
                                                    const impact_options& options = {});
 
-/// An axis of rotation; rotations are right-handed (counter-clockwise seen against `direction`).
-struct turn_axis {
-    point3 origin{};                  ///< any point of the line
-    point3 direction{0.0, 0.0, 1.0};  ///< of any length but 0
-};
-
-/// Turns `moving` about the axis until it first comes within the tolerance of one of `fixed`, or of
-/// the clearance from one.
+/// Turns `moving` until it first comes within the tolerance of one of `fixed`, or of the clearance
+/// from one. The axis is the line through `origin` along `direction`, of any length but 0. Turns
+/// are right-handed: counter-clockwise seen against the direction.
 ///
 /// Conservative advancement: in no step can a pair of faces meet, by bounds on the speed of their
 /// corners, up to the rounding of distances. The returned coordinates are checked exactly: they
@@ -132,7 +127,7 @@ struct turn_axis {
 /// \source the idea of steps by a bound of the motion: Mirtich, Impulse-based Dynamic Simulation of
 ///         Rigid Body Systems (1996), conservative advancement
 [[nodiscard]] TREEFORM_API placement turn(const mesh_ref& moving, const mesh_refs& fixed,
-                                          const turn_axis& axis,
+                                          const point3& origin, const point3& direction,
                                           const placement_options& options = {});
 
 }  // namespace treeform

@@ -43,17 +43,14 @@ py::object hollow(const held_mesh& mesh, double wall, const array_of<double>& dr
                   tf::offset_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
         options.progress = report;
-        return tf::hollow(mesh.ref(), wall, rows_of<tf::drain>(drains), options);
+        return tf::hollow(mesh.ref(), wall, points_and_numbers(drains), options);
     }));
 }
 
-py::object thicken(const held_mesh& mesh, double thickness, const std::string& side,
-                   tf::offset_options options) {
+py::object thicken(const held_mesh& mesh, double thickness, tf::offset_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
         options.progress = report;
-        return tf::thicken(mesh.ref(), thickness,
-                           choice<tf::thick_side>("side", words_of<tf::thick_side>::all, side),
-                           options);
+        return tf::thicken(mesh.ref(), thickness, options);
     }));
 }
 

@@ -53,7 +53,6 @@ py::object object(of_result, tf::clash_result&& from);
 
 py::dict counters(const tf::boolean_statistics& from);
 py::dict counters(const tf::repair_statistics& from);
-py::dict counters(const tf::offset_statistics& from);
 py::dict counters(const tf::weld_statistics& from);
 py::dict counters(const tf::weld_stream_counts& from);
 

@@ -171,8 +171,8 @@ py::object turn(const held_mesh& moving, const held_meshes& fixed, const array_o
                 const array_of<double>& origin, tf::placement_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
-                         return tf::turn(moving.ref(), refs_of(fixed),
-                                         {point_of(origin), point_of(axis)}, options);
+                         return tf::turn(moving.ref(), refs_of(fixed), point_of(origin),
+                                         point_of(axis), options);
                      }),
                      moving);
 }

@@ -79,6 +79,7 @@ template <class Visit>
 void each_field(tf::offset_options& how, const Visit& visit) {
     visit("resolution", how.resolution);
     visit("offset", how.offset);
+    visit("shift", how.shift);
     visit("precision", how.precision);
 }
 
@@ -185,8 +186,9 @@ void each_field(tf::impact_options& how, const Visit& visit) {
 
 template <class Visit>
 void each_field(tf::lay_flat_options& how, const Visit& visit) {
-    visit("choose", how.choose);
-    visit("toward", how.toward);
+    visit("normal", how.normal);
+    visit("point", how.point);
+    visit("most_stable", how.most_stable);
     visit("keep_spin", how.keep_spin);
     visit("tolerance", how.tolerance);
     visit("bed", how.bed);

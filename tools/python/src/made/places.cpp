@@ -106,10 +106,8 @@ py::object object(of_result, tf::placement&& from, const held_mesh& moving) {
     made["travel"] = as_python(std::move(from.travel));
     made["at_start"] = as_python(std::move(from.at_start));
     made["at_place"] = as_python(std::move(from.at_place));
-    made["nearest"] = from.nearest
-                          ? py::object(py::make_tuple(from.nearest->fixed,
-                                                      as_python(std::move(from.nearest->how))))
-                          : py::none();
+    made["nearest"] = as_python(std::move(from.nearest));
+    made["nearest_fixed"] = as_python(std::move(from.nearest_fixed));
     made["contacts"] = as_python(std::move(from.contacts));
     made["contact_count"] = as_python(std::move(from.contact_count));
     made["effort"] = as_python(std::move(from.effort));
@@ -146,10 +144,11 @@ py::object object(of_result, tf::laid_flat&& from, const held_mesh& moving) {
     made["matrix"] = as_python(std::move(from.matrix));
     made["areas"] = column(from.sides, [](const auto& one) { return one.area; });
     made["normals"] = column(from.sides, [](const auto& one) { return one.normal; });
-    made["tip_angles"] = column(from.stability, [](const auto& one) { return one.tip_angle; });
-    made["overhangs"] = column(from.stability, [](const auto& one) { return one.overhang; });
+    made["tip_angles"] = as_python(std::move(from.tip_angles));
+    made["center_heights"] = as_python(std::move(from.center_heights));
+    made["overhangs"] = as_python(std::move(from.overhangs));
     made["center_of_mass"] = as_python(std::move(from.center_of_mass));
-    made["mass"] = as_python(std::move(from.mass));
+    made["mass_dimension"] = as_python(std::move(from.mass_dimension));
     made["chosen"] = as_python(std::move(from.chosen));
     made["on_bed"] = as_python(std::move(from.on_bed));
     made["certificate"] = certificate;

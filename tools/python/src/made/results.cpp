@@ -106,8 +106,16 @@ py::object object(of_result, tf::offset_result&& from) {
     py::dict made;
     made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
     made["certificate"] = certificate;
-    made["statistics"] = counters(from.statistics);
+    made["distance"] = as_python(std::move(from.distance));
+    made["resolution"] = as_python(std::move(from.resolution));
+    made["least"] = as_python(std::move(from.least));
+    made["greatest"] = as_python(std::move(from.greatest));
+    made["cells"] = as_python(std::move(from.cells));
+    made["sealed_cavities"] = as_python(std::move(from.sealed_cavities));
     made["blind_drains"] = as_python(std::move(from.blind_drains));
+    made["tetrahedra"] = as_python(std::move(from.tetrahedra));
+    made["tetrahedra_points"] = as_python(std::move(from.tetrahedra_points));
+    made["filled_tetrahedra"] = as_python(std::move(from.filled_tetrahedra));
     return object_of("treeform._shapes", "OffsetResult", made);
 }
 
@@ -391,20 +399,6 @@ py::dict counters(const tf::repair_statistics& from) {
     made["area_before"] = from.area_before;
     made["area_after"] = from.area_after;
     made["area_lost"] = from.area_lost;
-    return made;
-}
-
-py::dict counters(const tf::offset_statistics& from) {
-    py::dict made;
-    made["distance"] = from.distance;
-    made["resolution"] = from.resolution;
-    made["least"] = from.least;
-    made["greatest"] = from.greatest;
-    made["cells"] = from.cells;
-    made["sealed_cavities"] = from.sealed_cavities;
-    made["points"] = from.points;
-    made["tetrahedra"] = from.tetrahedra;
-    made["filled"] = from.filled;
     return made;
 }
 

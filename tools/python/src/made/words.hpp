@@ -20,10 +20,6 @@ struct words_of<tf::column_role> {
     static constexpr words<6> all{"data", "x", "y", "z", "corners", "texture"};
 };
 template <>
-struct words_of<tf::contact_class> {
-    static constexpr words<4> all{"none", "penetrating", "touching", "near"};
-};
-template <>
 struct words_of<tf::feature> {
     static constexpr words<7> all{"v0", "v1", "v2", "e0", "e1", "e2", "interior"};
 };
@@ -40,16 +36,8 @@ struct words_of<tf::fill_rule> {
     static constexpr words<3> all{"nonzero", "odd", "positive"};
 };
 template <>
-struct words_of<tf::lay_choice> {
-    static constexpr words<4> all{"largest", "nearest_normal", "holding_point", "most_stable"};
-};
-template <>
 struct words_of<tf::location> {
     static constexpr words<3> all{"outside", "inside", "boundary"};
-};
-template <>
-struct words_of<tf::mass_of> {
-    static constexpr words<3> all{"solid", "surface", "points"};
 };
 template <>
 struct words_of<tf::mesh_relation> {
@@ -87,10 +75,6 @@ struct words_of<tf::placement_end> {
                                    "cancelled"};
 };
 template <>
-struct words_of<tf::plate_turns> {
-    static constexpr words<4> all{"none", "quarter", "eighth", "any"};
-};
-template <>
 struct words_of<tf::precision> {
     static constexpr words<2> all{"float32", "float64"};
 };
@@ -116,10 +100,6 @@ struct words_of<tf::status> {
     static constexpr words<10> all{"ok",           "open_input",    "sheet",    "excessive_loss",
                                    "not_manifold", "not_certified", "vanished", "out_of_range",
                                    "no_place",     "cancelled"};
-};
-template <>
-struct words_of<tf::thick_side> {
-    static constexpr words<3> all{"both", "front", "back"};
 };
 template <>
 struct words_of<tf::thickness_by> {

@@ -59,8 +59,8 @@ TREEFORM_C_API treeform_code treeform_color_distances(treeform_file* file, const
                                                       size_t count, double low, double high);
 
 /// Gives the triangles of a file (of a cloud, its points) the property tf_class and its color:
-/// `classes` [count] are those of `treeform_contact_classes`. Triangles up to twice `halo` wide
+/// `relations` [count] are those of `treeform_face_relations`. Triangles up to twice `halo` wide
 /// around them have a tint.
-TREEFORM_C_API treeform_code treeform_color_contacts(treeform_file* file, const uint8_t* classes,
+TREEFORM_C_API treeform_code treeform_color_contacts(treeform_file* file, const uint8_t* relations,
                                                      size_t count, double halo);
 // end

@@ -5,28 +5,12 @@
 #include <treeform/c/properties.h>
 
 // made of the headers of C++:
-//   lay_choice lay_flat_options side_stability laid_flat lay_flat() plate_turns pack_options
-//   packed_part packing pack() align_method align_options align_freedom align_end align_result
-//   align()
-/// Which side of the convex hull goes down.
-typedef int32_t treeform_lay_choice;
-enum {
-    /// the side of the largest area
-    TREEFORM_LAY_LARGEST = 0,
-    /// the side whose outward normal makes the least angle with `toward`
-    TREEFORM_LAY_NEAREST_NORMAL = 1,
-    /// the side nearest to `toward`: the one that contains it, if one does
-    TREEFORM_LAY_HOLDING_POINT = 2,
-    /// the side with the largest tip angle
-    TREEFORM_LAY_MOST_STABLE = 3
-};
-
-/// How to lay a mesh flat.
+//   lay_flat_options laid_flat lay_flat() pack_options packed_part packing pack() align_method
+//   align_options align_freedom align_end align_result align()
+/// How to lay a mesh flat. At most one of `normal`, `point` and `most_stable` chooses the side of
+/// the convex hull that goes down; otherwise the side of the largest area does.
 typedef struct treeform_lay_flat_options {
     size_t size;
-    treeform_lay_choice choose;
-    /// a direction of any length, or a point, in the coordinates of the mesh
-    double toward[3];
     /// Do not rotate about the vertical. Otherwise the mesh is also rotated about it, by at most
     /// 45 degrees, so that the longest edge of the side runs along x or y.
     int32_t keep_spin;
@@ -40,22 +24,15 @@ typedef struct treeform_lay_flat_options {
     treeform_precision precision;  ///< of the points returned; default float64
     treeform_progress progress;
     void* progress_data;
+    /// [3] The side whose outward normal makes the least angle with this direction, of any length,
+    /// in the coordinates of the mesh; or null
+    const double* normal;
+    /// [3] The side nearest to this point: the one that contains it, if one does; or null
+    const double* point;
+    int32_t most_stable;  ///< the side with the largest tip angle
 } treeform_lay_flat_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_lay_flat_options_init(treeform_lay_flat_options* options, size_t size);
-
-/// How a mesh stands on a side.
-typedef struct treeform_stability {
-    /// The least tilt, in degrees, that brings the center of mass over an edge of the side, so
-    /// that the mesh tips over. 90 if the center is in the plane of the side. Negative if the
-    /// center is not over the side: then the mesh tips over by itself.
-    double tip_angle;
-    double height;  ///< height of the center of mass over the plane of the side
-    /// Area of the faces that need support: faces off the bed that point down at more than
-    /// `overhang_angle` from the vertical. Only computed for the first `overhang_sides` sides and
-    /// the chosen one, else NaN.
-    double overhang;
-} treeform_stability;
 
 /// A mesh on the bed.
 typedef struct treeform_laid_flat {
@@ -73,16 +50,28 @@ typedef struct treeform_laid_flat {
     /// [side_count] The sides of the convex hull before the rotation, largest area first. With a
     /// tolerance, a side includes its neighbors within the tolerance of its plane.
     const treeform_hull_side* sides;
-    const treeform_stability* stability;  ///< of each of `sides`
     size_t side_count;
     size_t chosen;             ///< number in `sides`
     double center_of_mass[3];  ///< before the rotation, rounded
-    int32_t mass_of;           ///< what `center_of_mass` is the center of
     const uint32_t* on_bed;    ///< [on_bed_count] points of that side, ascending
     size_t on_bed_count;
     /// The largest change of a z, beyond the rotation, that put a point on the bed or not below
     /// it: a few units in the last place; with a tolerance, about the tolerance.
     double corrected;
+    /// [S] for each side the least tilt, in degrees, that brings the center of mass over an edge
+    /// of it, so that the mesh tips over. 90 if the center is in the plane of the side. Negative
+    /// if the center is not over the side: then the mesh tips over by itself.
+    const double* tip_angles;
+    /// [S] of the center of mass over the plane of the side
+    const double* center_heights;
+    /// [S] area of the faces that need support if the side is down: faces off the bed that point
+    /// down at more than `overhang_angle` from the vertical. Only computed for the first
+    /// `overhang_sides` sides and the chosen one, else NaN.
+    const double* overhangs;
+    /// The dimension of what has the mass: 3 for the solid that a closed mesh bounds; 2 for the
+    /// faces of a mesh that bounds none, as sheets of equal thickness; 0 for the points of a mesh
+    /// without a face of positive area.
+    int32_t mass_dimension;
 } treeform_laid_flat;
 
 /// Rotates `mesh` so that a flat side of its convex hull is on the bed. The center of its box
@@ -97,18 +86,6 @@ TREEFORM_C_API treeform_code treeform_lay_flat(const treeform_mesh* mesh,
                                                const treeform_lay_flat_options* options,
                                                treeform_laid_flat** flat);
 
-/// The rotations about the vertical that are tried for each part.
-typedef int32_t treeform_plate_turns;
-enum {
-    TREEFORM_TURNS_NONE = 0,
-    /// 4, by 90 degrees
-    TREEFORM_TURNS_QUARTER = 1,
-    /// 8, by 45 degrees
-    TREEFORM_TURNS_EIGHTH = 2,
-    /// 24, by 15 degrees
-    TREEFORM_TURNS_ANY = 3
-};
-
 /// The plates, and how to fill them.
 typedef struct treeform_pack_options {
     size_t size;
@@ -118,7 +95,9 @@ typedef struct treeform_pack_options {
     double corner[3];
     /// least distance of any two parts; parts may touch the plate's rim; default 2.0
     double spacing;
-    treeform_plate_turns turns;  ///< default quarter
+    /// Rotations about the vertical that are tried for each part, evenly over the full circle: 1
+    /// (none), 2, 3, 4, 6, 8, 12 or 24; default 4
+    uint32_t turns;
     /// Fill the box up to its height, which must be finite: parts may be above, below and inside
     /// one another, and hang in the air. Otherwise each part stands on the bed.
     int32_t stack;

@@ -76,12 +76,12 @@ typedef struct treeform_placement {
     double clearance;                 ///< the given clearance
     double bed;                       ///< least z allowed, rounded: the bed plus the clearance
     double below_bed;                 ///< how far the mesh was below `bed` at the start
-    int32_t on_bed;                   ///< the bed stopped it
     treeform_mesh_relation at_start;  ///< exact
     treeform_mesh_relation at_place;  ///< the same at the place
-    /// the fixed mesh that matters most; `TREEFORM_NONE` for none
-    uint32_t nearest_fixed;
-    const treeform_relation* nearest;  ///< how it lies to the moving one, `a`; or null
+    size_t nearest_fixed;             ///< number of that mesh; the lowest if several qualify
+    /// How the mesh, as `a`, lies at the place to the fixed mesh that it penetrates, else to one
+    /// that it touches, else to the nearest. None if all are too far away.
+    const treeform_relation* nearest;
     const treeform_contact* contacts;  ///< [contact_listed]
     size_t contact_listed;
     uint64_t contact_count;  ///< number of all contacts, listed or not
@@ -188,8 +188,24 @@ TREEFORM_C_API treeform_code treeform_separate(const treeform_mesh* moving,
                                                const treeform_place_options* options,
                                                treeform_placement** placement);
 
-/// Turns `moving` about the axis through `origin` along `direction` until it first comes within
-/// the tolerance of one of `fixed`, or of the clearance from one.
+/// Turns `moving` until it first comes within the tolerance of one of `fixed`, or of the clearance
+/// from one. The axis is the line through `origin` along `direction`, of any length but 0. Turns
+/// are right-handed: counter-clockwise seen against the direction.
+///
+/// Conservative advancement: in no step can a pair of faces meet, by bounds on the speed of their
+/// corners, up to the rounding of distances. The returned coordinates are checked exactly: they
+/// penetrate nothing, and keep the clearance as computed by `treeform_distance`. If rounding
+/// violates that, the rotation is reduced by units in the last place. A mesh that touches at the
+/// start stays; one that penetrates has no place. With `nothing_met`, all of `max_angle` is free.
+/// `too_many_steps` means undecided: the mesh passes another at a distance that is very small
+/// compared with its size, over a long way.
+///
+/// `travel` is 0, and `points` differ from `matrix` by a few units in the last place of the
+/// largest coordinate. `contacts` are the pairs of faces within the tolerance, beyond the
+/// clearance. `at_place` is exact: separate, in general, by no more than the tolerance.
+///
+/// Points that no face uses turn along and are otherwise ignored. Clouds are
+/// `treeform_cloud_create`.
 TREEFORM_C_API treeform_code treeform_turn(const treeform_mesh* moving,
                                            const treeform_mesh* const* fixed, size_t count,
                                            const double origin[3], const double direction[3],
@@ -212,23 +228,24 @@ TREEFORM_C_API treeform_code treeform_measure_among(const treeform_mesh* moving,
                                                     treeform_placement** placement);
 // end
 
-/// The class of each face with `moving` at the place: 0 none, 1 penetrating, 2 touching, 3 near.
-typedef struct treeform_contact_classes {
+/// How each face lies to the other meshes, with `moving` at the place: a `treeform_mesh_relation`.
+typedef struct treeform_face_relations {
     void* owner;
     const uint8_t* moving;  ///< [F] of the moving mesh
     size_t moving_count;
-    const uint8_t* const* fixed;  ///< by mesh: [F], or null when all are 0
+    const uint8_t* const* fixed;  ///< by mesh: [F], or null when all are separate
     size_t fixed_count;
-} treeform_contact_classes;
+} treeform_face_relations;
 
 // made of the headers of C++:
-//   classify_contacts() face_contact impact impact_options time_of_impact() time_to_distance()
-/// The class of each face; `treeform_placement` is one of `moving` among `fixed`.
-TREEFORM_C_API treeform_code treeform_classify_contacts(const treeform_mesh* moving,
-                                                        const treeform_mesh* const* fixed,
-                                                        size_t count,
-                                                        const treeform_placement* placement,
-                                                        treeform_contact_classes** classes);
+//   find_face_relations() face_contact impact impact_options time_of_impact()
+//   time_to_distance()
+/// How each face lies to the other meshes; `treeform_placement` is one of `moving` among `fixed`.
+TREEFORM_C_API treeform_code treeform_find_face_relations(const treeform_mesh* moving,
+                                                          const treeform_mesh* const* fixed,
+                                                          size_t count,
+                                                          const treeform_placement* placement,
+                                                          treeform_face_relations** relations);
 
 /// A pair of faces that meet when the meshes first do.
 typedef struct treeform_impact_contact {

@@ -1,27 +1,15 @@
 #pragma once
 /// \file
 /// Offset, hollow and thickened solids; simplification; wall thickness; smallest boxes around
-/// points; isolines.
+/// points; isolines. Drains of `treeform_hollow` are [count][4]: a point, and a diameter.
 
 #include <treeform/c/cuts.h>
 #include <treeform/c/mesh.h>
 
 // made of the headers of C++:
-//   thick_side drain offset_options offset_result wrap() offset() hollow() thicken()
-//   simplify_options simplify_result simplify() thickness_by thickness_result wall_thickness()
-//   oriented_box find_oriented_box() isoline isolines_result isolines() write_isolines()
-//   cut_along()
-/// The sides to which a surface is thickened; from the front, faces are counter-clockwise.
-typedef int32_t treeform_thick_side;
-enum { TREEFORM_THICK_BOTH = 0, TREEFORM_THICK_FRONT = 1, TREEFORM_THICK_BACK = 2 };
-
-/// A hole through the wall of a hollow solid.
-typedef struct treeform_drain {
-    double at[3];  ///< the hole is drilled at the point of the surface nearest to this
-    /// of the circle through the corners of a regular prism of 32 sides
-    double diameter;
-} treeform_drain;
-
+//   offset_options offset_result wrap() offset() hollow() thicken() simplify_options
+//   simplify_result simplify() thickness_by thickness_result wall_thickness() oriented_box
+//   find_oriented_box() isoline isolines_result isolines() write_isolines() cut_along()
 /// How to make a surface at a distance. What an operation has no use for, it ignores.
 typedef struct treeform_offset_options {
     size_t size;
@@ -30,7 +18,7 @@ typedef struct treeform_offset_options {
     /// twice the resolution is on the right side of the surface. Smaller details may be lost.
     /// Default: a quarter of the distance, at most 1/64 of the diagonal of the result; larger, up
     /// to half of the distance, if there would be more than about 2^16 cells at the surface
-    /// (170,000 faces). `offset_statistics` has the value used, and the error; NaN: not given
+    /// (170,000 faces). `treeform_offset_result` has the value used, and the error; NaN: not given
     double resolution;
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
     /// float64
@@ -40,6 +28,9 @@ typedef struct treeform_offset_options {
     /// `treeform_wrap`: how far the vertices of the wrap are from the mesh, in its length unit.
     /// Not given: a thirtieth of the size; NaN: not given
     double offset;
+    /// `treeform_thicken`: how far the surface is first moved to its front, in its length unit;
+    /// negative: to its back. Half of the thickness leaves its back where it is.
+    double shift;
 } treeform_offset_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_offset_options_init(treeform_offset_options* options, size_t size);
@@ -53,26 +44,28 @@ typedef struct treeform_offset_result {
     /// no solid; `open` lists where. `vanished`: nothing is left, since the solid is nowhere thick
     /// enough, or only by less than a cell.
     const treeform_certificate* certificate;
-    /// that was asked for, without its sign; of `treeform_wrap`, how far its vertices are
+    /// asked for, without its sign; of `treeform_wrap`, that of its vertices
     double distance;
     double resolution;  ///< that was used; of `treeform_wrap`, its size
     /// Bounds of the distance from any point of the surface made, in its faces too, to the mesh
-    /// that it is the offset of: all are in [least, greatest]. Found by branch and bound; each is
-    /// within a sixteenth of the resolution of what is there. 0 where there is no surface, and of
-    /// `treeform_wrap`.
+    /// that it is the offset of: all are in [least, greatest]. Of `treeform_hollow`, of the
+    /// cavities' surface; of `treeform_thicken`, to the moved surface. Found by branch and bound;
+    /// each is within a sixteenth of the resolution of what is there. 0 where there is no surface,
+    /// and of `treeform_wrap`.
     double least;
-    double greatest;
-    uint64_t cells;  ///< cells that the surface may pass through
+    double greatest;  ///< the upper bound
+    uint64_t cells;   ///< cells that the surface may pass through
     /// For `treeform_hollow`: cavities without an opening, those of the input included.
     uint64_t sealed_cavities;
     /// [blind_drain_count] For `treeform_hollow`: numbers of drains that do not lead from outside
     /// into a cavity, as far as the ends of their axes show.
     const uint32_t* blind_drains;
     size_t blind_drain_count;
-    uint64_t points;      ///< of `treeform_wrap`: of the tetrahedra that were made
     uint64_t tetrahedra;  ///< of `treeform_wrap`: at the end
-    /// of `treeform_wrap`: tetrahedra filled so that it is a manifold
-    uint64_t filled;
+    /// of `treeform_wrap`: of the tetrahedra that were made
+    uint64_t tetrahedra_points;
+    /// of `treeform_wrap`: filled so that it is a manifold
+    uint64_t filled_tetrahedra;
 } treeform_offset_result;
 
 /// A solid that holds all faces of `mesh`, whatever they are: open, crossing, turned any way, of
@@ -99,22 +92,24 @@ TREEFORM_C_API treeform_code treeform_offset(const treeform_mesh* mesh, double d
                                              treeform_offset_result** result);
 
 /// The solid without its points deeper inside than `wall`: the surface stays bit for bit, around
-/// new cavities. Each drain runs along the shortest segment from the surface to a cavity. It
-/// extends beyond both ends by its diameter, but at most half of the way to the next surface.
-/// `statistics` are those of the cavities. The status is `vanished` if there is no cavity.
+/// new cavities. The status is `vanished` if there is no cavity.
+///
+/// `drains` are holes through the wall: a point and a diameter. Each runs from the nearest point
+/// of the surface along the shortest segment to a cavity, as a regular prism of 32 sides; the
+/// diameter is that of the circle through its corners. It extends beyond both ends by its
+/// diameter, but at most half of the way to the next surface.
 TREEFORM_C_API treeform_code treeform_hollow(const treeform_mesh* mesh, double wall,
-                                             const treeform_drain* drains, size_t count,
+                                             const double* drains, size_t count,
                                              const treeform_offset_options* options,
                                              treeform_offset_result** result);
 
 /// A solid around any surface: all points at most half of `thickness` away. Its rim is round.
 ///
-/// With `front` or `back` the surface is first moved to that side by half of the thickness: each
-/// vertex so that the planes of its faces move that far, on average. This is exact where the
+/// With a `shift` the surface is first moved to its front, from where faces are counter-clockwise:
+/// each vertex so that the planes of its faces move that far, on average. This is exact where the
 /// surface is flat, and rounds it where it bends. Vertices of sharp folds move by at most twice
-/// that. `statistics` are those of the moved surface. Faces must be consistently oriented.
+/// that. Faces must be consistently oriented.
 TREEFORM_C_API treeform_code treeform_thicken(const treeform_mesh* mesh, double thickness,
-                                              treeform_thick_side side,
                                               const treeform_offset_options* options,
                                               treeform_offset_result** result);
 
