@@ -143,6 +143,7 @@ static void test_deviation(void) {
     treeform_deviation_options options;
     treeform_deviation_result* result = NULL;
     int calls = 0;
+    size_t i;
     OK(treeform_cloud_create(points, 3, 0, &cloud));
     fixed[0] = solid;
     treeform_deviation_options_init(&options, sizeof options);
@@ -151,9 +152,8 @@ static void test_deviation(void) {
     OK(treeform_deviation(cloud, fixed, 1, &options, &result));
     CHECK(result->count == 3 && result->is_signed == 1 && result->distances[0] == 0.25);
     CHECK(result->distances[1] == -0.25 && result->distances[2] == 0.0 && result->max == 0.25);
-    CHECK(result->below == 1 && result->within == 1 && result->above == 1);
-    CHECK(result->sides[0] == 1 && result->sides[1] == 1 && result->sides[2] == 1);
-    CHECK(result->bins == 40 && result->there_sampled == 0.25 && result->back_sampled > 0.0);
+    for (i = 0; i < 3; ++i) CHECK(result->band_counts[i] == 1 && result->side_counts[i] == 1);
+    CHECK(result->bins == 40 && result->there_at_most == 0.25 && result->back_max > 0.0);
     treeform_free(result);
     options.band_low = 0.2;
     INVALID("", treeform_deviation(cloud, fixed, 1, &options, &result));

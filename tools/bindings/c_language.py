@@ -115,6 +115,9 @@ class Language:
             size = {"pair_kind_count": "7"}.get(found.group(1), found.group(1))
             return [Member(f"uint64_t {name}[{size}]", one.doc,
                            f"std::copy({source}.begin(), {source}.end(), {to});")]
+        if found := re.fullmatch(r"optional<array<uint64_t,(\d)>>", type):
+            return [Member(f"uint64_t {name}[{found.group(1)}]", one.doc,
+                           f"if ({source}) std::copy({source}->begin(), {source}->end(), {to});")]
         simple = {"optional<double>": ("double", f"{source}.value_or(not_known)"),
                   "optional<uint32_t>": ("uint32_t", f"{source}.value_or(TREEFORM_NONE)"),
                   "box3": ("treeform_box", f"copied({source})"),

@@ -137,27 +137,8 @@ BOUND = [
                "if (!std::isnan(o.band_low) || !std::isnan(o.band_high))"
                " how.band = {o.band_low, o.band_high};", "to.band_low = not_known;"),
         Member("double band_high", "", "", "", "to.band_high = not_known;")]}),
-    Bound("deviation_result", leave="winding_numbers", counts={"distances": "count", "faces": ""},
-          custom={
-        "sides": [Member("uint64_t sides[3]", "points inside, on and outside",
-                         "if (from.sides) { to.sides[0] = from.sides->inside; "
-                         "to.sides[1] = from.sides->on; to.sides[2] = from.sides->outside; }")],
-        "there": [Member(f"double there_{name}", doc, f"to.there_{name} = from.there.{name};")
-                  for name, doc in (("sampled", "over the points of the first"),
-                                    ("at_most", "a bound for its surface"))],
-        "back": [Member(f"double back_{name}", doc,
-                        f"to.back_{name} = from.back ? from.back->{name} : not_known;")
-                 for name, doc in (("sampled", "the other way; NaN unless `both_ways`"),
-                                   ("at_most", ""))],
-        "histogram": [
-            Member("double histogram_low", "", "to.histogram_low = from.histogram.low;"),
-            Member("double histogram_high", "", "to.histogram_high = from.histogram.high;"),
-            Member("const uint64_t* histogram", "[bins]",
-                   "to.histogram = from.histogram.counts.data();"),
-            Member("size_t bins", "", "to.bins = from.histogram.counts.size();")],
-        "band": [Member(f"uint64_t {name}", doc,
-                        f"if (from.band) to.{name} = from.band->{name};")
-                 for name, doc in (("below", "the band"), ("within", ""), ("above", ""))]}),
+    Bound("deviation_result", leave="winding_numbers",
+          counts={"distances": "count", "faces": "", "histogram": "bins"}),
     # weld.h
     Bound("weld_condition", kind="part"),
     Bound("weld_options", custom={"may_merge": [

@@ -10,7 +10,8 @@ from headers import Enum, Field, Struct
 
 NUMBERS = {"double": "float", "bool": "bool", "int": "int", "unsigned": "int", "size_t": "int",
            "uint8_t": "int", "uint32_t": "int", "uint64_t": "int", "int32_t": "int",
-           "array<double,2>": "tuple[float, float]"}
+           "array<double,2>": "tuple[float, float]",
+           "array<uint64_t,3>": "tuple[int, int, int]"}
 #: Annotations and shapes of what becomes arrays.
 ARRAYS = {"point3": ("Floats", "(3,)"), "transform<3>": ("Floats", "(4, 4)"),
           "array<array<double,3>,3>": ("Floats", "(3, 3)"), "box3": ("Floats", "(2, 3)"),

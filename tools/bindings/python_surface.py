@@ -282,31 +282,10 @@ RESULTS = [
            doc="How far points are from a surface.",
            docs={"is_signed": "Whether distances have a sign."},
            custom={
-               "sides": [Attribute("side_counts", "tuple[int, int, int] | None", "Where they have: "
-                                   "how many points are inside, on, outside; exact. Else None.",
-                                   "from.sides ? py::object(py::make_tuple(from.sides->inside, "
-                                   "from.sides->on, from.sides->outside)) : py::none()")],
-               "there": [Attribute("there", "tuple[float, float]",
-                                   "(over the points of the first, a bound that no point of its "
-                                   "surface exceeds); of the distances from the first to the "
-                                   "second.",
-                                   "py::make_tuple(from.there.sampled, from.there.at_most)")],
-               "back": [Attribute("back", "tuple[float, float] | None",
-                                  "The same from the second to the first; the larger one is the "
-                                  "Hausdorff distance. None unless `both_ways`.",
-                                  "from.back ? py::object(py::make_tuple(from.back->sampled, "
-                                  "from.back->at_most)) : py::none()")],
                "histogram": [
-                   Attribute("histogram_range", "tuple[float, float]", "From where to where the "
-                             "intervals of `histogram` go.",
-                             "py::make_tuple(from.histogram.low, from.histogram.high)"),
                    Attribute("histogram", "NDArray[np.uint64]", "(bins,) how many signed distances "
-                             "are in intervals of equal length.",
-                             "as_python(std::move(from.histogram.counts))")],
-               "band": [Attribute("band_counts", "tuple[int, int, int] | None",
-                                  "With `band`: how many are below, within, above.",
-                                  "from.band ? py::object(py::make_tuple(from.band->below, "
-                                  "from.band->within, from.band->above)) : py::none()")]}),
+                             "are in intervals of equal length from `lowest` to `highest`.",
+                             "as_python(std::move(from.histogram))")]}),
     Result("closest_points_result", "NearestPoints", "_assembly", "NamedTuple"),
     Result("closest_point_result", "ClosestPoints", "_nearness", "NamedTuple",
            rows="std::optional<tf::{}>", names={"point": "closest", "face": "triangle_id"},

@@ -201,10 +201,8 @@ inline void penetration_depth(const tf::mesh_ref& a, const tf::mesh_ref& b,
 inline void count_sides(std::span<const tf::point3> points, const tf::mesh_refs& solids,
                         std::uint64_t counts[3]) {
     (void)need(counts, "counts");
-    const tf::side_counts found = tf::count_sides(points, solids);
-    counts[0] = found.inside;
-    counts[1] = found.on;
-    counts[2] = found.outside;
+    const auto found = tf::count_sides(points, solids);
+    std::copy(found.begin(), found.end(), counts);
 }
 
 }  // namespace glue

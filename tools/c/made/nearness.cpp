@@ -111,11 +111,8 @@ void glue::fill(keeper&, const tf::deviation_result& from, treeform_deviation_re
     to.count = from.distances.size();
     to.faces = or_null(from.faces);
     to.is_signed = from.is_signed;
-    if (from.sides) {
-        to.sides[0] = from.sides->inside;
-        to.sides[1] = from.sides->on;
-        to.sides[2] = from.sides->outside;
-    }
+    if (from.side_counts)
+        std::copy(from.side_counts->begin(), from.side_counts->end(), to.side_counts);
     to.mean = from.mean;
     to.mean_absolute = from.mean_absolute;
     to.rms = from.rms;
@@ -126,17 +123,13 @@ void glue::fill(keeper&, const tf::deviation_result& from, treeform_deviation_re
     to.worst = from.worst;
     to.lowest = from.lowest;
     to.highest = from.highest;
-    to.there_sampled = from.there.sampled;
-    to.there_at_most = from.there.at_most;
-    to.back_sampled = from.back ? from.back->sampled : not_known;
-    to.back_at_most = from.back ? from.back->at_most : not_known;
-    to.histogram_low = from.histogram.low;
-    to.histogram_high = from.histogram.high;
-    to.histogram = from.histogram.counts.data();
-    to.bins = from.histogram.counts.size();
-    if (from.band) to.below = from.band->below;
-    if (from.band) to.within = from.band->within;
-    if (from.band) to.above = from.band->above;
+    to.there_at_most = from.there_at_most;
+    to.back_max = from.back_max.value_or(not_known);
+    to.back_at_most = from.back_at_most.value_or(not_known);
+    to.histogram = or_null(from.histogram);
+    to.bins = from.histogram.size();
+    if (from.band_counts)
+        std::copy(from.band_counts->begin(), from.band_counts->end(), to.band_counts);
 }
 
 treeform_code treeform_closest_point(const treeform_mesh* mesh, const double* queries, size_t count,

@@ -193,19 +193,15 @@ struct thickness_result {
                                                            thickness_by by = thickness_by::ray,
                                                            const progress_callback& progress = {});
 
-/// Numbers of points inside a solid, on a surface, and outside of all.
-struct side_counts {
-    std::uint64_t inside = 0;   ///< points strictly inside one of the solids
-    std::uint64_t on = 0;       ///< points on a surface, and inside no solid
-    std::uint64_t outside = 0;  ///< points outside all
-};
-
-/// Classifies the points relative to `solids`, exactly: strictly inside any solid, else on the
-/// surface of any, else outside. Open meshes and clouds are ignored.
+/// The numbers of points inside, on and outside of `solids`, exactly: strictly inside any solid,
+/// else on the surface of any, else outside. Open meshes and clouds are ignored.
+///
+///     const auto [inside, on, outside] = tf::count_sides(points, {bed, box});
 ///
 /// \throws std::invalid_argument naming a point that is not finite, or a face as in `locate`
 /// \cost   as `deviation` without distances, for points in the box of a solid
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API side_counts count_sides(points_view points, const mesh_refs& solids);
+[[nodiscard]] TREEFORM_API std::array<std::uint64_t, 3> count_sides(points_view points,
+                                                                    const mesh_refs& solids);
 
 }  // namespace treeform

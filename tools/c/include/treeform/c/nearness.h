@@ -255,24 +255,30 @@ typedef struct treeform_deviation_result {
     double rms;            ///< root mean square of the distances
     /// Median of the magnitudes: the least value that half of them do not exceed.
     double p50;
-    double p95;            ///< the same for 95 % of them
-    double p99;            ///< the same for 99 % of them
-    double max;            ///< the largest magnitude
-    uint32_t worst;        ///< the lowest point number with that magnitude
-    double lowest;         ///< the least signed distance
-    double highest;        ///< the greatest signed distance
-    double there_sampled;  ///< over the points of the first
-    double there_at_most;  ///< a bound for its surface
-    double back_sampled;   ///< the other way; NaN unless `both_ways`
+    double p95;      ///< the same for 95 % of them
+    double p99;      ///< the same for 99 % of them
+    double max;      ///< the largest magnitude
+    uint32_t worst;  ///< the lowest point number with that magnitude
+    double lowest;   ///< the least signed distance
+    double highest;  ///< the greatest signed distance
+    /// Bound of the distance from any point of the surface `a` to `b`: the maximum, over its
+    /// faces, of the largest corner distance plus the longest edge / sqrt(3). For a cloud the same
+    /// as `max`.
+    double there_at_most;
+    /// With `both_ways`, a bound of the distance from any point of the surface `b` to `a`. The
+    /// larger of this and `there_at_most` bounds the Hausdorff distance of the surfaces.
     double back_at_most;
-    double histogram_low;
-    double histogram_high;
-    const uint64_t* histogram;  ///< [bins]
+    /// [bins] points by signed distance, in intervals of equal length from `lowest` to `highest`;
+    /// the last one includes `highest`.
+    const uint64_t* histogram;
     size_t bins;
-    uint64_t below;  ///< the band
-    uint64_t within;
-    uint64_t above;
-    uint64_t sides[3];  ///< points inside, on and outside
+    /// If distances have a sign: points of `a` inside, on and outside of `b`.
+    uint64_t side_counts[3];
+    /// With `both_ways`, the largest distance of a vertex of `b` from `a`. The larger of this and
+    /// `max` is the Hausdorff distance of the points.
+    double back_max;
+    /// With a band: points below, within and above it. Both ends are within.
+    uint64_t band_counts[3];
 } treeform_deviation_result;
 
 /// The signed distances of all points of `a`, used by faces or not, from the surface of `b`.
