@@ -41,9 +41,9 @@ drilled drill(const drain& hole, const prepared_mesh& solid, const prepared_mesh
     const double out = room_beyond(solid, {{from.x, from.y, from.z}, {back.x, back.y, back.z}},
                                    length * clear, hole.diameter);
     const std::array ends{plus(from, scaled(back, out)), plus(from, scaled(along, length + in))};
-    const plane_frame frame = oriented_plane{{}, along}.frame();
+    const auto [x, y, normal] = oriented_plane{{}, along}.axes();
     // A closed surface has an inside, whichever way it faces.
-    return {geometry::prism(ends, {frame.x, frame.y}, 0.5 * hole.diameter, drain_sides),
+    return {geometry::prism(ends, {x, y}, 0.5 * hole.diameter, drain_sides),
             !contains(solid, ends[0]) && contains(cavities, ends[1])};
 }
 

@@ -111,6 +111,9 @@ class Language:
         sizes = {"point3": "[3]", "transform<3>": "[12]", "array<array<double,3>,3>": "[9]"}
         if type in sizes:
             return [Member(f"double {name}{sizes[type]}", one.doc, f"copy({source}, {to});")]
+        if type == "array<point3,3>":
+            return [Member(f"double {name}[3][3]", one.doc,
+                           f"std::memcpy({to}, {source}.data(), sizeof {to});")]
         if found := re.fullmatch(r"array<uint64_t,(\w+)>", type):
             size = {"pair_kind_count": "7"}.get(found.group(1), found.group(1))
             return [Member(f"uint64_t {name}[{size}]", one.doc,

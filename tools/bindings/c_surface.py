@@ -114,9 +114,7 @@ BOUND = [
     Bound("simplify_options"),
     Bound("simplify_result"),
     Bound("thickness_result"),
-    Bound("oriented_box", custom={"axes": [Member(
-        "double axes[3][3]", "of length 1, right-handed, rounded: along the longest side, the next, "
-        "the shortest", "std::memcpy(to.axes, from.axes.data(), sizeof to.axes);")]}),
+    Bound("oriented_box"),
     Bound("isoline", kind="same"),
     Bound("isolines_result"),
     # nearness.h

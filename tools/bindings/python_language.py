@@ -15,7 +15,8 @@ NUMBERS = {"double": "float", "bool": "bool", "int": "int", "unsigned": "int", "
 #: Annotations and shapes of what becomes arrays.
 ARRAYS = {"point3": ("Floats", "(3,)"), "transform<3>": ("Floats", "(4, 4)"),
           "array<array<double,3>,3>": ("Floats", "(3, 3)"), "box3": ("Floats", "(2, 3)"),
-          "array<point3,2>": ("Floats", "(2, 3)"), "vector<uint32_t>": ("Ids", "({},)"),
+          "array<point3,2>": ("Floats", "(2, 3)"), "array<point3,3>": ("Floats", "(3, 3)"),
+          "vector<uint32_t>": ("Ids", "({},)"),
           "vector<double>": ("Floats", "({},)"), "vector<point3>": ("Floats", "({}, 3)"),
           "vector<face>": ("Ids", "({}, 3)"), "vector<operand_element>": ("Ids", "({}, 2)")}
 

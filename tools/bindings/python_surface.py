@@ -85,7 +85,7 @@ RESULTS = [
                  "oriented": "The faces along it agree: what is inside is to the left, seen from "
                              "above the plane.", "length": "Of its sides."},
            custom={"first_point": [
-               Attribute("points", "Floats", "(n, 2) in the frame of the section; the first is not "
+               Attribute("points", "Floats", "(n, 2) in the plane of the section; the first is not "
                          "repeated.", "part_of<double>(whole.points, from)"),
                Attribute("faces", "Ids", "(n,) the face that the side from each point to the next "
                          "lies in.", "part_of<std::uint32_t>(whole.faces, from)")],
@@ -96,6 +96,7 @@ RESULTS = [
     Result("section_result", "Section", "_cuts",
            doc="What is in parallel planes: layers, in the order of their heights as given. Layer "
                "i has the loops `loops(i)`.",
+           docs={"axes": "(3, 3) the axes x and y of `points`, and the normal, each of length 1."},
            custom={
                "layers": [
                    column("heights", "Floats", "(K,) of the layers.", "layers", "one.height"),
@@ -105,10 +106,6 @@ RESULTS = [
                    column("lengths", "Floats", "(K,) of all loops.", "layers", "one.length"),
                    column("open_counts", "Ids", "(K,) how many polylines are open; none of a "
                           "solid.", "layers", "one.open_count")],
-               "frame": [Attribute("frame", "Floats", "(3, 3) the axes x and y of `points`, and "
-                                   "the normal, each of length 1.",
-                                   "column(std::array{from.frame.x, from.frame.y, "
-                                   "from.frame.normal}, std::identity{})")],
                "points": [Attribute("points", "Floats", "(P, 2) of all loops, one after the other: "
                                     "(x . p, y . p) of p in space.",
                                     "as_array<double>(std::vector(from.points))")],
@@ -130,10 +127,7 @@ RESULTS = [
     Result("simplify_result", "SimplifyResult", "_shapes", "MadeMesh", context="attributes",
            doc="A mesh with fewer faces.", inherited="mesh certificate"),
     Result("thickness_result", "Thickness", "_shapes"),
-    Result("oriented_box", "OrientedBox", "_shapes", custom={"axes": [Attribute(
-        "axes", "Floats", "(3, 3) of length 1, right-handed: along the longest side, the next, the "
-        "shortest.",
-        "as_array<double>(std::vector<tf::point3>(from.axes.begin(), from.axes.end()))")]}),
+    Result("oriented_box", "OrientedBox", "_shapes"),
     Result("isoline", "Isoline", "_shapes"),
     Result("isolines_result", "Isolines", "_shapes"),
     # _repair

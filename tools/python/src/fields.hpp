@@ -168,9 +168,10 @@ template <class T, std::size_t N>
 requires std::is_arithmetic_v<T> py::object value_of(const std::array<T, N>& numbers) {
     return py::tuple(py::cast(numbers));
 }
-/// Two corners, as rows.
-inline py::object value_of(const std::array<tf::point3, 2>& corners) {
-    return column(corners, [](const tf::point3& p) { return numbers(p); });
+/// Corners or axes, as rows.
+template <std::size_t N>
+py::object value_of(const std::array<tf::point3, N>& rows) {
+    return column(rows, [](const tf::point3& p) { return numbers(p); });
 }
 inline py::object value_of(const tf::box3& box) { return value_of(std::array{box.min, box.max}); }
 template <class T>

@@ -38,7 +38,7 @@ struct carry_source {
         return file->stored_face.empty() ? t : file->stored_face[t];
     }
     /// Gives corners of caps (`cut_piece::cap`) planar texture coordinates, if this source, the
-    /// mesh that was cut, has texture coordinates. The axes are those of `oriented_plane::frame`
+    /// mesh that was cut, has texture coordinates. The axes are those of `oriented_plane::axes`
     /// for the mean normal of a cap, signed so that its largest component is positive: so both
     /// sides of a cut have the same. The scale is the average of this source, in texture units per
     /// length.

@@ -62,8 +62,7 @@ py::object object(of_result, tf::section_result&& from) {
     made["open_counts"] = column(from.layers, [](const auto& one) { return one.open_count; });
     made["points"] = as_array<double>(std::vector(from.points));
     made["faces"] = as_array(std::vector(from.faces));
-    made["frame"] =
-        column(std::array{from.frame.x, from.frame.y, from.frame.normal}, std::identity{});
+    made["axes"] = as_python(std::move(from.axes));
     made["_data"] = py::cast(std::move(from));
     return object_of("treeform._cuts", "Section", made);
 }
@@ -142,7 +141,7 @@ py::object object(of_result, tf::thickness_result&& from) {
 py::object object(of_result, tf::oriented_box&& from) {
     py::dict made;
     made["center"] = as_python(std::move(from.center));
-    made["axes"] = as_array<double>(std::vector<tf::point3>(from.axes.begin(), from.axes.end()));
+    made["axes"] = as_python(std::move(from.axes));
     made["size"] = as_python(std::move(from.size));
     return object_of("treeform._shapes", "OrientedBox", made);
 }

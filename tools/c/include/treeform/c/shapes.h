@@ -219,7 +219,7 @@ TREEFORM_C_API treeform_code treeform_wall_thickness(const treeform_mesh* mesh,
 typedef struct treeform_oriented_box {
     void* owner;
     double center[3];  ///< of the box
-    /// of length 1, right-handed, rounded: along the longest side, the next, the shortest
+    /// Unit axes, right-handed, rounded: along the longest, middle and shortest side.
     double axes[3][3];
     double size[3];  ///< lengths along these axes
 } treeform_oriented_box;
