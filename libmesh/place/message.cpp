@@ -33,7 +33,7 @@ std::string too_far(const placement& p) {
 std::string meeting_in_words(const placement& at, const body_set& moving, const body_set& fixed) {
     const nearest_fixed& near = *at.nearest;
     std::string text = name_of(at.at_place) + (" " + fixed.label(near.fixed));
-    const mesh_relation_result& how = near.how.relation;
+    const mesh_measure& how = near.how;
     // Of a cloud it says only that some of the points are.
     if (how.a_inside_b) return text + (moving.file_of(0).cloud ? "" : ", inside it");
     if (how.b_inside_a) return text + (fixed.file_of(near.fixed).cloud ? "" : ", which is inside");

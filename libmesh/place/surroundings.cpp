@@ -53,8 +53,7 @@ double box_distance(const box3& a, const box3& b) {
 
 /// The order of what matters more: penetrating, touching, then the nearer.
 bool before(const nearest_fixed& a, const nearest_fixed& b) {
-    if (a.how.relation.relation != b.how.relation.relation)
-        return a.how.relation.relation > b.how.relation.relation;
+    if (a.how.relation != b.how.relation) return a.how.relation > b.how.relation;
     if (a.how.distance != b.how.distance) return a.how.distance < b.how.distance;
     return a.fixed < b.fixed;
 }

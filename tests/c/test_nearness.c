@@ -102,7 +102,6 @@ static void test_relations(void) {
     treeform_mesh* b = cube(0.75, 0, 0, 1);
     treeform_mesh* apart = cube(3, 0, 0, 1);
     treeform_measure_options options;
-    treeform_depth_options depth_options;
     treeform_relation* relation = NULL;
     treeform_mesh_relation how = 9;
     double depth = 0.0, move[3];
@@ -124,8 +123,8 @@ static void test_relations(void) {
     OK(treeform_relate(a, b, TREEFORM_BY_COORDINATES, &how));
     CHECK(how == TREEFORM_PENETRATING);
     INVALID("vertices", treeform_relate(a, b, 2, &how));
-    treeform_depth_options_init(&depth_options, sizeof depth_options);
-    OK(treeform_penetration_depth(a, b, &depth_options, &depth, move, &effort));
+    treeform_measure_options_init(&options, sizeof options);
+    OK(treeform_penetration_depth(a, b, &options, &depth, move, &effort));
     CHECK(effort.pairs > 0 && effort.pairs < effort.bound && effort.cut == 0);
     CHECK(near(depth, 0.25) && near(move[0], -0.25));
     OK(treeform_penetration_depth(a, apart, NULL, &depth, move, NULL));

@@ -129,7 +129,6 @@ BOUND = [
             Member(f"double barycentric_{x}[3]", "of it in that face",
                    f"std::copy(from.on_{x}.barycentric.begin(), from.on_{x}.barycentric.end(), "
                    f"to.barycentric_{x});")] for x in "ab"}),
-    Bound("depth_options"),
     Bound("deviation_options", custom={"band": [
         Member("double band_low", "signed distances within tolerance; NaN: no band", "",
                "if (!std::isnan(o.band_low) || !std::isnan(o.band_high))"

@@ -436,7 +436,7 @@ OPTIONS = {
     "weld_options": "label may_merge", "weld_stream_options": "communicator shared "
                                                                      "las_scale las_offset",
     "placement_options": "max_steps close_in normals face_pairs limit vertices",
-    "measure_options": "", "depth_options": "vertices", "impact_options": "limit",
+    "measure_options": "", "impact_options": "limit",
     "lay_flat_options": "overhang_sides", "align_options": "accelerate", "pack_options": "tighten",
     "deviation_options": "", "clash_options": "ignored effort",
 }

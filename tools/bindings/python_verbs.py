@@ -436,10 +436,15 @@ FUNCTIONS = [
                  "apart, and where. Each is a mesh or a cloud (n, 3). None where one has no faces, "
                  "or they are further apart than `radius`. The relation is exact, and so is "
                  "whether a distance is 0. Other distances are rounded as `distance` says.",
-             docs={"vertices": "'by_coordinates': corners with equal coordinates are shared; "
+             leave="directions effort", docs={"vertices": "'by_coordinates': corners with equal coordinates are shared; "
                                "'by_index': those with the same number."}),
-    Function("penetration_depth(a: Mesh, b: Mesh, options: depth_options) -> Optional[Depth]",
-             "tf::penetration_depth(a.prepared(), b.prepared(), options)"),
+    Function("penetration_depth(a: Mesh, b: Mesh, options: measure_options) -> Optional[Depth]",
+             "tf::penetration_depth(a.prepared(), b.prepared(), options)",
+             leave="radius vertices",
+             docs={"directions": "Directions spread over the sphere, tried besides normals of faces "
+                                 "that meet.",
+                   "effort": "Pairs of faces that the search may test, a pair in motion counting "
+                             "as two; 0: 20 million plus 200 for each face."}),
     Function("time_of_impact(a: Mesh, b: Mesh, motion: Vector, options: impact_options) -> Impact",
              "tf::time_of_impact(a.prepared(), b.prepared(), $motion, options)",
              docs=_MOVES | {"motion": "(3,)"}),

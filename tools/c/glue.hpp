@@ -393,7 +393,6 @@ template <class C, class T>
     treeform_code code = TREEFORM_OK;
     if constexpr (requires { found.certificate; }) code = code_of(found.certificate);
     if constexpr (requires { found.status; }) check(found.status);
-    if constexpr (requires { found.relation.status; }) check(found.relation.status);
     if constexpr (requires { found.found.status; }) check(found.found.status);
     if constexpr (requires { (*out)->content; }) {
         auto made = make<C>();

@@ -184,7 +184,7 @@ inline tf::mesh_relation relate(const tf::mesh_ref& a, const tf::mesh_ref& b,
 /// bound of the depth of penetration. `depth` is 0 and `move` zero where they do not penetrate.
 /// What the search took comes in `effort`, which may be null.
 inline void penetration_depth(const tf::mesh_ref& a, const tf::mesh_ref& b,
-                              const tf::depth_options& options, double* depth, double move[3],
+                              const tf::measure_options& options, double* depth, double move[3],
                               treeform_search_effort* effort) {
     (void)need(depth, "depth");
     (void)need(move, "move");

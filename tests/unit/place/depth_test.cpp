@@ -159,7 +159,7 @@ TEST_CASE("depth: of a flat body on a face the moves that lead out are as small 
 TEST_CASE("depth: of crowds of long thin faces it ends by its effort, with a move that leads out") {
     const tf::mesh a = needles(1, 1000), b = moved(needles(2, 1000), {0.125, 0, 0});
     REQUIRE(tf::relation(a, b).relation == tf::mesh_relation::penetrating);
-    tf::depth_options options;
+    tf::measure_options options;
     for (const std::uint64_t bound : {1U, 1000U, 1'000'000U}) {
         CAPTURE(bound);
         options.effort = bound;
@@ -197,7 +197,7 @@ TEST_CASE("depth: it stops when told to, and names a bad face") {
     const tf::mesh a = ball(3, 1.0), b = moved(a, {0.5, 0, 0});
     const auto pa = tf::prepared_mesh::borrow(a), pb = tf::prepared_mesh::borrow(b);
     int asked = 0;
-    tf::depth_options options;
+    tf::measure_options options;
     options.progress = [&](double) { return ++asked < 8; };
     CHECK(tf::penetration_depth(pa, pb, options)->status == tf::status::cancelled);
     tf::mesh bad = a;

@@ -30,6 +30,8 @@ tf::measure_options glue::read(const treeform_measure_options& o) {
     tf::measure_options how;
     how.radius = o.radius;
     how.vertices = choice<tf::vertex_identity>(o.vertices, 2, "vertices");
+    how.directions = limit(o.directions);
+    how.effort = o.effort;
     how.progress = progress(o);
 
     return how;
@@ -40,15 +42,17 @@ void treeform_measure_options_init(treeform_measure_options* options, size_t siz
     const tf::measure_options from;
     to.radius = from.radius;
     to.vertices = static_cast<treeform_vertices>(from.vertices);
+    to.directions = from.directions;
+    to.effort = from.effort;
     glue::init(options, size, to);
 }
 
 void glue::fill(keeper&, const tf::mesh_measure& from, treeform_relation& to) {
-    to.how = static_cast<treeform_mesh_relation>(from.relation.relation);
-    to.face_a = from.relation.face_a;
-    to.face_b = from.relation.face_b;
-    to.a_inside_b = from.relation.a_inside_b;
-    to.b_inside_a = from.relation.b_inside_a;
+    to.how = static_cast<treeform_mesh_relation>(from.relation);
+    to.face_a = from.face_a;
+    to.face_b = from.face_b;
+    to.a_inside_b = from.a_inside_b;
+    to.b_inside_a = from.b_inside_a;
     to.distance = from.distance;
     to.surface_distance = from.surface_distance;
     to.nearest_a = from.on_a.face;
@@ -57,28 +61,6 @@ void glue::fill(keeper&, const tf::mesh_measure& from, treeform_relation& to) {
     to.nearest_b = from.on_b.face;
     copy(from.on_b.point, to.on_b);
     std::copy(from.on_b.barycentric.begin(), from.on_b.barycentric.end(), to.barycentric_b);
-}
-
-tf::depth_options glue::read(const treeform_depth_options* options) {
-    return read(chosen(options, treeform_depth_options_init));
-}
-tf::depth_options glue::read(const treeform_depth_options& o) {
-    tf::depth_options how;
-    how.directions = limit(o.directions);
-    how.effort = o.effort;
-    how.vertices = choice<tf::vertex_identity>(o.vertices, 2, "vertices");
-    how.progress = progress(o);
-
-    return how;
-}
-
-void treeform_depth_options_init(treeform_depth_options* options, size_t size) {
-    treeform_depth_options to{};
-    const tf::depth_options from;
-    to.directions = from.directions;
-    to.effort = from.effort;
-    to.vertices = static_cast<treeform_vertices>(from.vertices);
-    glue::init(options, size, to);
 }
 
 tf::deviation_options glue::read(const treeform_deviation_options* options) {
@@ -229,7 +211,7 @@ treeform_code treeform_relate(const treeform_mesh* a, const treeform_mesh* b,
 }
 
 treeform_code treeform_penetration_depth(const treeform_mesh* a, const treeform_mesh* b,
-                                         const treeform_depth_options* options, double* depth,
+                                         const treeform_measure_options* options, double* depth,
                                          double move[3], treeform_search_effort* effort) {
     return glue::guard([&] {
         glue::penetration_depth(glue::ref(a, "a"), glue::ref(b, "b"), glue::read(options), depth,

@@ -84,8 +84,6 @@ void fill(keeper& kept, const tf::isolines_result& from, treeform_isolines_resul
 [[nodiscard]] tf::measure_options read(const treeform_measure_options* options);
 [[nodiscard]] tf::measure_options read(const treeform_measure_options& o);
 void fill(keeper& kept, const tf::mesh_measure& from, treeform_relation& to);
-[[nodiscard]] tf::depth_options read(const treeform_depth_options* options);
-[[nodiscard]] tf::depth_options read(const treeform_depth_options& o);
 [[nodiscard]] tf::deviation_options read(const treeform_deviation_options* options);
 [[nodiscard]] tf::deviation_options read(const treeform_deviation_options& o);
 void fill(keeper& kept, const tf::deviation_result& from, treeform_deviation_result& to);

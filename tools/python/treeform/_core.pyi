@@ -310,12 +310,8 @@ class PlacementOptions:
 class MeasureOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
-    def __init__(self, *, radius: float = ..., vertices: str = ...) -> None: ...
-
-class DepthOptions:
-    names: tuple[str, ...]
-    defaults: dict[str, Any]
-    def __init__(self, *, directions: Optional[int] = ..., effort: Optional[int] = ...) -> None: ...
+    def __init__(self, *, radius: float = ..., vertices: str = ..., directions: Optional[int] = ...,
+                 effort: Optional[int] = ...) -> None: ...
 
 class ImpactOptions:
     names: tuple[str, ...]
@@ -450,7 +446,7 @@ def turn(moving: HeldMesh, fixed: Sequence[HeldMesh], axis: Floats, origin: Floa
          options: PlacementOptions, progress: Watched = ...) -> Placement: ...
 def measure(a: HeldMesh, b: HeldMesh, options: MeasureOptions,
             progress: Watched = ...) -> Optional[Measure]: ...
-def penetration_depth(a: HeldMesh, b: HeldMesh, options: DepthOptions,
+def penetration_depth(a: HeldMesh, b: HeldMesh, options: MeasureOptions,
                       progress: Watched = ...) -> Optional[Depth]: ...
 def time_of_impact(a: HeldMesh, b: HeldMesh, motion: Floats, options: ImpactOptions,
                    progress: Watched = ...) -> Impact: ...

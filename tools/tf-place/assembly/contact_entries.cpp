@@ -26,7 +26,7 @@ void enter_nearest(json& entry, const tf::body_set& moving, const tf::body_set& 
     entry["distance"] = near.how.distance;
     entry["surface_distance"] = near.how.surface_distance;
     entry["closest"] = {{"moving", side_entry(moving, 0, near.how.on_a)}, {"fixed", there}};
-    const tf::mesh_relation_result& how = near.how.relation;
+    const tf::mesh_measure& how = near.how;
     const bool cloud = moving.file_of(0).cloud || fixed.file_of(near.fixed).cloud;
     if (!cloud && (how.a_inside_b || how.b_inside_a))
         entry["inside"] = how.a_inside_b ? "moving" : "fixed";

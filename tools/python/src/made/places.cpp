@@ -75,9 +75,9 @@ py::object object(of_result, tf::search_effort&& from) {
 
 py::object object(of_result, tf::mesh_measure&& from) {
     py::dict made;
-    made["relation"] = as_python(std::move(from.relation.relation));
-    made["a_inside_b"] = as_python(std::move(from.relation.a_inside_b));
-    made["b_inside_a"] = as_python(std::move(from.relation.b_inside_a));
+    made["relation"] = as_python(std::move(from.relation));
+    made["a_inside_b"] = as_python(std::move(from.a_inside_b));
+    made["b_inside_a"] = as_python(std::move(from.b_inside_a));
     made["distance"] = as_python(std::move(from.distance));
     made["surface_distance"] = as_python(std::move(from.surface_distance));
     made["on_a"] = as_python(from.on_a.point);

@@ -118,7 +118,7 @@ typedef struct treeform_hits {
 } treeform_hits;
 
 // made of the headers of C++:
-//   raycast_all() mesh_relation mesh_measure measure_options measure() relate() depth_options
+//   raycast_all() mesh_relation mesh_measure measure_options measure() relate()
 //   penetration_depth() count_inside_out() count_sides() deviation_options deviation_result
 //   deviation()
 /// All faces that each ray hits, in the exact order along the ray, then by number.
@@ -162,7 +162,7 @@ typedef struct treeform_relation {
     double barycentric_b[3];  ///< of it in that face
 } treeform_relation;
 
-/// How to look.
+/// How to look. What an operation has no use for, it ignores.
 typedef struct treeform_measure_options {
     size_t size;
     double radius;  ///< of `treeform_measure`; inclusive; default infinite
@@ -170,6 +170,12 @@ typedef struct treeform_measure_options {
     treeform_vertices vertices;
     treeform_progress progress;
     void* progress_data;
+    /// Of `treeform_penetration_depth`: directions spread over the sphere, tried besides normals
+    /// of faces that meet; default 256
+    uint64_t directions;
+    /// Of `treeform_penetration_depth`: pairs of faces that the search may test, a pair in motion
+    /// counting as two; 0: 20 million plus 200 for each face.
+    uint64_t effort;
 } treeform_measure_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_measure_options_init(treeform_measure_options* options, size_t size);
@@ -189,27 +195,12 @@ TREEFORM_C_API treeform_code treeform_relate(const treeform_mesh* a, const treef
                                              treeform_vertices vertices,
                                              treeform_mesh_relation* result);
 
-/// How to search for a short separating translation.
-typedef struct treeform_depth_options {
-    size_t size;
-    /// directions spread over the sphere, tried besides normals of faces that meet; default 256
-    uint64_t directions;
-    /// Pairs of faces that the search may test, a pair in motion counting as two; 0: 20 million
-    /// plus 200 for each face.
-    uint64_t effort;
-    treeform_vertices vertices;  ///< as in `treeform_relation`
-    treeform_progress progress;
-    void* progress_data;
-} treeform_depth_options;
-/// Sets the defaults.
-TREEFORM_C_API void treeform_depth_options_init(treeform_depth_options* options, size_t size);
-
 /// The length of a short translation `move` that takes `a` out of `b`, verified exactly: an upper
 /// bound of the depth of penetration. `depth` is 0 and `move` zero where they do not penetrate.
 /// What the search took comes in `effort`, which may be null.
 TREEFORM_C_API treeform_code treeform_penetration_depth(const treeform_mesh* a,
                                                         const treeform_mesh* b,
-                                                        const treeform_depth_options* options,
+                                                        const treeform_measure_options* options,
                                                         double* depth, double move[3],
                                                         treeform_search_effort* effort);
 
