@@ -150,7 +150,7 @@ class Language:
     def _list(self, of: Bound, name: str, path: str, one: Field, element: str) -> list[Member]:
         source, to = f"from.{path}", f"to.{name}"
         rows = {"point3": "double", "point2": "double", "face": "uint32_t",
-                "array<uint32_t,2>": "uint32_t"}
+                "array<uint32_t,2>": "uint32_t", "array<point3,2>": "double"}
         doc = one.doc
         count = of.counts.get(one.name, "" if one.shape else f"{singular(name)}_count")
         if element in NUMBERS or element == "uint8_t":
@@ -166,8 +166,9 @@ class Language:
         made = [Member(f"const {c}* {name}", doc, f"{to} = {value};")]
         if count:
             if not one.shape:
-                made[0].doc = f"[{count}]{'[3]' if element in ('point3', 'face') else ''}" \
-                              f"{'[2]' if element in ('point2', 'array<uint32_t,2>') else ''} {doc}"
+                shape = {"point3": "[3]", "face": "[3]", "point2": "[2]", "array<uint32_t,2>": "[2]",
+                         "array<point3,2>": "[2][3]"}.get(element, "")
+                made[0].doc = f"[{count}]{shape} {doc}"
             made.append(Member(f"size_t {count}", "", f"to.{count} = {source}.size();"))
         return made
 

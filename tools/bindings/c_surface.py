@@ -47,10 +47,10 @@ FILE = Member("const treeform_file* file", "of a file, with its attributes; else
 BOUND = [
     # base.h
     Bound("operand_element", "element", "same"),
-    Bound("open_edge", kind="same"),
     Bound("search_effort", kind="same"),
     Bound("certificate", names={"status": "status"},
-          counts={"meeting": "meeting_listed", "meeting_at": "", "open": "open_listed"},
+          counts={"meeting": "meeting_listed", "meeting_at": "", "open_edges": "open_listed",
+                  "open_faces": ""},
           custom={"+": [MESSAGE]}),
     # mesh.h
     Bound("rounding_effects", "rounding"),

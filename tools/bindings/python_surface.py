@@ -49,11 +49,12 @@ RESULTS = [
                                     "py::cast(word_of(from.status))")],
                "meeting": [column("meeting", "Ids", "(n, 2) the first 100 of these pairs.",
                                   "meeting", "one")],
-               "open": [
+               "open_edges": [
                    Attribute("open_edges", "Floats", "(n, 2, 3) the ends of the first 100 of these "
-                             "edges.", "ends_of(from.open)"),
+                             "edges.", "ends_of(from.open_edges)")],
+               "open_faces": [
                    column("open_faces", "Ids", "(n, 2) the operand and the face at each of them.",
-                          "open", "std::array{one.face.operand, one.face.index}")],
+                          "open_faces", "std::array{one.operand, one.index}")],
                "+": [MESSAGE]},
            docs={"boundary_edges": "Of the open edges, those of an odd number of faces.",
                  "misoriented_edges": "Of the open edges, those of faces that run the same way.",

@@ -436,7 +436,8 @@ FUNCTIONS = [
                  "apart, and where. Each is a mesh or a cloud (n, 3). None where one has no faces, "
                  "or they are further apart than `radius`. The relation is exact, and so is "
                  "whether a distance is 0. Other distances are rounded as `distance` says.",
-             leave="directions effort", docs={"vertices": "'by_coordinates': corners with equal coordinates are shared; "
+             leave="directions effort",
+             docs={"vertices": "'by_coordinates': corners with equal coordinates are shared; "
                                "'by_index': those with the same number."}),
     Function("penetration_depth(a: Mesh, b: Mesh, options: measure_options) -> Optional[Depth]",
              "tf::penetration_depth(a.prepared(), b.prepared(), options)",

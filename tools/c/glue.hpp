@@ -315,8 +315,12 @@ template <class C, class T>
 [[nodiscard]] inline const double* flat(std::span<const tf::point2> values) {
     return reinterpret_cast<const double*>(values.data());
 }
+[[nodiscard]] inline const double* flat(std::span<const std::array<tf::point3, 2>> values) {
+    return reinterpret_cast<const double*>(values.data());
+}
 template <class T, std::size_t N>
-[[nodiscard]] const T* flat(const std::vector<std::array<T, N>>& values) {
+requires std::is_arithmetic_v<T> [[nodiscard]] const T* flat(
+    const std::vector<std::array<T, N>>& values) {
     return values.empty() ? nullptr : values.data()->data();
 }
 template <class T>

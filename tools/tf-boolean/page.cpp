@@ -102,7 +102,7 @@ void write_page(job& work, const std::vector<solid>& solids, const std::string& 
     if (ghosts) add_result(shown, kinds, solids, *made);
     for (std::size_t i = 0; i < solids.size(); ++i) {
         add_input(shown, kinds, solids[i], i, ghosts);
-        if (made != nullptr && made->certificate.open.empty()) continue;
+        if (made != nullptr && made->certificate.open_edges.empty()) continue;
         open_edges open = find_open_edges(solids[i].file.mesh);
         scene_lines lines{.kind = kinds.open(), .ends = std::move(open.ends), .word = "open edge"};
         lines.width = 3.0;

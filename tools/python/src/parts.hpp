@@ -7,7 +7,7 @@
 namespace binding {
 
 py::object volumes_of(const tf::boolean_result& from);
-py::array ends_of(const std::vector<tf::open_edge>& open);
+py::array ends_of(const std::vector<std::array<tf::point3, 2>>& edges);
 py::list regions_of(tf::part_clash& from);
 /// Of values of points, those of a loop.
 template <class Number, class T>

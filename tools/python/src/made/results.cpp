@@ -9,9 +9,9 @@ py::object object(of_result, tf::certificate&& from) {
     made["meeting_count"] = as_python(std::move(from.meeting_count));
     made["meeting"] = column(from.meeting, [](const auto& one) { return one; });
     made["open_count"] = as_python(std::move(from.open_count));
-    made["open_edges"] = ends_of(from.open);
-    made["open_faces"] = column(from.open, [](const auto& one) {
-        return std::array{one.face.operand, one.face.index};
+    made["open_edges"] = ends_of(from.open_edges);
+    made["open_faces"] = column(from.open_faces, [](const auto& one) {
+        return std::array{one.operand, one.index};
     });
     made["boundary_edges"] = as_python(std::move(from.boundary_edges));
     made["misoriented_edges"] = as_python(std::move(from.misoriented_edges));

@@ -50,8 +50,8 @@ typedef struct treeform_offset_result {
     treeform_arrays mesh;
     /// Status ok means, verified on the coordinates of `mesh`: a closed manifold, oriented
     /// outward, whose faces meet only in common corners and edges. `open_input`: the input bounds
-    /// no solid; `open` lists where. `vanished`: nothing is left, since the solid is nowhere thick
-    /// enough, or only by less than a cell.
+    /// no solid; `open_edges` lists where. `vanished`: nothing is left, since the solid is nowhere
+    /// thick enough, or only by less than a cell.
     const treeform_certificate* certificate;
     /// that was asked for, without its sign; of `treeform_wrap`, how far its vertices are
     double distance;
