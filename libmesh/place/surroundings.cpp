@@ -132,7 +132,7 @@ std::optional<nearest_fixed> surroundings::nearest(const shape& a, const box3& b
         }
         return radius * radius * (1.0 + 0x1p-40) + 0x1p-1000;
     };
-    visit_near(boxes_, tree_box(box), look, {.radius = radius});
+    visit_near(boxes_, tree_box(box), look, radius);
     work.reach(1.0);
     return best;
 }
