@@ -254,16 +254,14 @@ FUNCTIONS = [
              docs=_MOVES | {"kinds": "those to look for, of `KINDS`; None is all."}),
     Function("faces_in_box(mesh: Mesh, min: Vector, max: Vector) -> Ids",
              "tf::faces_in_box(mesh.view(), $min, $max)", docs={"min": "(3,)", "max": "(3,)"}),
-    Function("group_pairs(mesh: Mesh, pairs: PairIds, kinds: Kinds) -> tuple[list[Region], Ids]",
+    Function("group_pairs(mesh: Mesh, pairs: PairIds, kinds: Kinds) -> list[Region]",
              "tf::group_pairs(mesh.view(), pairs_of(pairs, kinds))"),
     Function("intersection_paths(mesh: Mesh, pairs: PairIds, kinds: Kinds)"
              " -> tuple[Floats, list[tuple[Ids, bool]]]",
              "tf::intersection_paths(mesh.view(), pairs_of(pairs, kinds))"),
-    Function("intersection_regions(mesh: MeshLike, found: FacePairs) -> tuple[list[Region], Ids]",
+    Function("intersection_regions(mesh: MeshLike, found: FacePairs) -> list[Region]",
              body="_core.group_pairs(held(mesh), *pairs_of(found), progress=progress)",
-             cpp="group_pairs", words={"pairs": "found"},
-             also="Returns regions in the order of their lowest face, and (n,) the region of each "
-                  "pair."),
+             cpp="group_pairs", words={"pairs": "found"}),
     Function("intersection_curves(mesh: MeshLike, found: FacePairs) -> list[Floats]",
              body="curves(*_core.intersection_paths(held(mesh), *pairs_of(found), "
                   "progress=progress))",

@@ -44,9 +44,9 @@ void add_mesh(scene& shown, const findings& result, std::span<const tf::curve_se
 /// [R] The boxes of curves: where long faces meet, rather than where they are.
 std::vector<tf::box3> places_of(const findings& result,
                                 std::span<const tf::curve_segment> segments) {
-    std::vector<std::optional<tf::box3>> boxes(result.regions.regions.size());
+    std::vector<std::optional<tf::box3>> boxes(result.regions.size());
     for (const tf::curve_segment& segment : segments) {
-        auto& box = boxes[result.regions.region_of_pair[segment.pair]];
+        auto& box = boxes[result.region_of(result.found.pairs[segment.pair])];
         for (const tf::point3& p : segment.ends) {
             if (!box) box = {p, p};
             for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -57,7 +57,7 @@ std::vector<tf::box3> places_of(const findings& result,
     }
     std::vector<tf::box3> places;
     for (std::size_t r = 0; r < boxes.size(); ++r) {
-        const tf::intersection_region& region = result.regions.regions[r];
+        const tf::intersection_region& region = result.regions[r];
         places.push_back(boxes[r].value_or(tf::box3{region.min, region.max}));
     }
     return places;
@@ -68,28 +68,29 @@ void append(std::string& list, const std::string& word) {
 }
 
 scene_table regions_of(const findings& result, const std::vector<tf::box3>& places) {
-    const std::size_t count = std::min(result.regions.regions.size(), most_regions);
+    const std::size_t count = std::min(result.regions.size(), most_regions);
     std::vector<std::set<std::string>> kinds(count);
-    for (std::size_t i = 0; i < result.found.pairs.size(); ++i)
-        if (const std::uint32_t r = result.regions.region_of_pair[i]; r < count)
+    for (std::size_t r = 0; r < count; ++r)
+        for (const std::uint32_t i : result.regions[r].pairs)
             kinds[r].insert(name_of(result.found.pairs[i].kind));
     scene_table table{
         .title = "Regions",
         .columns = {"region", "kinds", "pairs", "faces", "center", "box", "components"}};
     for (std::size_t id = 0; id < count; ++id) {
-        const tf::intersection_region& region = result.regions.regions[id];
+        const tf::intersection_region& region = result.regions[id];
         std::string kinds_text, components;
         for (const std::string& kind : kinds[id]) append(kinds_text, kind);
         for (const std::uint32_t c : result.components_of(region))
             append(components, std::to_string(c));
         table.rows.push_back(
-            {.cells = {id, kinds_text, region.pairs, region.faces.size(), in_words(region.center()),
+            {.cells = {id, kinds_text, region.pairs.size(), region.faces.size(),
+                       in_words(region.center()),
                        in_words(region.min) + " to " + in_words(region.max), components},
              .box = places[id]});
     }
-    if (result.regions.regions.size() > most_regions)
+    if (result.regions.size() > most_regions)
         table.note = "The first " + grouped(most_regions) + " of " +
-                     grouped(result.regions.regions.size()) + "; the JSON report (-r) lists all.";
+                     grouped(result.regions.size()) + "; the JSON report (-r) lists all.";
     return table;
 }
 
@@ -120,7 +121,7 @@ void write_page(job& work, const findings& result, const search_settings& settin
     shown.classes = classes_of(result);
     const auto segments = tf::intersection_curves(result.part.mesh, result.found.pairs);
     add_mesh(shown, result, segments);
-    if (!result.regions.regions.empty())
+    if (!result.regions.empty())
         shown.tables.push_back(regions_of(result, places_of(result, segments)));
     add_facts(shown, result, settings);
     write_page(work, std::move(shown));

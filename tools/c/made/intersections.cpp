@@ -63,14 +63,8 @@ void glue::fill(keeper&, const tf::intersection_region& from, treeform_region& t
     to.face_count = from.faces.size();
     copy(from.min, to.min);
     copy(from.max, to.max);
-    to.pairs = from.pairs;
-}
-
-void glue::fill(keeper& kept, const tf::intersection_regions& from, treeform_regions& to) {
-    to.regions = list<treeform_region>(kept, from.regions);
-    to.count = from.regions.size();
-    to.region_of_pair = or_null(from.region_of_pair);
-    to.pair_count = from.region_of_pair.size();
+    to.pairs = or_null(from.pairs);
+    to.pair_count = from.pairs.size();
 }
 
 static_assert(sizeof(treeform_segment) == sizeof(tf::curve_segment));
@@ -130,6 +124,12 @@ void glue::fill(keeper& kept, const tf::stream_search_result& from, treeform_sea
     to.points = from.points;
     to.tiles = from.tiles;
     to.finished_tiles = from.finished_tiles;
+}
+
+void glue::fill(keeper& kept, const std::vector<tf::intersection_region>& from,
+                treeform_regions& to) {
+    to.regions = list<treeform_region>(kept, from);
+    to.count = from.size();
 }
 
 void glue::fill(keeper&, const std::vector<tf::curve_segment>& from, treeform_segments& to) {

@@ -78,11 +78,6 @@ py::object object(of_result, tf::cut_result&& from, const carrying& attributes) 
     return made;
 }
 
-py::object object(of_result, tf::intersection_regions&& from) {
-    const py::object regions = as_python(std::move(from.regions));
-    return py::make_tuple(regions, as_array(std::move(from.region_of_pair)));
-}
-
 py::object object(of_result, tf::curve_network&& from) {
     py::list paths;
     for (tf::curve_path& one : from.paths)

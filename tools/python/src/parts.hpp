@@ -83,7 +83,6 @@ tf::boolean_expression expression_of(const std::string& operation, const std::st
 
 std::vector<tf::face_pair> pairs_of(const ids_array& pairs, const array_of<std::uint8_t>& kinds);
 /// The regions, and that of each pair.
-py::object object(of_result, tf::intersection_regions&& from);
 /// Points, and paths by their numbers.
 py::object object(of_result, tf::curve_network&& from);
 

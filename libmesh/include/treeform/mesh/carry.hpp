@@ -222,7 +222,7 @@ struct face_marks {
     ///
     /// \pre `regions` are those of `pairs`, whose faces are in range
     TREEFORM_API face_marks(std::size_t face_count, std::span<const face_pair> pairs,
-                            const intersection_regions& regions);
+                            std::span<const intersection_region> regions);
 
     /// Gives `file` these marks of `looked_at`, the searched faces of the file: colors of faces and
     /// vertices (a vertex gets the color of its first face in a pair), and the properties tf_class
