@@ -178,8 +178,8 @@ mesh_measure relation(const mesh_ref& given_a, const mesh_ref& given_b,
     const detail::base::prepared_ref b(given_b);
     check_operand("relation", "a", a);
     check_operand("relation", "b", b);
-    mesh_measure found = detail::place::relation_of(
-        shape(a, options.vertices), shape(b, options.vertices), options.progress);
+    mesh_measure found = detail::place::relation_of(shape(a, options.vertices),
+                                                    shape(b, options.vertices), options.progress);
     found.distance = found.surface_distance = std::numeric_limits<double>::quiet_NaN();
     return found;
 }

@@ -440,8 +440,8 @@ FUNCTIONS = [
     Function("penetration_depth(a: Mesh, b: Mesh, options: measure_options) -> Optional[Depth]",
              "tf::penetration_depth(a.prepared(), b.prepared(), options)",
              leave="radius vertices",
-             docs={"directions": "Directions spread over the sphere, tried besides normals of faces "
-                                 "that meet.",
+             docs={"directions": "Directions spread over the sphere, tried besides normals of "
+                                 "faces that meet.",
                    "effort": "Pairs of faces that the search may test, a pair in motion counting "
                              "as two; 0: 20 million plus 200 for each face."}),
     Function("time_of_impact(a: Mesh, b: Mesh, motion: Vector, options: impact_options) -> Impact",

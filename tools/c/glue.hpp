@@ -319,8 +319,8 @@ template <class C, class T>
     return reinterpret_cast<const double*>(values.data());
 }
 template <class T, std::size_t N>
-requires std::is_arithmetic_v<T> [[nodiscard]] const T* flat(
-    const std::vector<std::array<T, N>>& values) {
+requires std::is_arithmetic_v<T>
+[[nodiscard]] const T* flat(const std::vector<std::array<T, N>>& values) {
     return values.empty() ? nullptr : values.data()->data();
 }
 template <class T>

@@ -41,7 +41,8 @@ void enter_points(job& work, const tf::body_set& moving, const tf::body_set& fix
     work.call_ended();
     work.entry["points"] = {{"inside", inside}, {"on", on}, {"outside", outside}};
     work.out.result(work.name + ": " + grouped(inside) + " of " +
-                    counted(points.size(), "point", "points") + " inside, " + grouped(on) + " on the surface");
+                    counted(points.size(), "point", "points") + " inside, " + grouped(on) +
+                    " on the surface");
 }
 
 json deviation_entry(const tf::deviation_result& r, const deviation_settings& settings) {

@@ -165,8 +165,8 @@ struct repaired_file {
     /// [F'] the number in the input file of the source of each face, or `repair_result::none`.
     std::vector<std::uint32_t> face_source{};
     std::vector<std::uint8_t> is_left{};  ///< [F] of the input's mesh, as in `repair_result`
-    /// That of the first part that failed; if none failed, of all together. Numbers in `open_faces` are
-    /// those of the input file.
+    /// That of the first part that failed; if none failed, of all together. Numbers in `open_faces`
+    /// are those of the input file.
     treeform::certificate certificate{};
     repair_statistics statistics{};      ///< of all parts
     std::vector<repaired_part> parts{};  ///< empty if all was repaired as one mesh

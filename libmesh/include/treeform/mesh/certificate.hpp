@@ -87,8 +87,8 @@ struct TREEFORM_API certificate {
     bool size_is_volume = false;
 
     explicit operator bool() const { return status == treeform::status::ok; }
-    /// The outcome as a clause for messages, without a full stop. Faces have the numbers in `open_faces`;
-    /// an operand that is `operand_element::none` is not named.
+    /// The outcome as a clause for messages, without a full stop. Faces have the numbers in
+    /// `open_faces`; an operand that is `operand_element::none` is not named.
     [[nodiscard]] std::string message() const;
 };
 

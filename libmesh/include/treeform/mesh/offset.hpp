@@ -61,8 +61,8 @@ struct TREEFORM_API offset_result {
     treeform::mesh mesh;
     /// Status ok means, verified on the coordinates of `mesh`: a closed manifold, oriented outward,
     /// whose faces meet only in common corners and edges. `open_input`: the input bounds no solid;
-    /// `open_edges` lists where. `vanished`: nothing is left, since the solid is nowhere thick enough, or
-    /// only by less than a cell.
+    /// `open_edges` lists where. `vanished`: nothing is left, since the solid is nowhere thick
+    /// enough, or only by less than a cell.
     treeform::certificate certificate{};
     offset_statistics statistics{};
     /// For `hollow`: numbers of drains that do not lead from outside into a cavity, as far as the
