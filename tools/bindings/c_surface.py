@@ -69,7 +69,6 @@ BOUND = [
         "component_of_face": [Member("const uint32_t* component_of_face",
                                      "[F] for `between` and `within`; or null")]}),
     Bound("intersection_region", "region", "part"),
-    Bound("curve_segment", "segment", "same"),
     Bound("curve_path", "path", "part", leave="pairs", counts={"points": "count"}),
     Bound("curve_network", "paths", custom={"points": [
         Member("const double* points", "[point_count][3]",
@@ -301,7 +300,6 @@ LISTS = [
     List("mesh_feature", "features", "features", "Features, largest area first."),
     List("mesh_part", "mesh_parts", "parts", "Parts of a mesh."),
     List("intersection_region", "regions", "regions", "Regions, in the order of their lowest faces."),
-    List("curve_segment", "segments", "segments", "Segments, in the order of the pairs."),
     List("uint32_t", "indices", "values", "A list of numbers."),
     List("double", "heights", "heights", "Numbers."),
     List("string", "strings", "values", "A list of words."),

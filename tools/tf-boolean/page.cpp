@@ -55,9 +55,8 @@ void add_input(scene& shown, const numbering& kinds, const solid& input, std::si
 
 void add_curves(scene& shown, job& work, const numbering& kinds, const std::vector<solid>& solids) {
     const auto [joined, pairs] = meetings_of(work, solids);
-    scene_lines lines{.kind = kinds.curves()};
-    for (const tf::curve_segment& segment : tf::intersection_curves(joined, pairs))
-        lines.ends.push_back(segment.ends);
+    scene_lines lines{.kind = kinds.curves(),
+                      .ends = tf::intersection_curves(joined, pairs).answers};
     shown.lines.push_back(std::move(lines));
 }
 

@@ -16,6 +16,8 @@ namespace {
 constexpr std::size_t most_regions = 1000;
 constexpr std::uint8_t curve_class = 1 + tf::pair_kind_count;
 
+using segment_lists = tf::answer_lists<std::array<tf::point3, 2>>;
+
 std::vector<scene_class> classes_of(const findings& result) {
     const std::uint64_t others = result.searched - result.marks.marked();
     std::vector<scene_class> classes{
@@ -30,30 +32,29 @@ std::vector<scene_class> classes_of(const findings& result) {
     return classes;
 }
 
-void add_mesh(scene& shown, const findings& result, std::span<const tf::curve_segment> segments) {
+void add_mesh(scene& shown, const findings& result, const segment_lists& segments) {
     scene_mesh mesh{.mesh = result.part.mesh, .kind = result.marks.kind, .group_word = "region"};
     for (std::uint32_t f = 0; f < result.part.mesh.faces.size(); ++f)
         mesh.number.push_back(result.part.face_in_file(f));
     mesh.group.assign(result.marks.region.begin(), result.marks.region.end());
     shown.meshes.push_back(std::move(mesh));
-    scene_lines curves{.kind = curve_class};
-    for (const tf::curve_segment& segment : segments) curves.ends.push_back(segment.ends);
+    scene_lines curves{.kind = curve_class, .ends = segments.answers};
     shown.lines.push_back(std::move(curves));
 }
 
 /// [R] The boxes of curves: where long faces meet, rather than where they are.
-std::vector<tf::box3> places_of(const findings& result,
-                                std::span<const tf::curve_segment> segments) {
+std::vector<tf::box3> places_of(const findings& result, const segment_lists& segments) {
     std::vector<std::optional<tf::box3>> boxes(result.regions.size());
-    for (const tf::curve_segment& segment : segments) {
-        auto& box = boxes[result.region_of(result.found.pairs[segment.pair])];
-        for (const tf::point3& p : segment.ends) {
-            if (!box) box = {p, p};
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                box->min[axis] = std::min(box->min[axis], p[axis]);
-                box->max[axis] = std::max(box->max[axis], p[axis]);
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        auto& box = boxes[result.region_of(result.found.pairs[i])];
+        for (const auto& ends : segments[i])
+            for (const tf::point3& p : ends) {
+                if (!box) box = {p, p};
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    box->min[axis] = std::min(box->min[axis], p[axis]);
+                    box->max[axis] = std::max(box->max[axis], p[axis]);
+                }
             }
-        }
     }
     std::vector<tf::box3> places;
     for (std::size_t r = 0; r < boxes.size(); ++r) {

@@ -67,10 +67,6 @@ void glue::fill(keeper&, const tf::intersection_region& from, treeform_region& t
     to.pair_count = from.pairs.size();
 }
 
-static_assert(sizeof(treeform_segment) == sizeof(tf::curve_segment));
-static_assert(offsetof(treeform_segment, ends) == offsetof(tf::curve_segment, ends));
-static_assert(offsetof(treeform_segment, pair) == offsetof(tf::curve_segment, pair));
-
 void glue::fill(keeper&, const tf::curve_path& from, treeform_path& to) {
     to.points = or_null(from.points);
     to.count = from.points.size();
@@ -132,11 +128,6 @@ void glue::fill(keeper& kept, const std::vector<tf::intersection_region>& from,
     to.count = from.size();
 }
 
-void glue::fill(keeper&, const std::vector<tf::curve_segment>& from, treeform_segments& to) {
-    to.segments = same<treeform_segment>(from);
-    to.count = from.size();
-}
-
 treeform_code treeform_self_intersections(const treeform_mesh* mesh,
                                           const treeform_intersections_options* options,
                                           treeform_pairs** pairs) {
@@ -195,7 +186,7 @@ treeform_code treeform_intersection_curves(const treeform_mesh* mesh,
     return glue::guard([&] {
         glue::start(segments);
         return glue::give(
-            tf::intersection_curves(glue::view(mesh), glue::pairs_of(mesh, pairs, count)),
+            glue::intersection_curves(glue::view(mesh), glue::pairs_of(mesh, pairs, count)),
             segments);
     });
 }

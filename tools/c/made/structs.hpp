@@ -138,7 +138,6 @@ void fill(keeper& kept, const tf::urdf_robot& from, treeform_robot_view& to);
 void fill(keeper& kept, const std::vector<tf::mesh_feature>& from, treeform_features& to);
 void fill(keeper& kept, const std::vector<tf::mesh_part>& from, treeform_mesh_parts& to);
 void fill(keeper& kept, const std::vector<tf::intersection_region>& from, treeform_regions& to);
-void fill(keeper& kept, const std::vector<tf::curve_segment>& from, treeform_segments& to);
 void fill(keeper& kept, const std::vector<std::uint32_t>& from, treeform_indices& to);
 void fill(keeper& kept, const std::vector<double>& from, treeform_heights& to);
 void fill(keeper& kept, const std::vector<std::string>& from, treeform_strings& to);

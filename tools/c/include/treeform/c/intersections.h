@@ -5,6 +5,14 @@
 
 #include <treeform/c/files.h>
 
+/// The segments in which pairs of faces meet: pair i has the segments begin[i] ... begin[i + 1] - 1.
+typedef struct treeform_segments {
+    void* owner;
+    const size_t* begin;  ///< [count + 1]
+    const double* ends;   ///< [begin[count]][2][3] equal when the faces meet in a point
+    size_t count;         ///< pairs
+} treeform_segments;
+
 // made of the headers of C++:
 //   pair_kind
 /// How two faces meet. Each pair has exactly one kind. A shared corner is one that both faces
@@ -34,8 +42,8 @@ enum {
 // made of the headers of C++:
 //   face_pair intersection_result intersection_options self_intersections()
 //   intersection_region regions group_pairs() intersections=mesh_intersections() intersects()
-//   intersects_poses() faces_in_box() curve_segment segments intersection_curves() curve_path
-//   curve_network intersection_paths() write_curves() color_pairs() stream_search_options
+//   intersects_poses() faces_in_box() intersection_curves() curve_path curve_network
+//   intersection_paths() write_curves() color_pairs() stream_search_options
 //   stream_search_result self_intersections_of_file() is_searched_in_tiles()
 /// Two faces that meet.
 typedef struct treeform_face_pair {
@@ -137,22 +145,9 @@ TREEFORM_C_API treeform_code treeform_faces_in_box(const treeform_mesh* mesh,
                                                    const treeform_box* box,
                                                    treeform_indices** indices);
 
-/// The intersection of two faces, or one side of it.
-typedef struct treeform_segment {
-    double ends[2][3];  ///< equal when the faces meet in a point
-    uint32_t pair;      ///< index into the pairs given
-} treeform_segment;
-
-/// Segments, in the order of the pairs.
-typedef struct treeform_segments {
-    void* owner;
-    const treeform_segment* segments;  ///< [count]
-    size_t count;
-} treeform_segments;
-
-/// The intersection of each pair as segments, in the order of `pairs`: one segment for a crossing,
+/// [pairs] The intersection of each pair as segments, by their ends: one segment for a crossing,
 /// the 3 to 6 sides of the common area for faces that overlap, a segment of length 0 for a single
-/// point.
+/// point, none for faces that do not meet.
 ///
 /// Whether there is a segment is exact. Its ends are rounded, and finite.
 TREEFORM_C_API treeform_code treeform_intersection_curves(const treeform_mesh* mesh,
