@@ -5,7 +5,7 @@
 
 #include <treeform/c/files.h>
 
-/// The segments in which pairs of faces meet: pair i has the segments begin[i] ... begin[i + 1] - 1.
+/// Segments in which pairs of faces meet: pair i has the segments begin[i] ... begin[i + 1] - 1.
 typedef struct treeform_segments {
     void* owner;
     const size_t* begin;  ///< [count + 1]
