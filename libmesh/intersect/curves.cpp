@@ -12,9 +12,9 @@
 namespace treeform {
 namespace {
 
-using segment = std::array<point3, 2>;
+using segment_ends = std::array<point3, 2>;
 
-void append_common_set(mesh_view mesh, const face_pair& pair, std::vector<segment>& segments) {
+void append_common_set(mesh_view mesh, const face_pair& pair, std::vector<segment_ends>& segments) {
     const triangle3 a = detail::base::triangle_of(mesh, pair.a);
     const triangle3 b = detail::base::triangle_of(mesh, pair.b);
     const triangle_contact common = intersect(a, b);
@@ -30,11 +30,11 @@ void append_common_set(mesh_view mesh, const face_pair& pair, std::vector<segmen
 
 }  // namespace
 
-answer_lists<segment> intersection_curves(mesh_view mesh, std::span<const face_pair> pairs) {
+answer_lists<segment_ends> intersection_curves(mesh_view mesh, std::span<const face_pair> pairs) {
     constexpr std::size_t grain = 1 << 7;
     detail::intersect::check_pairs("intersection_curves", mesh, pairs, false);
-    std::vector<std::vector<segment>> parts(chunk_count(pairs.size(), grain));
-    answer_lists<segment> found{std::vector<std::size_t>(pairs.size() + 1), {}};
+    std::vector<std::vector<segment_ends>> parts(chunk_count(pairs.size(), grain));
+    answer_lists<segment_ends> found{std::vector<std::size_t>(pairs.size() + 1), {}};
     for_chunks(pairs.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::size_t before = parts[chunk].size();
