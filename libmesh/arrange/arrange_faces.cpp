@@ -112,7 +112,7 @@ struct clusters {
 /// Whether a meeting leaves face `f` whole: it has no point but a corner of the face. No meeting
 /// leaves both faces whole: its points would be corners of both, and no two corners are equal.
 bool spares(const meeting& m, std::uint32_t f) {
-    if (m.kind == overlap::area) return false;
+    if (m.count >= 3) return false;
     for (std::size_t k = 0; k < m.count; ++k)
         if ((m.a == f ? m.ends[k].on_a : m.ends[k].on_b) > feature::v2) return false;
     return true;
@@ -127,7 +127,7 @@ clusters gather(std::size_t face_count, const mesh_meetings& met) {
         [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t i = begin; i < end; ++i) {
                 const meeting& m = met.meetings[i];
-                if (m.kind == overlap::area) sets.join(m.a, m.b);
+                if (m.count >= 3) sets.join(m.a, m.b);
                 for (const std::uint32_t f : {m.a, m.b})
                     if (!spares(m, f))
                         std::atomic_ref(result.is_member[f]).store(1, std::memory_order_relaxed);

@@ -120,7 +120,7 @@ class cutter {
                         points_.push_back(end.point);
                     if (!m.coplanar) on.push_back({end.point, {true, {other, 0}}});
                 }
-                if (!m.coplanar && m.kind == overlap::segment)
+                if (!m.coplanar && m.count == 2)
                     crossings.push_back({m.ends[0].point, m.ends[1].point, other});
             });
         }

@@ -87,7 +87,7 @@ class pair_inspection {
         if (!options_.depths || work_.cancelled()) return;
         const auto deep = penetration_depth(
             a.prepared(), b.prepared(),
-            {.effort = options_.effort, .vertices = options_.vertices, .progress = asking_});
+            {.vertices = options_.vertices, .effort = options_.effort, .progress = asking_});
         if (!deep || deep->status != status::ok) return;
         found.depth = deep->depth;
         found.move = deep->move;

@@ -29,12 +29,13 @@ std::string open_message(const certificate& c) {
         text += "is inconsistently oriented at " + counted(c.misoriented_edges, "edge", "edges");
     if (c.boundary_edges == 0 && c.misoriented_edges == 0)
         text += "is open at " + counted(c.open_count, "piece of an edge", "pieces of edges");
-    if (c.open.empty()) return text;
-    const open_edge& first = c.open.front();
-    text += ", the first from " + place_of(first.ends[0]) + " to " + place_of(first.ends[1]) +
-            " at face " + std::to_string(first.face.index);
-    if (first.face.operand != operand_element::none)
-        text += " of operand " + detail::base::operand_name(first.face.operand);
+    if (c.open_edges.empty()) return text;
+    const auto& [from, to] = c.open_edges.front();
+    const operand_element& face = c.open_faces.front();
+    text += ", the first from " + place_of(from) + " to " + place_of(to) + " at face " +
+            std::to_string(face.index);
+    if (face.operand != operand_element::none)
+        text += " of operand " + detail::base::operand_name(face.operand);
     return text;
 }
 

@@ -79,8 +79,10 @@ std::optional<certificate> open_input(const joined_operands& joined, const opera
         const auto [x, y, z] = joined.all.points[p];
         return point3{x + 0.0, y + 0.0, z + 0.0};  // -0 is 0
     };
-    for (const auto& [face, ends] : found.stretches)
-        result.open.push_back({joined.face_source(face), {at(ends[0]), at(ends[1])}});
+    for (const auto& [face, ends] : found.stretches) {
+        result.open_edges.push_back({at(ends[0]), at(ends[1])});
+        result.open_faces.push_back(joined.face_source(face));
+    }
     return result;
 }
 

@@ -47,7 +47,7 @@ solid::solid(treeform::mesh&& owned)
 
 solid::solid(std::shared_ptr<const prepared_mesh> shared) {
     if (certificate found = detail::boolean::check_solid("solid", shared->view()); !found) {
-        for (open_edge& edge : found.open) edge.face.operand = operand_element::none;
+        for (operand_element& face : found.open_faces) face.operand = operand_element::none;
         throw not_certified_error(std::move(found));
     }
     auto made = std::make_shared<formula>();

@@ -28,13 +28,12 @@ std::vector<std::uint8_t> marks_of_vertices(const mesh& mesh,
 }  // namespace
 
 face_marks::face_marks(std::size_t face_count, std::span<const face_pair> pairs,
-                       const intersection_regions& regions)
+                       std::span<const intersection_region> regions)
     : kind(face_count, 0), region(face_count, -1) {
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-        for (const std::uint32_t f : {pairs[i].a, pairs[i].b}) {
-            mark(kind[f], pairs[i].kind);
-            region[f] = static_cast<std::int32_t>(regions.region_of_pair[i]);
-        }
+    for (const face_pair& pair : pairs)
+        for (const std::uint32_t f : {pair.a, pair.b}) mark(kind[f], pair.kind);
+    for (std::size_t r = 0; r < regions.size(); ++r)
+        for (const std::uint32_t f : regions[r].faces) region[f] = static_cast<std::int32_t>(r);
 }
 
 void face_marks::color(mesh_file& file, const usable_mesh& looked_at) const {

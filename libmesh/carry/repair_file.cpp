@@ -72,7 +72,7 @@ class repair_of_parts {
             f += first_face;
             g += first_face;
         }
-        for (open_edge& e : known.open) e.face.index = stored(in_whole(e.face.index, of.faces));
+        for (operand_element& e : known.open_faces) e.index = stored(in_whole(e.index, of.faces));
         add(done_.statistics, made.statistics);
         join(known);
         done_.parts.push_back({of.name, first_face, faces, std::move(known), made.statistics});

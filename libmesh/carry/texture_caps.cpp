@@ -46,7 +46,7 @@ double texture_scale(const carry_source& of) {
 }
 
 /// Axes of the plane across `normal`, or the other way: the same for both sides of a cut.
-plane_frame frame_across(point3 normal) {
+std::array<point3, 3> axes_across(point3 normal) {
     constexpr double noise = 0x1p-40;
     const std::array<double, 3> size{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
     const double largest = *std::ranges::max_element(size);
@@ -54,7 +54,7 @@ plane_frame frame_across(point3 normal) {
         normal[k] = size[k] <= noise * largest ? 0.0 : normal[k] / largest;
         if (size[k] == largest && normal[k] < 0.0) normal = {-normal.x, -normal.y, -normal.z};
     }
-    return oriented_plane{{}, normal}.frame();
+    return oriented_plane{{}, normal}.axes();
 }
 
 }  // namespace
@@ -71,26 +71,25 @@ void carry_source::texture_caps(mesh_file& piece, std::span<const std::uint32_t>
         // The other side of the cut may be there, too.
         normal = dot(normal, area) < 0.0 ? minus(normal, area) : detail::base::plus(normal, area);
     }
-    std::map<std::uint32_t, plane_frame> frames;
+    std::map<std::uint32_t, std::array<point3, 3>> axes_of;
     for (const auto& [plane, normal] : normals)
-        if (dot(normal, normal) > 0.0) frames.emplace(plane, frame_across(normal));
-    if (frames.empty()) return;
+        if (dot(normal, normal) > 0.0) axes_of.emplace(plane, axes_across(normal));
+    if (axes_of.empty()) return;
     corner_values& corners = piece.attributes.corners;
     if (corners.texture_of_corner.empty())
         corners.texture_of_corner.assign(piece.mesh.faces.size(),
                                          {no_coordinate, no_coordinate, no_coordinate});
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> number_of;  // by cap, point
     for (std::size_t f = 0; f < cap.size(); ++f) {
-        const auto frame = frames.find(cap[f]);
-        if (frame == frames.end()) continue;
+        const auto found = axes_of.find(cap[f]);
+        if (found == axes_of.end()) continue;
+        const auto& [x, y, normal] = found->second;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t v = piece.mesh.faces[f][k];
             const auto next = static_cast<std::uint32_t>(corners.texture.size());
             const auto [at, fresh] = number_of.try_emplace({cap[f], v}, next);
             const point3& p = piece.mesh.points[v];
-            if (fresh)
-                corners.texture.push_back(
-                    {scale * dot(frame->second.x, p), scale * dot(frame->second.y, p), 0.0});
+            if (fresh) corners.texture.push_back({scale * dot(x, p), scale * dot(y, p), 0.0});
             corners.texture_of_corner[f][k] = at->second;
         }
     }

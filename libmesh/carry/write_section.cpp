@@ -88,16 +88,16 @@ drawing drawing_of(const section_result& section) {
     return made;
 }
 
-drawing drawing_of(const isolines_result& all, const plane_frame& seen) {
+drawing drawing_of(const isolines_result& all, const oriented_plane& seen) {
     drawing made{"level", "level", false, all.points.size()};
     for (const isoline& line : all.lines) {
         if (made.groups.empty() || made.groups.back().value != line.level)
             made.groups.push_back({line.level});
         made.groups.back().lines.push_back({line.first_point, line.point_count, line.closed});
     }
-    made.flat = [&all, seen](std::size_t p) {
-        return point2{detail::base::dot(seen.x, all.points[p]),
-                      detail::base::dot(seen.y, all.points[p])};
+    made.flat = [&all, axes = seen.axes()](std::size_t p) {
+        return point2{detail::base::dot(axes[0], all.points[p]),
+                      detail::base::dot(axes[1], all.points[p])};
     };
     made.in_space = made.of_dxf = [&all](std::size_t, std::size_t p) { return all.points[p]; };
     return made;
@@ -235,9 +235,9 @@ class json_writer {
 
     void put(const section_result& section, const std::string& unit) {
         put_start(unit);
-        put_axis("x", section.frame.x);
-        put_axis("y", section.frame.y);
-        put_axis("normal", section.frame.normal);
+        put_axis("x", section.axes[0]);
+        put_axis("y", section.axes[1]);
+        put_axis("normal", section.axes[2]);
         out_.put("\"layers\":[");
         for (std::size_t i = 0; i < section.layers.size(); ++i) {
             const section_layer& layer = section.layers[i];
@@ -354,7 +354,8 @@ void write_section(const std::filesystem::path& path, const section_result& sect
 }
 
 void write_isolines(const std::filesystem::path& path, const isolines_result& isolines,
-                    const plane_frame& seen, const std::string& format, const std::string& unit) {
+                    const oriented_plane& seen, const std::string& format,
+                    const std::string& unit) {
     write_curves_of(path, isolines, drawing_of(isolines, seen), format, unit);
 }
 

@@ -100,27 +100,26 @@ class level_finder {
 
 }  // namespace
 
-plane_frame oriented_plane::frame() const {
+std::array<point3, 3> oriented_plane::axes() const {
     const point3& n = normal;
     if (!is_finite(n) || n == point3{})
         throw std::invalid_argument("treeform: the normal of a plane is zero or not finite");
-    plane_frame frame;
-    frame.normal = unit(n);
+    std::array<point3, 3> axes{};
+    auto& [x, y, up] = axes;
+    up = unit(n);
     std::size_t largest = 0;
     for (std::size_t i = 1; i < 3; ++i)
         if (std::abs(n[i]) > std::abs(n[largest])) largest = i;
-    point3 x{};
     x[(largest + 1) % 3] = 1.0;
-    const double off = dot(x, frame.normal);
-    frame.x = unit(detail::base::minus(x, detail::base::scaled(frame.normal, off)));
-    frame.y = detail::base::cross(frame.normal, frame.x);
-    for (point3* axis : {&frame.normal, &frame.x, &frame.y})
-        for (std::size_t i = 0; i < 3; ++i) (*axis)[i] += 0.0;  // no -0
-    return frame;
+    x = unit(detail::base::minus(x, detail::base::scaled(up, dot(x, up))));
+    y = detail::base::cross(up, x);
+    for (point3& axis : axes)
+        for (std::size_t i = 0; i < 3; ++i) axis[i] += 0.0;  // no -0
+    return axes;
 }
 
 oriented_plane oriented_plane::parallel(double height) const {
-    const point3 n = frame().normal;
+    const point3 n = axes()[2];
     oriented_plane result = *this;
     for (std::size_t i = 0; i < 3; ++i)
         if (n[i] != 0.0) result.at[i] += height * n[i];
@@ -141,7 +140,7 @@ plane_levels levels_of(const char* function, points_view points, const oriented_
             throw std::invalid_argument(name + ": the plane at height " + std::to_string(height) +
                                         " is not finite");
     }
-    if (heights.empty()) (void)plane.frame();  // refuses what is no plane
+    if (heights.empty()) (void)plane.axes();  // refuses what is no plane
     const auto order_of = [&](std::uint32_t a, std::uint32_t b) {
         return compare_along({}, plane.normal, at[a], at[b]);
     };

@@ -82,7 +82,7 @@ void straighten(mesh_view mesh, cut::layer_loops& traced) {
     traced.faces.resize(to);
 }
 
-drawn_layer draw(mesh_view mesh, const cut::plane_levels& levels, const plane_frame& frame,
+drawn_layer draw(mesh_view mesh, const cut::plane_levels& levels, const std::array<point3, 3>& axes,
                  std::uint32_t k, std::span<const std::uint32_t> faces) {
     cut::layer_loops traced = cut::loops_of(mesh, levels, k, faces);
     straighten(mesh, traced);
@@ -102,7 +102,7 @@ drawn_layer draw(mesh_view mesh, const cut::plane_levels& levels, const plane_fr
         }
         radius = std::max(radius, off);
         centers.push_back(center);
-        layer.points.push_back({dot(frame.x, center), dot(frame.y, center)});
+        layer.points.push_back({dot(axes[0], center), dot(axes[1], center)});
     }
     const std::vector<cut::nesting> nested =
         cut::nested_loops(mesh, levels, k, traced, centers, radius);
@@ -142,7 +142,7 @@ section_result sections_of(mesh_view mesh, const detail::weld::joined_faces& joi
                            const oriented_plane& plane, std::span<const double> heights,
                            const progress_callback& report) {
     section_result result;
-    result.frame = plane.frame();
+    result.axes = plane.axes();
     detail::base::work_progress progress(report);
     const auto cancelled = [&] {
         result = {};
@@ -158,7 +158,7 @@ section_result sections_of(mesh_view mesh, const detail::weld::joined_faces& joi
     for_chunks(layers.size(), 1, [&](std::size_t begin, std::size_t, std::size_t) {
         if (progress.cancelled()) return;
         const auto k = static_cast<std::uint32_t>(begin);
-        layers[k] = draw(merged, levels, result.frame, k, met.of(k));
+        layers[k] = draw(merged, levels, result.axes, k, met.of(k));
         progress.reach(0.1 +
                        0.8 * static_cast<double>(++done) / static_cast<double>(layers.size()));
     });
@@ -189,12 +189,12 @@ section_result section(const mesh_ref& mesh, const oriented_plane& plane,
 }
 
 point3 section_result::in_space(const section_layer& layer, const point2& p) const {
-    const auto& [x, y, normal] = frame;
+    const auto& [x, y, normal] = axes;
     return plus(plus(scaled(x, p.x), scaled(y, p.y)), scaled(normal, dot(normal, layer.at)));
 }
 
 std::vector<double> oriented_plane::layer_heights(points_view points, double thickness) const {
-    const point3 n = frame().normal;
+    const point3 n = axes()[2];
     double low = std::numeric_limits<double>::infinity(), high = -low;
     const double zero = dot(n, at);
     if (!std::isfinite(zero))

@@ -58,7 +58,6 @@ class contact_list {
 inline triangle_contact contact_of(const contact_list& ends, bool coplanar) {
     assert(ends.size() <= 6);
     triangle_contact result;
-    result.kind = static_cast<overlap>(ends.size() < 3 ? ends.size() : 3);
     result.coplanar = coplanar;
     result.count = static_cast<std::uint8_t>(ends.size());
     for (int i = 0; i < ends.size(); ++i) result.ends[static_cast<std::size_t>(i)] = ends[i];

@@ -85,7 +85,7 @@ closest_between_triangles closest_points(const triangle3& a, const triangle3& b)
     // Triangles may pass through each other far from any corner and from any two edges.
     if (separated(a, b, best)) return best;
     const triangle_contact contact = intersect(a, b);
-    if (contact.kind == overlap::none) {
+    if (contact.count == 0) {
         best.squared_distance = std::max(best.squared_distance, std::numeric_limits<double>::min());
         return best;
     }

@@ -106,8 +106,8 @@ triangle_contact intersect(const triangle3& a, const triangle3& b, predicate_cou
 
     const line_intervals intervals(a, of_a, b, of_b, counters);
     triangle_contact result = detail::geometry::contact_of(intervals.common(), false);
-    result.crossing = result.kind == overlap::segment && strictly_on_both_sides(of_a) &&
-                      strictly_on_both_sides(of_b);
+    result.crossing =
+        result.count == 2 && strictly_on_both_sides(of_a) && strictly_on_both_sides(of_b);
     return result;
 }
 

@@ -45,10 +45,10 @@ bool is_shared(points_view points, const face& a, const contact& end,
 /// between them.
 bool reaches_beyond(points_view points, const face& a, const triangle_contact& common,
                     const shared_corners& shared) {
-    if (common.kind == overlap::none) return false;
-    if (common.kind == overlap::area || shared.count == 3) return true;
+    if (common.count == 0) return false;
+    if (common.count >= 3 || shared.count == 3) return true;
     // A convex set within a point or a segment: all its ends must be theirs.
-    if (shared.count == 1 && common.kind == overlap::segment) return true;
+    if (shared.count == 1 && common.count == 2) return true;
     return !std::all_of(common.ends.begin(), common.ends.begin() + common.count,
                         [&](const contact& end) { return is_shared(points, a, end, shared); });
 }
@@ -133,8 +133,7 @@ std::optional<pair_kind> classify_pair(points_view points, const face& a, const 
     if (collinear(ta[0], ta[1], ta[2], &counters) || collinear(tb[0], tb[1], tb[2], &counters))
         return pair_kind::degenerate;
     if (shared.count == 3) return pair_kind::duplicate;
-    if (common.kind == overlap::area)
-        return shared.count == 2 ? pair_kind::fold : pair_kind::overlap;
+    if (common.count >= 3) return shared.count == 2 ? pair_kind::fold : pair_kind::overlap;
     if (common.crossing) return shared.count == 1 ? pair_kind::pierce : pair_kind::crossing;
     return pair_kind::touching;
 }
@@ -142,10 +141,10 @@ std::optional<pair_kind> classify_pair(points_view points, const face& a, const 
 std::optional<pair_kind> classify_triangles(const triangle3& a, const triangle3& b,
                                             predicate_counters& counters) {
     const triangle_contact common = treeform::intersect(a, b, &counters);
-    if (common.kind == overlap::none) return std::nullopt;
+    if (common.count == 0) return std::nullopt;
     if (collinear(a[0], a[1], a[2], &counters) || collinear(b[0], b[1], b[2], &counters))
         return pair_kind::degenerate;
-    if (common.kind == overlap::area) return pair_kind::overlap;
+    if (common.count >= 3) return pair_kind::overlap;
     return common.crossing ? pair_kind::crossing : pair_kind::touching;
 }
 

@@ -61,9 +61,8 @@ std::vector<std::uint32_t> faces_in_box(const mesh_ref& given, const point3& min
         if (apart(t, min, max)) return false;
         for (const point3& p : t)
             if (inside(p, min, max)) return true;
-        return std::any_of(walls.begin(), walls.end(), [&](const triangle3& wall) {
-            return intersect(t, wall).kind != overlap::none;
-        });
+        return std::any_of(walls.begin(), walls.end(),
+                           [&](const triangle3& wall) { return intersect(t, wall).count != 0; });
     };
 
     std::vector<std::vector<std::uint32_t>> found(chunk_count(mesh.faces.size(), light_grain));

@@ -61,7 +61,7 @@ mesh_meetings meetings_of(mesh_view mesh, std::span<const face_pair> pairs) {
                        const triangle_contact common =
                            treeform::intersect(triangle_of(mesh, a), triangle_of(mesh, b));
                        meeting& m = result.meetings[i];
-                       m = {a, b, common.kind, common.coplanar, common.count, {}};
+                       m = {a, b, common.coplanar, common.count, {}};
                        for (std::uint8_t k = 0; k < common.count; ++k) {
                            const contact at = common.ends[k];
                            m.ends[k] = {0, at.on_a, at.on_b};

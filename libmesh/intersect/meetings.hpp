@@ -47,7 +47,6 @@ struct meeting_end {
 struct meeting {
     std::uint32_t a = 0;  ///< faces, the lower number first
     std::uint32_t b = 0;
-    overlap kind = overlap::none;
     bool coplanar = false;
     std::uint8_t count = 0;
     std::array<meeting_end, 6> ends{};

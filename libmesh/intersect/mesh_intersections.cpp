@@ -75,6 +75,8 @@ class pairs_looked_at {
     std::uint64_t most_;
 };
 
+constexpr bool in_both_frames = true;  // boxes are also compared in the frame of a moved tree
+
 /// What the chunks of a search give, in a narrow phase each.
 template <class Source>
 intersection_result classified(const pair_search<3>& search, const typename Source::input& meshes,
@@ -124,7 +126,7 @@ intersection_result classified_by_faces(mesh_view a, const tree<3>& tree_a, mesh
                                         const mesh_positions& moves,
                                         detail::base::effort* effort = nullptr) {
     const pair_search<3> search(transformed(tree_a, moves.move_a),
-                                transformed(tree_b, moves.move_b), turned_boxes::both_ways);
+                                transformed(tree_b, moves.move_b), in_both_frames);
     return classified<detail::intersect::face_candidates>(
         search, {{a, tree_a, options.move_a}, {b, tree_b, options.move_b}}, options, effort);
 }
@@ -151,7 +153,7 @@ bool any_meet(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tr
             }
             return !output.pairs.empty();
         },
-        turned_boxes::both_ways);
+        in_both_frames);
     check_faces_met("treeform::intersects", bad);
     return found;
 }
@@ -175,7 +177,7 @@ intersection_result between_prepared(const prepared_mesh& a, const prepared_mesh
     const tree<3>& tree_a = build_face_tree(a, "mesh_intersections: a");
     const tree<3>& tree_b = build_face_tree(b, "mesh_intersections: b");
     const pair_search<3> search(transformed(tree_a, options.move_a),
-                                transformed(tree_b, options.move_b), turned_boxes::both_ways);
+                                transformed(tree_b, options.move_b), in_both_frames);
     return classified<detail::intersect::block_candidates>(
         search,
         {{detail::nearness::face_blocks_of(a).triangles, tree_a, options.move_a},

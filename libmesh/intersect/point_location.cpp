@@ -78,7 +78,7 @@ void count_face(const triangle3& t, const point3& q, std::uint32_t id, tally& fo
     const auto [least, most] = std::minmax({about[0], about[1], about[2]});
     if (least < 0 && most > 0) return;
     if (least == 0 && most == 0) {  // seen edge on, or without area
-        if (intersect(t, {q, q, q}).kind != overlap::none) found.touch(id);
+        if (intersect(t, {q, q, q}).count != 0) found.touch(id);
         return;
     }
     const int side = orient3d(a, b, c, q);

@@ -40,7 +40,7 @@ void include(intersection_region& region, const point3& p) {
 
 }  // namespace
 
-intersection_regions group_pairs(mesh_view mesh, std::span<const face_pair> pairs) {
+std::vector<intersection_region> group_pairs(mesh_view mesh, std::span<const face_pair> pairs) {
     check(mesh, pairs);
     if (pairs.empty()) return {};
     const std::vector<std::uint32_t> faces = faces_of(pairs, mesh.faces.size());
@@ -53,25 +53,22 @@ intersection_regions group_pairs(mesh_view mesh, std::span<const face_pair> pair
             linked.join(face_at[corner], f);
         }
 
-    intersection_regions result;
+    std::vector<intersection_region> regions;
     std::vector<std::uint32_t> region_of_root(mesh.faces.size());
     for (const std::uint32_t f : faces) {
         const std::uint32_t root = linked.root(f);
         if (root == f) {  // the lowest of its region
-            region_of_root[f] = static_cast<std::uint32_t>(result.regions.size());
+            region_of_root[f] = static_cast<std::uint32_t>(regions.size());
             const point3& corner = mesh.points[mesh.faces[f][0]];
-            result.regions.push_back({{}, corner, corner, 0});
+            regions.push_back({{}, corner, corner, {}});
         }
-        intersection_region& region = result.regions[region_of_root[root]];
+        intersection_region& region = regions[region_of_root[root]];
         region.faces.push_back(f);
         for (const std::uint32_t corner : mesh.faces[f]) include(region, mesh.points[corner]);
     }
-    result.region_of_pair.reserve(pairs.size());
-    for (const face_pair& pair : pairs) {
-        result.region_of_pair.push_back(region_of_root[linked.root(pair.a)]);
-        ++result.regions[result.region_of_pair.back()].pairs;
-    }
-    return result;
+    for (std::uint32_t i = 0; i < pairs.size(); ++i)
+        regions[region_of_root[linked.root(pairs[i].a)]].pairs.push_back(i);
+    return regions;
 }
 
 }  // namespace treeform

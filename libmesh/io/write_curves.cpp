@@ -48,11 +48,13 @@ drawn_curves draw(mesh_view mesh, std::span<const face_pair> pairs) {
         for (const std::uint32_t pair : path.pairs) line.pairs.push_back(proper_number[pair]);
         drawn.add(std::move(line));
     }
-    for (const curve_segment& s : intersection_curves(mesh, degenerate)) {
-        const std::size_t first = drawn.points.size();
-        drawn.points.insert(drawn.points.end(), s.ends.begin(), s.ends.end());
-        drawn.add({{first, first + 1}, {degenerate_number[s.pair]}});
-    }
+    const auto segments = intersection_curves(mesh, degenerate);
+    for (std::size_t i = 0; i < segments.size(); ++i)
+        for (const auto& ends : segments[i]) {
+            const std::size_t first = drawn.points.size();
+            drawn.points.insert(drawn.points.end(), ends.begin(), ends.end());
+            drawn.add({{first, first + 1}, {degenerate_number[i]}});
+        }
     return drawn;
 }
 

@@ -42,9 +42,9 @@ drilled drill(const point3& at, double diameter, const prepared_mesh& solid,
     const double out = room_beyond(solid, {{from.x, from.y, from.z}, {back.x, back.y, back.z}},
                                    length * clear, diameter);
     const std::array ends{plus(from, scaled(back, out)), plus(from, scaled(along, length + in))};
-    const plane_frame frame = oriented_plane{{}, along}.frame();
+    const auto [x, y, normal] = oriented_plane{{}, along}.axes();
     // A closed surface has an inside, whichever way it faces.
-    return {geometry::prism(ends, {frame.x, frame.y}, 0.5 * diameter, drain_sides),
+    return {geometry::prism(ends, {x, y}, 0.5 * diameter, drain_sides),
             !contains(solid, ends[0]) && contains(cavities, ends[1])};
 }
 

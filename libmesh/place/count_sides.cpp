@@ -41,7 +41,7 @@ void lower_sides(const prepared_mesh& solid, points_view points, std::vector<std
 
 }  // namespace
 
-side_counts count_sides(points_view points, const mesh_refs& given_solids) {
+std::array<std::uint64_t, 3> count_sides(points_view points, const mesh_refs& given_solids) {
     const detail::base::prepared_refs all_solids(given_solids);
     const std::span<const prepared_mesh> solids = all_solids;
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -50,9 +50,8 @@ side_counts count_sides(points_view points, const mesh_refs& given_solids) {
                                         " is not finite");
     std::vector<std::int8_t> side(points.size(), 1);
     for (const prepared_mesh& solid : solids) lower_sides(solid, points, side);
-    side_counts counts;
-    for (const std::int8_t one : side)
-        ++(one < 0 ? counts.inside : one == 0 ? counts.on : counts.outside);
+    std::array<std::uint64_t, 3> counts{};
+    for (const std::int8_t one : side) ++counts[static_cast<std::size_t>(one + 1)];
     return counts;
 }
 

@@ -202,7 +202,7 @@ class escape_search {
 
 std::optional<penetration_depth_result> penetration_depth(const mesh_ref& given_a,
                                                           const mesh_ref& given_b,
-                                                          const depth_options& options) {
+                                                          const measure_options& options) {
     const detail::base::prepared_ref a(given_a);
     const detail::base::prepared_ref b(given_b);
     detail::place::check_operand("penetration_depth", "a", a);

@@ -76,11 +76,16 @@ double largest_in(points_view points) {
     return largest;
 }
 
-/// Of a surface with these distances at its points.
-directed_distance directed(mesh_view of, std::span<const double> distances) {
-    directed_distance found;
-    for (const double d : distances) found.sampled = std::max(found.sampled, std::abs(d));
-    found.at_most = found.sampled;
+/// The largest of these magnitudes.
+double largest_of(std::span<const double> distances) {
+    double largest = 0.0;
+    for (const double d : distances) largest = std::max(largest, std::abs(d));
+    return largest;
+}
+
+/// Bound of the distance of any point of a surface with these distances at its points.
+double bound_of(mesh_view of, std::span<const double> distances) {
+    double bound = largest_of(distances);
     std::vector<double> most(chunk_count(of.faces.size(), light_grain));
     for_chunks(of.faces.size(), light_grain,
                [&](std::size_t begin, std::size_t end, std::size_t chunk) {
@@ -98,8 +103,8 @@ directed_distance directed(mesh_view of, std::span<const double> distances) {
                        most[chunk] = std::max(most[chunk], corner + edge * 0.5773502691896259);
                    }
                });
-    for (const double one : most) found.at_most = std::max(found.at_most, one * (1.0 + 0x1p-48));
-    return found;
+    for (const double one : most) bound = std::max(bound, one * (1.0 + 0x1p-48));
+    return bound;
 }
 
 /// The numbers of the points of `mesh` that faces use.
@@ -157,22 +162,22 @@ void enter_moments(deviation_result& r) {
     r.p50 = percentile(magnitudes, 0.5);
 }
 
-distance_histogram histogram_of(const deviation_result& r, std::size_t bins) {
-    distance_histogram h{r.lowest, r.highest, std::vector<std::uint64_t>(bins)};
-    if (bins == 0) return h;
-    const double width = h.high - h.low;
+std::vector<std::uint64_t> histogram_of(const deviation_result& r, std::size_t bins) {
+    std::vector<std::uint64_t> counts(bins);
+    if (bins == 0) return counts;
+    const double width = r.highest - r.lowest;
     for (const double d : r.distances) {
-        const double at = width > 0.0 ? (d - h.low) / width * static_cast<double>(bins) : 0.0;
+        const double at = width > 0.0 ? (d - r.lowest) / width * static_cast<double>(bins) : 0.0;
         const auto bin = static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(bins)));
-        ++h.counts[std::min(bin, bins - 1)];
+        ++counts[std::min(bin, bins - 1)];
     }
-    return h;
+    return counts;
 }
 
-band_counts counts_in(const std::array<double, 2>& band, std::span<const double> distances) {
-    band_counts counts;
-    for (const double d : distances)
-        ++(d < band[0] ? counts.below : d > band[1] ? counts.above : counts.within);
+std::array<std::uint64_t, 3> counts_in(const std::array<double, 2>& band,
+                                       std::span<const double> distances) {
+    std::array<std::uint64_t, 3> counts{};
+    for (const double d : distances) ++counts[d < band[0] ? 0 : d > band[1] ? 2 : 1];
     return counts;
 }
 
@@ -215,9 +220,9 @@ std::optional<deviation_result> deviation_from(const prepared_mesh& a, const pre
     }
     if (!work.reach(options.both_ways ? 0.55 : 0.95)) return stopped();
     r.winding_numbers = sides.winding_numbers;
-    if (r.is_signed) r.sides.emplace();
+    if (r.is_signed) r.side_counts.emplace();
     for (const std::int8_t side : sides.side)
-        ++(side < 0 ? r.sides->inside : side == 0 ? r.sides->on : r.sides->outside);
+        ++(*r.side_counts)[static_cast<std::size_t>(side + 1)];
     r.distances.resize(from.points.size());
     r.faces.resize(from.points.size());
     for (std::size_t i = 0; i < found.order.size(); ++i) {
@@ -226,9 +231,9 @@ std::optional<deviation_result> deviation_from(const prepared_mesh& a, const pre
         r.faces[found.order[i]] = found.face[i];
     }
     enter_moments(r);
-    r.there = directed(from, r.distances);
+    r.there_at_most = bound_of(from, r.distances);
     r.histogram = histogram_of(r, options.bins);
-    if (options.band) r.band = counts_in(*options.band, r.distances);
+    if (options.band) r.band_counts = counts_in(*options.band, r.distances);
     if (options.both_ways && !from.faces.empty()) {
         const std::vector<std::uint32_t> used = used_points(to);
         std::vector<point3> points;
@@ -239,7 +244,8 @@ std::optional<deviation_result> deviation_from(const prepared_mesh& a, const pre
         std::vector<double> distances(to.points.size());
         for (std::size_t i = 0; i < used.size(); ++i)
             distances[used[back.order[i]]] = back.distance[i];
-        r.back = directed(to, distances);
+        r.back_max = largest_of(distances);
+        r.back_at_most = bound_of(to, distances);
     }
     work.reach(1.0);
     return r;

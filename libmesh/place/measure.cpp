@@ -100,11 +100,11 @@ std::optional<mesh_measure> detail::place::measure_of(const shape& of_a, const s
     if (a.faces.empty() || b.faces.empty()) return std::nullopt;
     detail::base::work_progress work(progress);
     mesh_measure result;
-    if (boxes_meet(a, b)) result.relation = relation_of(of_a, of_b, work.part(0.0, 0.5));
-    if (!work.reach(0.5)) result.relation = {.status = status::cancelled};
+    if (boxes_meet(a, b)) result = relation_of(of_a, of_b, work.part(0.0, 0.5));
+    if (!work.reach(0.5)) result = {.status = status::cancelled};
     if (work.cancelled()) return result;
-    if (result.relation.relation != mesh_relation::separate) {
-        const std::uint32_t f = result.relation.face_a, g = result.relation.face_b;
+    if (result.relation != mesh_relation::separate) {
+        const std::uint32_t f = result.face_a, g = result.face_b;
         const auto common = closest_points(triangle_of(a, f), triangle_of(b, g));
         if (common.squared_distance == 0.0) {
             result.on_a = surface_point_of(a, f, common.on_a);
@@ -113,7 +113,7 @@ std::optional<mesh_measure> detail::place::measure_of(const shape& of_a, const s
             return result;
         }
     }
-    const bool separate = result.relation.relation == mesh_relation::separate;
+    const bool separate = result.relation == mesh_relation::separate;
     const auto nearest = detail::nearness::closest_points(
         a, of_a.faces(), b, of_b.faces(),
         separate ? radius : std::numeric_limits<double>::infinity());

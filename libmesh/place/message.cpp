@@ -32,7 +32,7 @@ std::string too_far(const placement& p) {
 /// "touching bed.stl", and the first pair of faces that meet.
 std::string meeting_in_words(const placement& at, const body_set& moving, const body_set& fixed) {
     std::string text = name_of(at.at_place) + (" " + fixed.label(at.nearest_fixed));
-    const mesh_relation_result& how = at.nearest->relation;
+    const mesh_measure& how = *at.nearest;
     // Of a cloud it says only that some of the points are.
     if (how.a_inside_b) return text + (moving.file_of(0).cloud ? "" : ", inside it");
     if (how.b_inside_a)

@@ -108,7 +108,7 @@ placement placing::finished() {
 mesh_relation placing::relation_of(const std::optional<mesh_measure>& near) const {
     const double c = options_.clearance;
     if (!near) return c > 0.0 ? mesh_relation::clear : mesh_relation::separate;
-    switch (near->relation.relation) {
+    switch (near->relation) {
         case mesh_relation::penetrating:
             return mesh_relation::penetrating;
         case mesh_relation::touching:

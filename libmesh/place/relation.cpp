@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -126,13 +127,12 @@ std::optional<std::uint32_t> face_inside(const shape& of, const shape& solid, bo
 
 }  // namespace
 
-mesh_relation_result detail::place::relation_of(const shape& a, const shape& b,
-                                                const progress_callback& progress,
-                                                base::effort* effort) {
+mesh_measure detail::place::relation_of(const shape& a, const shape& b,
+                                        const progress_callback& progress, base::effort* effort) {
     detail::base::work_progress work(progress);
     pair_searches search{effort};
-    const mesh_relation_result cancelled{.status = status::cancelled};
-    mesh_relation_result result;
+    const mesh_measure cancelled{.status = status::cancelled};
+    mesh_measure result;
     const auto penetrating = [&](std::uint32_t face_a, std::uint32_t face_b) {
         result.relation = mesh_relation::penetrating;
         result.face_a = face_a;
@@ -172,14 +172,16 @@ mesh_relation_result detail::place::relation_of(const shape& a, const shape& b,
     return penetrating(of_a ? *of_a : result.face_a, of_b ? *of_b : result.face_b);
 }
 
-mesh_relation_result relation(const mesh_ref& given_a, const mesh_ref& given_b,
-                              const measure_options& options) {
+mesh_measure relation(const mesh_ref& given_a, const mesh_ref& given_b,
+                      const measure_options& options) {
     const detail::base::prepared_ref a(given_a);
     const detail::base::prepared_ref b(given_b);
     check_operand("relation", "a", a);
     check_operand("relation", "b", b);
-    return detail::place::relation_of(shape(a, options.vertices), shape(b, options.vertices),
-                                      options.progress);
+    mesh_measure found = detail::place::relation_of(shape(a, options.vertices),
+                                                    shape(b, options.vertices), options.progress);
+    found.distance = found.surface_distance = std::numeric_limits<double>::quiet_NaN();
+    return found;
 }
 
 }  // namespace treeform

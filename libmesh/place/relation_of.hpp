@@ -11,8 +11,8 @@ namespace treeform::detail::place {
 
 /// As `relation`, which has checked the operands; `cancelled`, too, where the effort does not
 /// suffice for one of its searches for pairs of faces.
-[[nodiscard]] mesh_relation_result relation_of(const shape& a, const shape& b,
-                                               const progress_callback& progress = {},
-                                               base::effort* effort = nullptr);
+[[nodiscard]] mesh_measure relation_of(const shape& a, const shape& b,
+                                       const progress_callback& progress = {},
+                                       base::effort* effort = nullptr);
 
 }  // namespace treeform::detail::place

@@ -53,8 +53,7 @@ double box_distance(const box3& a, const box3& b) {
 
 /// The order of what matters more: penetrating, touching, then the nearer.
 bool before(const measured_part& a, const measured_part& b) {
-    if (a.how.relation.relation != b.how.relation.relation)
-        return a.how.relation.relation > b.how.relation.relation;
+    if (a.how.relation != b.how.relation) return a.how.relation > b.how.relation;
     if (a.how.distance != b.how.distance) return a.how.distance < b.how.distance;
     return a.number < b.number;
 }
@@ -133,7 +132,7 @@ std::optional<measured_part> surroundings::nearest(const shape& a, const box3& b
         }
         return radius * radius * (1.0 + 0x1p-40) + 0x1p-1000;
     };
-    visit_near(boxes_, tree_box(box), look, {.radius = radius});
+    visit_near(boxes_, tree_box(box), look, radius);
     work.reach(1.0);
     return best;
 }

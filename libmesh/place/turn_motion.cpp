@@ -164,8 +164,8 @@ class turn_searching {
                     return closest_points(face_at(there, a), triangle_of(fixed, b));
                 },
                 reach);
-            for (const auto& pair : pairs)
-                state.pairs.push_back({pair.a, pair.b, pair.answer, part});
+            for (const auto& [faces, at] : pairs)
+                state.pairs.push_back({faces.first, faces.second, at, part});
             if (pairs.size() < most) continue;
             state.full = true;
             state.all_within =

@@ -244,9 +244,9 @@ class repairer {
         known.status = status::open_input;
         known.open_count = tally_.unbalanced;
         for (const auto& e : detail::repair::border_edges(mesh_.points.size(), mesh_.faces)) {
-            if (known.open.size() == listed_edges) break;
-            known.open.push_back(
-                {{0, mesh_.source[e.face]}, {mesh_.points[e.from], mesh_.points[e.to]}});
+            if (known.open_edges.size() == listed_edges) break;
+            known.open_edges.push_back({mesh_.points[e.from], mesh_.points[e.to]});
+            known.open_faces.push_back({0, mesh_.source[e.face]});
         }
         result_.statistics = did_;
         return std::move(result_);
@@ -337,7 +337,7 @@ class repairer {
     void take(detail::boolean::resolved_operand&& resolved) {
         boolean_result& made = resolved.made;
         result_.certificate = std::move(made.certificate);
-        for (open_edge& e : result_.certificate.open) e.face.index = mesh_.source[e.face.index];
+        for (operand_element& e : result_.certificate.open_faces) e.index = mesh_.source[e.index];
         result_.mesh = std::move(made.mesh);
         for (const operand_element& e : made.face_source)
             result_.face_source.push_back(mesh_.source[e.index]);

@@ -39,7 +39,7 @@ bool meet(const triangle3& face, const std::array<point3, 4>& four) {
     }
     if (inside[0] || inside[1] || inside[2]) return true;
     return std::any_of(faces.begin(), faces.end(), [&](const auto& f) {
-        return intersect(face, {four[f[0]], four[f[1]], four[f[2]]}).kind != overlap::none;
+        return intersect(face, {four[f[0]], four[f[1]], four[f[2]]}).count != 0;
     });
 }
 

@@ -195,7 +195,7 @@ void dynamic_tree<D>::move(std::span<const std::uint32_t> ids, std::span<const b
         vacate(ids[i]);
         pending.push_back(ids[i]);
     }
-    statistics_.refitted += ids.size() - pending.size();
+    counts_.refitted += ids.size() - pending.size();
     settle(std::move(pending), touched);
 }
 
@@ -216,7 +216,7 @@ void dynamic_tree<D>::vacate(std::uint32_t id) {
     const auto [from, place] = std::exchange(where_[id], {0, detail::no_primitive});
     parts_[from].boxes.ids_data()[place] = detail::no_primitive;
     --parts_[from].live;
-    ++statistics_.vacated;
+    ++counts_.vacated;
 }
 
 /// Restores what the class promises, with `pending` in no tree and the slots at `touched`, by part,
@@ -272,7 +272,7 @@ void dynamic_tree<D>::build_part(const std::vector<std::uint32_t>& ids) {
     unused->live = ids.size();
     unused->set_limits();
     unused->changed = true;
-    statistics_.built += ids.size();
+    counts_.built += ids.size();
 }
 
 /// Builds the top anew, unless the parts that have changed reach as far as they did.

@@ -338,14 +338,13 @@ search_statistics search_items(const two_trees<3>& trees, unsigned height_a, uns
 }
 
 template <std::size_t D>
-two_trees<D> in_one_frame(const transformed<D>& a, const transformed<D>& b, turned_boxes boxes) {
+two_trees<D> in_one_frame(const transformed<D>& a, const transformed<D>& b, bool in_both_frames) {
     const tree_frame<D>& frame_a = a.original().frame();
     const tree_frame<D>& frame_b = b.original().frame();
     const tree_frame<D> common = common_frame(frame_a, a.by(), frame_b, b.by());
     two_trees<D> trees{&a.original(), &b.original(), map_into(frame_a, a.by(), common),
                        map_into(frame_b, b.by(), common)};
-    if (boxes == turned_boxes::upright || a.moves() == b.moves() || a.original().empty() ||
-        b.original().empty())
+    if (!in_both_frames || a.moves() == b.moves() || a.original().empty() || b.original().empty())
         return trees;
     const auto back = a.moves() ? map_back(frame_b, a.by(), a.original())
                                 : map_back(frame_a, b.by(), b.original());
@@ -368,8 +367,8 @@ constexpr std::size_t small_block = 56;
 }  // namespace detail
 
 template <std::size_t D>
-pair_search<D>::pair_search(const transformed<D>& a, const transformed<D>& b, turned_boxes boxes)
-    : trees_(detail::in_one_frame(a, b, boxes)) {
+pair_search<D>::pair_search(const transformed<D>& a, const transformed<D>& b, bool in_both_frames)
+    : trees_(detail::in_one_frame(a, b, in_both_frames)) {
     if (trees_.a->empty() || trees_.b->empty()) return;
     detail::frontier cut =
         detail::expand(trees_, detail::enough_items(trees_.a->size() + trees_.b->size()));
@@ -395,9 +394,9 @@ search_statistics pair_search<D>::visit(
 template <std::size_t D>
 search_statistics pair_search<D>::visit_all(
     const transformed<D>& a, const transformed<D>& b,
-    detail::function_ref<bool(const candidate_block&)> visit, turned_boxes boxes) {
+    detail::function_ref<bool(const candidate_block&)> visit, bool in_both_frames) {
     if (a.original().empty() || b.original().empty()) return {};
-    const detail::two_trees<D> trees = detail::in_one_frame(a, b, boxes);
+    const detail::two_trees<D> trees = detail::in_one_frame(a, b, in_both_frames);
     const detail::node_pair roots{0, 0};
     return detail::search_items(trees, trees.a->levels() - 1, trees.b->levels() - 1, {&roots, 1},
                                 detail::small_block, visit);

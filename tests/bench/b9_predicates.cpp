@@ -44,7 +44,7 @@ int ask(question question, const triangle_pair& pair, predicate_counters* counte
         case question::compare_distance:
             return compare_distance(a[0], a[1], b[0], b[1], counters);
         case question::triangles_meet:
-            return intersect(a, b, counters).kind != overlap::none ? 1 : 0;
+            return intersect(a, b, counters).count != 0 ? 1 : 0;
     }
     return 0;
 }

@@ -81,7 +81,7 @@ double wrong_of(const judged_pairs& given, const verdicts& found, signed char tr
 verdicts own_kinds(pairs_view pairs) {
     verdicts kinds;
     for (const auto& [a, b] : pairs)
-        kinds.push_back(static_cast<signed char>(intersect(a, b).kind));
+        kinds.push_back(static_cast<signed char>(std::min<int>(intersect(a, b).count, 3)));
     return kinds;
 }
 

@@ -74,7 +74,7 @@ shared_motions load_motions(test::stress_family family, std::size_t count) {
         const double length = std::hypot(d.x, d.y, d.z);
         const auto usable = [](double x) { return x > 1e-140 && x < 1e140; };
         if (!usable(size) || !usable(length) || !is_proper(pair)) continue;
-        if (intersect(pair.a, pair.b).kind != overlap::none) continue;
+        if (intersect(pair.a, pair.b).count != 0) continue;
         made->push_back({pair.a, pair.b, d, size});
     }
     for_chunks(count, 16, [&](std::size_t begin, std::size_t end, std::size_t) {

@@ -116,7 +116,7 @@ auto faces_meet(const paper_trees& trees, const transform<3>& pose) {
     return [&trees, &pose](std::uint32_t i, std::uint32_t j) {
         const triangle3 a = triangle_of(*trees.a, i);
         const triangle3 b = moved(triangle_of(*trees.b, j), pose);
-        return overlaps(box_of(a), box_of(b)) && intersect(a, b).kind != overlap::none;
+        return overlaps(box_of(a), box_of(b)) && intersect(a, b).count != 0;
     };
 }
 

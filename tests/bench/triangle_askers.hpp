@@ -35,9 +35,8 @@ template <class Meet>
 }
 
 [[nodiscard]] inline make_asker asking_treeform() {
-    return asking_each([](const triangle3& a, const triangle3& b) {
-        return intersect(a, b).kind != overlap::none;
-    });
+    return asking_each(
+        [](const triangle3& a, const triangle3& b) { return intersect(a, b).count != 0; });
 }
 
 /// The one test whose signs come from `Signs`.

@@ -18,7 +18,7 @@ static void test_sections(void) {
     CHECK(made && made->layers[2].loop_count == 0 && made->layers[2].at[2] == 3);
     CHECK(made && made->loops[1].closed && made->loops[1].oriented && made->loops[1].depth == 0);
     CHECK(made && made->loops[1].parent == TREEFORM_NONE && made->faces[0] < 12);
-    CHECK(made && made->x[0] == 1 && made->y[1] == 1 && made->normal[2] == 1);
+    CHECK(made && made->axes[0][0] == 1 && made->axes[1][1] == 1 && made->axes[2][2] == 1);
     OK(treeform_write_section(path_in_work("section.svg"), made, NULL, "mm"));
     OK(treeform_write_section(path_in_work("section.txt"), made, "json", NULL));
     INVALID("yard", treeform_write_section(path_in_work("section.svg"), made, NULL, "yard"));

@@ -17,9 +17,10 @@ static void test_of_one(void) {
     CHECK(pairs->count == 78 && pairs->counts[TREEFORM_CROSSING] == 78);
     CHECK(pairs->pairs[0].a < pairs->pairs[0].b && pairs->pairs[77].kind == TREEFORM_CROSSING);
     OK(treeform_group_pairs(mesh, pairs->pairs, pairs->count, &regions));
-    CHECK(regions->count == 1 && regions->regions[0].pairs == 78 && regions->pair_count == 78);
+    CHECK(regions->count == 1 && regions->regions[0].pair_count == 78 &&
+          regions->regions[0].pairs[77] == 77);
     OK(treeform_intersection_curves(mesh, pairs->pairs, pairs->count, &segments));
-    CHECK(segments->count == 78 && segments->segments[5].pair == 5);
+    CHECK(segments->count == 78 && segments->begin[5] == 5 && segments->begin[78] == 78);
     OK(treeform_intersection_paths(mesh, pairs->pairs, pairs->count, &paths));
     CHECK(paths->path_count == 1 && paths->paths[0].closed == 1);
     CHECK(paths->paths[0].count == paths->point_count);

@@ -102,7 +102,6 @@ static void test_relations(void) {
     treeform_mesh* b = cube(0.75, 0, 0, 1);
     treeform_mesh* apart = cube(3, 0, 0, 1);
     treeform_measure_options options;
-    treeform_depth_options depth_options;
     treeform_relation* relation = NULL;
     treeform_mesh_relation how = 9;
     double depth = 0.0, move[3];
@@ -124,8 +123,8 @@ static void test_relations(void) {
     OK(treeform_relate(a, b, TREEFORM_BY_COORDINATES, &how));
     CHECK(how == TREEFORM_PENETRATING);
     INVALID("vertices", treeform_relate(a, b, 2, &how));
-    treeform_depth_options_init(&depth_options, sizeof depth_options);
-    OK(treeform_penetration_depth(a, b, &depth_options, &depth, move, &effort));
+    treeform_measure_options_init(&options, sizeof options);
+    OK(treeform_penetration_depth(a, b, &options, &depth, move, &effort));
     CHECK(effort.pairs > 0 && effort.pairs < effort.bound && effort.cut == 0);
     CHECK(near(depth, 0.25) && near(move[0], -0.25));
     OK(treeform_penetration_depth(a, apart, NULL, &depth, move, NULL));
@@ -143,6 +142,7 @@ static void test_deviation(void) {
     treeform_deviation_options options;
     treeform_deviation_result* result = NULL;
     int calls = 0;
+    size_t i;
     OK(treeform_cloud_create(points, 3, 0, &cloud));
     fixed[0] = solid;
     treeform_deviation_options_init(&options, sizeof options);
@@ -151,9 +151,8 @@ static void test_deviation(void) {
     OK(treeform_deviation(cloud, fixed, 1, &options, &result));
     CHECK(result->count == 3 && result->is_signed == 1 && result->distances[0] == 0.25);
     CHECK(result->distances[1] == -0.25 && result->distances[2] == 0.0 && result->max == 0.25);
-    CHECK(result->below == 1 && result->within == 1 && result->above == 1);
-    CHECK(result->sides[0] == 1 && result->sides[1] == 1 && result->sides[2] == 1);
-    CHECK(result->bins == 40 && result->there_sampled == 0.25 && result->back_sampled > 0.0);
+    for (i = 0; i < 3; ++i) CHECK(result->band_counts[i] == 1 && result->side_counts[i] == 1);
+    CHECK(result->bins == 40 && result->there_at_most == 0.25 && result->back_max > 0.0);
     treeform_free(result);
     options.band_low = 0.2;
     INVALID("", treeform_deviation(cloud, fixed, 1, &options, &result));

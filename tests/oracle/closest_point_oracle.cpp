@@ -124,7 +124,7 @@ TEST_CASE("closest points: the distance of two triangles is within its bound, an
                         {size, length(a[j], b[k]), length(a[j], a[k]), length(b[j], b[k])});
             if (!(size > 1e-140 && size < 1e150)) continue;
             const auto found = tf::closest_points(a, b);
-            const bool meet = tf::intersect(a, b).kind != tf::overlap::none;
+            const bool meet = tf::intersect(a, b).count != 0;
             REQUIRE((found.squared_distance == 0.0) == meet);
             if (meet) {
                 ++meeting;

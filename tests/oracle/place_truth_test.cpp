@@ -87,7 +87,7 @@ TEST_CASE("truth: every distance of every pair of files is that of the exact ker
         if (!row.text("volume_intersection").empty() &&
             row.text("volume_intersection") != "nonmanifold") {
             const bool inner = row.real("volume_intersection") > 0.0;
-            CHECK((found->relation.relation == tf::mesh_relation::penetrating) == inner);
+            CHECK((found->relation == tf::mesh_relation::penetrating) == inner);
         }
         ++rows;
         apart += truth > 0.0;

@@ -87,10 +87,10 @@ slice_totals slices_of_cgal(const sliced_surface& mesh, const tf::oriented_plane
     const CGAL::Polygon_mesh_slicer<sliced_surface, kernel> slicer(mesh);
     std::vector<polyline> lines;
     slicer(plane_of_cgal(plane), std::back_inserter(lines));
-    const tf::plane_frame frame = plane.frame();
-    const auto flat = [&](const kernel::Point_3& p) {
-        return tf::point2{frame.x.x * p.x() + frame.x.y * p.y() + frame.x.z * p.z(),
-                          frame.y.x * p.x() + frame.y.y * p.y() + frame.y.z * p.z()};
+    const auto [x, y, normal] = plane.axes();
+    const auto flat = [x = x, y = y](const kernel::Point_3& p) {
+        return tf::point2{x.x * p.x() + x.y * p.y() + x.z * p.z(),
+                          y.x * p.x() + y.y * p.y() + y.z * p.z()};
     };
     slice_totals made{lines.size()};
     std::vector<double> areas;

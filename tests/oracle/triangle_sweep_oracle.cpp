@@ -125,7 +125,7 @@ TEST_CASE("first contact is the least time of the definition, in every family") 
             for (point3& p : pair.a)
                 for (std::size_t k = 0; k < 3; ++k) p[k] -= back * d[k];
             if (!finite(pair.a)) continue;
-            if (tf::intersect(pair.a, pair.b).kind != tf::overlap::none) continue;
+            if (tf::intersect(pair.a, pair.b).count != 0) continue;
             const auto truth = first_time(pair.a, pair.b, d);
             check(pair.a, pair.b, d, truth, sum);
             check(pair.b, pair.a, {-d.x, -d.y, -d.z}, truth, sum);

@@ -28,7 +28,7 @@ def test_a_section_has_closed_loops_that_lie_in_each_other():
 def test_planes_may_lie_anywhere():
     tilted = tf.section(CUBE, (1, 1, 1), (0.5, 0.5, 0.5))
     assert tilted.areas[0] == pytest.approx(np.sqrt(27) / 4, rel=1e-14)
-    assert np.allclose(tilted.frame @ tilted.frame.T, np.eye(3))
+    assert np.allclose(tilted.axes @ tilted.axes.T, np.eye(3))
     points = tilted.in_space(0, tilted.points)
     assert np.allclose(points.sum(axis=1), 1.5)
 

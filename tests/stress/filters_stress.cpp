@@ -110,8 +110,7 @@ pairs all_that_meet(const tf::mesh& soup) {
     pairs found;
     for (std::uint32_t a = 0; a < soup.faces.size(); ++a)
         for (std::uint32_t b = a + 1; b < soup.faces.size(); ++b)
-            if (tf::intersect(corners(a), corners(b)).kind != tf::overlap::none)
-                found.emplace_back(a, b);
+            if (tf::intersect(corners(a), corners(b)).count != 0) found.emplace_back(a, b);
     return found;
 }
 

@@ -61,11 +61,10 @@ names ends_of(const triangle_contact& found, const order& order_a = orders[0],
 }
 
 bool same_class(const triangle_contact& p, const triangle_contact& q) {
-    return p.kind == q.kind && p.coplanar == q.coplanar && p.crossing == q.crossing &&
-           p.count == q.count;
+    return p.coplanar == q.coplanar && p.crossing == q.crossing && p.count == q.count;
 }
 
-bool is_degenerate(const triangle3& t) { return tf::intersect(t, t).kind != tf::overlap::area; }
+bool is_degenerate(const triangle3& t) { return tf::intersect(t, t).count < 3; }
 
 void check_corner_orders(const triangle_pair& pair, const triangle_contact& found) {
     // On a degenerate triangle names go by number, so only the class can be compared.

@@ -21,17 +21,15 @@ namespace test {
 
 /// What two triangles have in common, as far as the kind of a pair depends on it.
 struct common_set {
-    tf::overlap dimension;
     bool crossing;
-    bool degenerate;  ///< one of the two is a segment or a point
-    std::vector<tf::contact> ends{};
+    bool degenerate;                  ///< one of the two is a segment or a point
+    std::vector<tf::contact> ends{};  ///< of a point, a segment or an area
 };
 
 /// By the library's own triangle-triangle intersection: any finite coordinates.
 inline common_set common_by_library(const tf::triangle3& a, const tf::triangle3& b) {
     const tf::triangle_contact c = tf::intersect(a, b);
-    return {c.kind,
-            c.crossing,
+    return {c.crossing,
             tf::collinear(a[0], a[1], a[2]) || tf::collinear(b[0], b[1], b[2]),
             {c.ends.begin(), c.ends.begin() + c.count}};
 }
@@ -48,16 +46,16 @@ inline common_set common_by_reference(const tf::triangle3& a, const tf::triangle
     };
     const reference r(whole(a), whole(b));
     const auto& answer = r.answer();
-    return {answer.kind, answer.crossing, answer.degenerate, answer.ends};
+    return {answer.crossing, answer.degenerate, answer.ends};
 }
 
 /// Whether a common point lies off the shared corners and off the edge between two of them.
 inline bool reaches_beyond(const common_set& common, const tf::triangle3& a,
                            const std::vector<tf::point3>& shared) {
-    if (common.dimension == tf::overlap::none) return false;
+    if (common.ends.empty()) return false;
     if (shared.empty() || shared.size() == 3) return true;
-    if (shared.size() == 1) return common.dimension != tf::overlap::point;
-    if (common.dimension == tf::overlap::area) return true;
+    if (shared.size() == 1) return common.ends.size() > 1;
+    if (common.ends.size() > 2) return true;
     return std::any_of(common.ends.begin(), common.ends.end(), [&](const tf::contact& end) {
         const auto corner = static_cast<std::size_t>(end.on_a);
         return corner > 2 || (a[corner] != shared[0] && a[corner] != shared[1]);
@@ -67,8 +65,7 @@ inline bool reaches_beyond(const common_set& common, const tf::triangle3& a,
 inline tf::pair_kind kind_of(const common_set& common, std::size_t shared) {
     if (common.degenerate) return tf::pair_kind::degenerate;
     if (shared == 3) return tf::pair_kind::duplicate;
-    if (common.dimension == tf::overlap::area)
-        return shared == 2 ? tf::pair_kind::fold : tf::pair_kind::overlap;
+    if (common.ends.size() > 2) return shared == 2 ? tf::pair_kind::fold : tf::pair_kind::overlap;
     if (!common.crossing) return tf::pair_kind::touching;
     return shared == 1 ? tf::pair_kind::pierce : tf::pair_kind::crossing;
 }

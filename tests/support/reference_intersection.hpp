@@ -45,7 +45,6 @@ inline void reduce(homogeneous<std::int64_t>& p) {
 }
 
 struct reference_contact {
-    overlap kind = overlap::none;
     bool coplanar = false;
     bool crossing = false;
     bool degenerate = false;    ///< at least one of the two is a segment or a point
@@ -65,11 +64,10 @@ class reference_intersection {
         const bool flat_b = is_zero(normal(b_));
         answer_.degenerate = flat_a || flat_b;
         points_ = flat_b && !flat_a ? common(b_, a_) : common(a_, b_);
-        answer_.kind = static_cast<overlap>(std::min<std::size_t>(points_.size(), 3));
         for (const point& p : points_) answer_.ends.push_back({name(p, a_), name(p, b_)});
         answer_.coplanar = coplanar();
-        answer_.crossing = !answer_.degenerate && answer_.kind == overlap::segment &&
-                           straddles(a_, b_) && straddles(b_, a_);
+        answer_.crossing =
+            !answer_.degenerate && points_.size() == 2 && straddles(a_, b_) && straddles(b_, a_);
     }
 
     [[nodiscard]] const reference_contact& answer() const { return answer_; }
@@ -227,11 +225,11 @@ class reference_intersection {
     reference_contact answer_;
 };
 
-/// Whether `found` is the reference's answer: equal kind and flags, the same ends, and for an area
+/// Whether `found` is the reference's answer: equal flags, the same ends, and for an area
 /// the same cyclic order.
 inline bool agrees(const triangle_contact& found, const reference_contact& expected) {
-    if (found.kind != expected.kind || found.coplanar != expected.coplanar ||
-        found.crossing != expected.crossing || found.count != expected.ends.size())
+    if (found.coplanar != expected.coplanar || found.crossing != expected.crossing ||
+        found.count != expected.ends.size())
         return false;
     const std::size_t n = expected.ends.size();
     const auto matches_from = [&](std::size_t first) {

@@ -46,8 +46,7 @@ class unfiltered_contacts {
     [[nodiscard]] std::size_t count() const { return count_; }
 
     [[nodiscard]] bool agrees(const triangle_contact& found) const {
-        const auto kind = static_cast<overlap>(std::min<std::size_t>(count_, 3));
-        return found.kind == kind && found.coplanar == coplanar_ && found.crossing == crossing_ &&
+        return found.coplanar == coplanar_ && found.crossing == crossing_ &&
                found.count == count_ &&
                std::all_of(found.ends.begin(), found.ends.begin() + found.count,
                            [&](const contact& c) { return has(c); });

@@ -46,7 +46,7 @@ struct boxes_and_tree {
         const auto squared = [&](std::size_t query, std::uint32_t i) {
             return treeform::squared_distance(boxes[i], points[query]);
         };
-        return treeform::k_nearest_batch(tree, points, k, squared, {.radius = radius});
+        return treeform::k_nearest_batch(tree, points, k, squared, radius);
     }
 
     std::vector<box> boxes;

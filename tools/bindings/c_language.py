@@ -111,10 +111,16 @@ class Language:
         sizes = {"point3": "[3]", "transform<3>": "[12]", "array<array<double,3>,3>": "[9]"}
         if type in sizes:
             return [Member(f"double {name}{sizes[type]}", one.doc, f"copy({source}, {to});")]
+        if type == "array<point3,3>":
+            return [Member(f"double {name}[3][3]", one.doc,
+                           f"std::memcpy({to}, {source}.data(), sizeof {to});")]
         if found := re.fullmatch(r"array<uint64_t,(\w+)>", type):
             size = {"pair_kind_count": "7"}.get(found.group(1), found.group(1))
             return [Member(f"uint64_t {name}[{size}]", one.doc,
                            f"std::copy({source}.begin(), {source}.end(), {to});")]
+        if found := re.fullmatch(r"optional<array<uint64_t,(\d)>>", type):
+            return [Member(f"uint64_t {name}[{found.group(1)}]", one.doc,
+                           f"if ({source}) std::copy({source}->begin(), {source}->end(), {to});")]
         simple = {"optional<double>": ("double", f"{source}.value_or(not_known)"),
                   "optional<uint32_t>": ("uint32_t", f"{source}.value_or(TREEFORM_NONE)"),
                   "box3": ("treeform_box", f"copied({source})"),
@@ -144,7 +150,7 @@ class Language:
     def _list(self, of: Bound, name: str, path: str, one: Field, element: str) -> list[Member]:
         source, to = f"from.{path}", f"to.{name}"
         rows = {"point3": "double", "point2": "double", "face": "uint32_t",
-                "array<uint32_t,2>": "uint32_t"}
+                "array<uint32_t,2>": "uint32_t", "array<point3,2>": "double"}
         doc = one.doc
         count = of.counts.get(one.name, "" if one.shape else f"{singular(name)}_count")
         if element in NUMBERS or element == "uint8_t":
@@ -160,8 +166,9 @@ class Language:
         made = [Member(f"const {c}* {name}", doc, f"{to} = {value};")]
         if count:
             if not one.shape:
-                made[0].doc = f"[{count}]{'[3]' if element in ('point3', 'face') else ''}" \
-                              f"{'[2]' if element in ('point2', 'array<uint32_t,2>') else ''} {doc}"
+                shape = {"point3": "[3]", "face": "[3]", "point2": "[2]", "array<uint32_t,2>": "[2]",
+                         "array<point3,2>": "[2][3]"}.get(element, "")
+                made[0].doc = f"[{count}]{shape} {doc}"
             made.append(Member(f"size_t {count}", "", f"to.{count} = {source}.size();"))
         return made
 

@@ -43,10 +43,10 @@ FILE = Member("const treeform_file* file", "of a file, with its attributes; else
 BOUND = [
     # base.h
     Bound("operand_element", "element", "same"),
-    Bound("open_edge", kind="same"),
     Bound("search_effort", kind="same"),
     Bound("certificate", names={"status": "status"},
-          counts={"meeting": "meeting_listed", "meeting_at": "", "open": "open_listed"},
+          counts={"meeting": "meeting_listed", "meeting_at": "", "open_edges": "open_listed",
+                  "open_faces": ""},
           custom={"+": [MESSAGE]}),
     # mesh.h
     Bound("rounding_effects", "rounding"),
@@ -65,9 +65,6 @@ BOUND = [
         "component_of_face": [Member("const uint32_t* component_of_face",
                                      "[F] for `between` and `within`; or null")]}),
     Bound("intersection_region", "region", "part"),
-    Bound("intersection_regions", "regions",
-          counts={"regions": "count", "region_of_pair": "pair_count"}),
-    Bound("curve_segment", "segment", "same"),
     Bound("curve_path", "path", "part", leave="pairs", counts={"points": "count"}),
     Bound("curve_network", "paths", custom={"points": [
         Member("const double* points", "[point_count][3]",
@@ -109,9 +106,7 @@ BOUND = [
     Bound("simplify_options"),
     Bound("simplify_result"),
     Bound("thickness_result"),
-    Bound("oriented_box", custom={"axes": [Member(
-        "double axes[3][3]", "of length 1, right-handed, rounded: along the longest side, the next, "
-        "the shortest", "std::memcpy(to.axes, from.axes.data(), sizeof to.axes);")]}),
+    Bound("oriented_box"),
     Bound("isoline", kind="same"),
     Bound("isolines_result"),
     # nearness.h
@@ -126,33 +121,13 @@ BOUND = [
             Member(f"double barycentric_{x}[3]", "of it in that face",
                    f"std::copy(from.on_{x}.barycentric.begin(), from.on_{x}.barycentric.end(), "
                    f"to.barycentric_{x});")] for x in "ab"}),
-    Bound("depth_options"),
     Bound("deviation_options", custom={"band": [
         Member("double band_low", "signed distances within tolerance; NaN: no band", "",
                "if (!std::isnan(o.band_low) || !std::isnan(o.band_high))"
                " how.band = {o.band_low, o.band_high};", "to.band_low = not_known;"),
         Member("double band_high", "", "", "", "to.band_high = not_known;")]}),
-    Bound("deviation_result", leave="winding_numbers", counts={"distances": "count", "faces": ""},
-          custom={
-        "sides": [Member("uint64_t sides[3]", "points inside, on and outside",
-                         "if (from.sides) { to.sides[0] = from.sides->inside; "
-                         "to.sides[1] = from.sides->on; to.sides[2] = from.sides->outside; }")],
-        "there": [Member(f"double there_{name}", doc, f"to.there_{name} = from.there.{name};")
-                  for name, doc in (("sampled", "over the points of the first"),
-                                    ("at_most", "a bound for its surface"))],
-        "back": [Member(f"double back_{name}", doc,
-                        f"to.back_{name} = from.back ? from.back->{name} : not_known;")
-                 for name, doc in (("sampled", "the other way; NaN unless `both_ways`"),
-                                   ("at_most", ""))],
-        "histogram": [
-            Member("double histogram_low", "", "to.histogram_low = from.histogram.low;"),
-            Member("double histogram_high", "", "to.histogram_high = from.histogram.high;"),
-            Member("const uint64_t* histogram", "[bins]",
-                   "to.histogram = from.histogram.counts.data();"),
-            Member("size_t bins", "", "to.bins = from.histogram.counts.size();")],
-        "band": [Member(f"uint64_t {name}", doc,
-                        f"if (from.band) to.{name} = from.band->{name};")
-                 for name, doc in (("below", "the band"), ("within", ""), ("above", ""))]}),
+    Bound("deviation_result", leave="winding_numbers",
+          counts={"distances": "count", "faces": "", "histogram": "bins"}),
     # weld.h
     Bound("weld_condition", kind="part"),
     Bound("weld_options", custom={"may_merge": [
@@ -308,7 +283,7 @@ BOUND = [
 LISTS = [
     List("mesh_feature", "features", "features", "Features, largest area first."),
     List("mesh_part", "mesh_parts", "parts", "Parts of a mesh."),
-    List("curve_segment", "segments", "segments", "Segments, in the order of the pairs."),
+    List("intersection_region", "regions", "regions", "Regions, in the order of their lowest faces."),
     List("uint32_t", "indices", "values", "A list of numbers."),
     List("double", "heights", "heights", "Numbers."),
     List("string", "strings", "values", "A list of words."),

@@ -10,11 +10,13 @@ from headers import Enum, Field, Struct
 
 NUMBERS = {"double": "float", "bool": "bool", "int": "int", "unsigned": "int", "size_t": "int",
            "uint8_t": "int", "uint32_t": "int", "uint64_t": "int", "int32_t": "int",
-           "array<double,2>": "tuple[float, float]"}
+           "array<double,2>": "tuple[float, float]",
+           "array<uint64_t,3>": "tuple[int, int, int]"}
 #: Annotations and shapes of what becomes arrays.
 ARRAYS = {"point3": ("Floats", "(3,)"), "transform<3>": ("Floats", "(4, 4)"),
           "array<array<double,3>,3>": ("Floats", "(3, 3)"), "box3": ("Floats", "(2, 3)"),
-          "array<point3,2>": ("Floats", "(2, 3)"), "vector<uint32_t>": ("Ids", "({},)"),
+          "array<point3,2>": ("Floats", "(2, 3)"), "array<point3,3>": ("Floats", "(3, 3)"),
+          "vector<uint32_t>": ("Ids", "({},)"),
           "vector<double>": ("Floats", "({},)"), "vector<point3>": ("Floats", "({}, 3)"),
           "vector<face>": ("Ids", "({}, 3)"), "vector<operand_element>": ("Ids", "({}, 2)")}
 

@@ -49,11 +49,12 @@ RESULTS = [
                                     "py::cast(word_of(from.status))")],
                "meeting": [column("meeting", "Ids", "(n, 2) the first 100 of these pairs.",
                                   "meeting", "one")],
-               "open": [
+               "open_edges": [
                    Attribute("open_edges", "Floats", "(n, 2, 3) the ends of the first 100 of these "
-                             "edges.", "ends_of(from.open)"),
+                             "edges.", "ends_of(from.open_edges)")],
+               "open_faces": [
                    column("open_faces", "Ids", "(n, 2) the operand and the face at each of them.",
-                          "open", "std::array{one.face.operand, one.face.index}")],
+                          "open_faces", "std::array{one.operand, one.index}")],
                "+": [MESSAGE]},
            docs={"boundary_edges": "Of the open edges, those of an odd number of faces.",
                  "misoriented_edges": "Of the open edges, those of faces that run the same way.",
@@ -85,7 +86,7 @@ RESULTS = [
                  "oriented": "The faces along it agree: what is inside is to the left, seen from "
                              "above the plane.", "length": "Of its sides."},
            custom={"first_point": [
-               Attribute("points", "Floats", "(n, 2) in the frame of the section; the first is not "
+               Attribute("points", "Floats", "(n, 2) in the plane of the section; the first is not "
                          "repeated.", "part_of<double>(whole.points, from)"),
                Attribute("faces", "Ids", "(n,) the face that the side from each point to the next "
                          "lies in.", "part_of<std::uint32_t>(whole.faces, from)")],
@@ -96,6 +97,7 @@ RESULTS = [
     Result("section_result", "Section", "_cuts",
            doc="What is in parallel planes: layers, in the order of their heights as given. Layer "
                "i has the loops `loops(i)`.",
+           docs={"axes": "(3, 3) the axes x and y of `points`, and the normal, each of length 1."},
            custom={
                "layers": [
                    column("heights", "Floats", "(K,) of the layers.", "layers", "one.height"),
@@ -105,10 +107,6 @@ RESULTS = [
                    column("lengths", "Floats", "(K,) of all loops.", "layers", "one.length"),
                    column("open_counts", "Ids", "(K,) how many polylines are open; none of a "
                           "solid.", "layers", "one.open_count")],
-               "frame": [Attribute("frame", "Floats", "(3, 3) the axes x and y of `points`, and "
-                                   "the normal, each of length 1.",
-                                   "column(std::array{from.frame.x, from.frame.y, "
-                                   "from.frame.normal}, std::identity{})")],
                "points": [Attribute("points", "Floats", "(P, 2) of all loops, one after the other: "
                                     "(x . p, y . p) of p in space.",
                                     "as_array<double>(std::vector(from.points))")],
@@ -130,10 +128,7 @@ RESULTS = [
     Result("simplify_result", "SimplifyResult", "_shapes", "MadeMesh", context="attributes",
            doc="A mesh with fewer faces.", inherited="mesh certificate"),
     Result("thickness_result", "Thickness", "_shapes"),
-    Result("oriented_box", "OrientedBox", "_shapes", custom={"axes": [Attribute(
-        "axes", "Floats", "(3, 3) of length 1, right-handed: along the longest side, the next, the "
-        "shortest.",
-        "as_array<double>(std::vector<tf::point3>(from.axes.begin(), from.axes.end()))")]}),
+    Result("oriented_box", "OrientedBox", "_shapes"),
     Result("isoline", "Isoline", "_shapes"),
     Result("isolines_result", "Isolines", "_shapes"),
     # _repair
@@ -282,31 +277,10 @@ RESULTS = [
            doc="How far points are from a surface.",
            docs={"is_signed": "Whether distances have a sign."},
            custom={
-               "sides": [Attribute("side_counts", "tuple[int, int, int] | None", "Where they have: "
-                                   "how many points are inside, on, outside; exact. Else None.",
-                                   "from.sides ? py::object(py::make_tuple(from.sides->inside, "
-                                   "from.sides->on, from.sides->outside)) : py::none()")],
-               "there": [Attribute("there", "tuple[float, float]",
-                                   "(over the points of the first, a bound that no point of its "
-                                   "surface exceeds); of the distances from the first to the "
-                                   "second.",
-                                   "py::make_tuple(from.there.sampled, from.there.at_most)")],
-               "back": [Attribute("back", "tuple[float, float] | None",
-                                  "The same from the second to the first; the larger one is the "
-                                  "Hausdorff distance. None unless `both_ways`.",
-                                  "from.back ? py::object(py::make_tuple(from.back->sampled, "
-                                  "from.back->at_most)) : py::none()")],
                "histogram": [
-                   Attribute("histogram_range", "tuple[float, float]", "From where to where the "
-                             "intervals of `histogram` go.",
-                             "py::make_tuple(from.histogram.low, from.histogram.high)"),
                    Attribute("histogram", "NDArray[np.uint64]", "(bins,) how many signed distances "
-                             "are in intervals of equal length.",
-                             "as_python(std::move(from.histogram.counts))")],
-               "band": [Attribute("band_counts", "tuple[int, int, int] | None",
-                                  "With `band`: how many are below, within, above.",
-                                  "from.band ? py::object(py::make_tuple(from.band->below, "
-                                  "from.band->within, from.band->above)) : py::none()")]}),
+                             "are in intervals of equal length from `lowest` to `highest`.",
+                             "as_python(std::move(from.histogram))")]}),
     Result("closest_points_result", "NearestPoints", "_assembly", "NamedTuple"),
     Result("closest_point_result", "ClosestPoints", "_nearness", "NamedTuple",
            rows="std::optional<tf::{}>", names={"point": "closest", "face": "triangle_id"},
@@ -453,7 +427,7 @@ OPTIONS = {
     "weld_options": "label may_merge", "weld_stream_options": "communicator shared "
                                                                      "las_scale las_offset",
     "placement_options": "max_steps close_in normals face_pairs limit vertices",
-    "measure_options": "", "depth_options": "vertices", "impact_options": "limit",
+    "measure_options": "", "impact_options": "limit",
     "lay_flat_options": "overhang_sides", "align_options": "accelerate", "pack_options": "tighten",
     "deviation_options": "", "clash_options": "ignored effort",
 }

@@ -254,16 +254,14 @@ FUNCTIONS = [
              docs=_MOVES | {"kinds": "those to look for, of `KINDS`; None is all."}),
     Function("faces_in_box(mesh: Mesh, min: Vector, max: Vector) -> Ids",
              "tf::faces_in_box(mesh.view(), $min, $max)", docs={"min": "(3,)", "max": "(3,)"}),
-    Function("group_pairs(mesh: Mesh, pairs: PairIds, kinds: Kinds) -> tuple[list[Region], Ids]",
+    Function("group_pairs(mesh: Mesh, pairs: PairIds, kinds: Kinds) -> list[Region]",
              "tf::group_pairs(mesh.view(), pairs_of(pairs, kinds))"),
     Function("intersection_paths(mesh: Mesh, pairs: PairIds, kinds: Kinds)"
              " -> tuple[Floats, list[tuple[Ids, bool]]]",
              "tf::intersection_paths(mesh.view(), pairs_of(pairs, kinds))"),
-    Function("intersection_regions(mesh: MeshLike, found: FacePairs) -> tuple[list[Region], Ids]",
+    Function("intersection_regions(mesh: MeshLike, found: FacePairs) -> list[Region]",
              body="_core.group_pairs(held(mesh), *pairs_of(found), progress=progress)",
-             cpp="group_pairs", words={"pairs": "found"},
-             also="Returns regions in the order of their lowest face, and (n,) the region of each "
-                  "pair."),
+             cpp="group_pairs", words={"pairs": "found"}),
     Function("intersection_curves(mesh: MeshLike, found: FacePairs) -> list[Floats]",
              body="curves(*_core.intersection_paths(held(mesh), *pairs_of(found), "
                   "progress=progress))",
@@ -436,10 +434,16 @@ FUNCTIONS = [
                  "apart, and where. Each is a mesh or a cloud (n, 3). None where one has no faces, "
                  "or they are further apart than `radius`. The relation is exact, and so is "
                  "whether a distance is 0. Other distances are rounded as `distance` says.",
+             leave="directions effort",
              docs={"vertices": "'by_coordinates': corners with equal coordinates are shared; "
                                "'by_index': those with the same number."}),
-    Function("penetration_depth(a: Mesh, b: Mesh, options: depth_options) -> Optional[Depth]",
-             "tf::penetration_depth(a.prepared(), b.prepared(), options)"),
+    Function("penetration_depth(a: Mesh, b: Mesh, options: measure_options) -> Optional[Depth]",
+             "tf::penetration_depth(a.prepared(), b.prepared(), options)",
+             leave="radius vertices",
+             docs={"directions": "Directions spread over the sphere, tried besides normals of "
+                                 "faces that meet.",
+                   "effort": "Pairs of faces that the search may test, a pair in motion counting "
+                             "as two; 0: 20 million plus 200 for each face."}),
     Function("time_of_impact(a: Mesh, b: Mesh, motion: Vector, options: impact_options) -> Impact",
              "tf::time_of_impact(a.prepared(), b.prepared(), $motion, options)",
              docs=_MOVES | {"motion": "(3,)"}),

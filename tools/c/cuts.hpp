@@ -25,7 +25,7 @@ inline void write_section(const std::filesystem::path& path, const treeform_sect
     copy.layers = copied_as<tf::section_layer>(s.layers, s.layer_count, "layers");
     copy.loops = copied_as<tf::section_loop>(s.loops, s.loop_count, "loops");
     copy.points = copied_as<tf::point2>(s.points, s.point_count, "points");
-    copy.frame = {point(s.x, "x"), point(s.y, "y"), point(s.normal, "normal")};
+    copy.axes = {point(s.axes[0], "axes"), point(s.axes[1], "axes"), point(s.axes[2], "axes")};
     tf::write_section(path, copy, std::string(format), std::string(unit));
 }
 

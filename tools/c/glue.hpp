@@ -326,7 +326,11 @@ template <class C, class T>
 [[nodiscard]] inline const double* flat(std::span<const tf::point2> values) {
     return reinterpret_cast<const double*>(values.data());
 }
+[[nodiscard]] inline const double* flat(std::span<const std::array<tf::point3, 2>> values) {
+    return reinterpret_cast<const double*>(values.data());
+}
 template <class T, std::size_t N>
+requires std::is_arithmetic_v<T>
 [[nodiscard]] const T* flat(const std::vector<std::array<T, N>>& values) {
     return values.empty() ? nullptr : values.data()->data();
 }
@@ -404,7 +408,6 @@ template <class C, class T>
     treeform_code code = TREEFORM_OK;
     if constexpr (requires { found.certificate; }) code = code_of(found.certificate);
     if constexpr (requires { found.status; }) check(found.status);
-    if constexpr (requires { found.relation.status; }) check(found.relation.status);
     if constexpr (requires { found.found.status; }) check(found.found.status);
     if constexpr (requires { (*out)->content; }) {
         auto made = make<C>();

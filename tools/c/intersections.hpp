@@ -48,6 +48,16 @@ inline std::vector<std::uint32_t> faces_in_box(const treeform_mesh* mesh, const 
     return tf::faces_in_box(finite_view(mesh), box.min, box.max);
 }
 
+inline answer_of<treeform_segments> intersection_curves(tf::mesh_view mesh,
+                                                        std::span<const tf::face_pair> pairs) {
+    auto made = make<treeform_segments>();
+    const auto& found = made->keep(tf::intersection_curves(mesh, pairs));
+    made->value.begin = found.begin.data();
+    made->value.ends = flat(found.answers);
+    made->value.count = found.size();
+    return made;
+}
+
 /// Writes them as lines, OBJ or PLY, by `format` or, where it is null, the extension of `path`.
 inline void write_curves(const std::filesystem::path& path, tf::mesh_view mesh,
                          std::span<const tf::face_pair> pairs, std::string_view format) {

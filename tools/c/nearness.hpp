@@ -184,7 +184,7 @@ inline tf::mesh_relation relate(const tf::mesh_ref& a, const tf::mesh_ref& b,
 /// bound of the depth of penetration. `depth` is 0 and `move` zero where they do not penetrate.
 /// What the search took comes in `effort`, which may be null.
 inline void penetration_depth(const tf::mesh_ref& a, const tf::mesh_ref& b,
-                              const tf::depth_options& options, double* depth, double move[3],
+                              const tf::measure_options& options, double* depth, double move[3],
                               treeform_search_effort* effort) {
     (void)need(depth, "depth");
     (void)need(move, "move");
@@ -201,10 +201,8 @@ inline void penetration_depth(const tf::mesh_ref& a, const tf::mesh_ref& b,
 inline void count_sides(std::span<const tf::point3> points, const tf::mesh_refs& solids,
                         std::uint64_t counts[3]) {
     (void)need(counts, "counts");
-    const tf::side_counts found = tf::count_sides(points, solids);
-    counts[0] = found.inside;
-    counts[1] = found.on;
-    counts[2] = found.outside;
+    const auto found = tf::count_sides(points, solids);
+    std::copy(found.begin(), found.end(), counts);
 }
 
 }  // namespace glue

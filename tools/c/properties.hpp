@@ -148,7 +148,7 @@ inline treeform_triangle_contact intersect_triangles(const double a[9], const do
         return tf::triangle3{finite(data, name), finite(data + 3, name), finite(data + 6, name)};
     };
     const tf::triangle_contact found = tf::intersect(triangle(a, "a"), triangle(b, "b"));
-    return {static_cast<std::int32_t>(found.kind) - 1, found.coplanar, found.crossing};
+    return {std::min<std::int32_t>(found.count, 3) - 1, found.coplanar, found.crossing};
 }
 
 }  // namespace glue

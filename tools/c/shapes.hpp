@@ -37,7 +37,7 @@ inline void write_isolines(const std::filesystem::path& path, const treeform_iso
     copy.points = copied_as<tf::point3>(given.points, given.point_count, "points");
     tf::oriented_plane seen;
     if (normal != nullptr) seen.normal = point(normal, "normal");
-    tf::write_isolines(path, copy, seen.frame(), std::string(format), std::string(unit));
+    tf::write_isolines(path, copy, seen, std::string(format), std::string(unit));
 }
 
 }  // namespace glue

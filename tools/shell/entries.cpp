@@ -20,11 +20,12 @@ const char* numbers_of(tf::precision precision) {
 
 json open_entry(const tf::certificate& known, const face_numbers& stored_face) {
     json list = json::array();
-    for (const tf::open_edge& edge : known.open)
-        list.push_back(
-            {{"face", stored_face(edge.face.index)}, {"from", edge.ends[0]}, {"to", edge.ends[1]}});
+    for (std::size_t i = 0; i < known.open_edges.size(); ++i)
+        list.push_back({{"face", stored_face(known.open_faces[i].index)},
+                        {"from", known.open_edges[i][0]},
+                        {"to", known.open_edges[i][1]}});
     const bool known_edges =
-        known.boundary_edges + known.misoriented_edges > 0 || known.open.empty();
+        known.boundary_edges + known.misoriented_edges > 0 || known.open_edges.empty();
     return {{"count", known.open_count},
             {"boundary_edges", or_null(known_edges, known.boundary_edges)},
             {"misoriented_edges", or_null(known_edges, known.misoriented_edges)},
@@ -80,8 +81,8 @@ std::string repair_summary(const tf::repair_statistics& did) {
 }
 
 std::string message_of(tf::certificate known, const face_numbers& stored_face) {
-    for (tf::open_edge& edge : known.open)
-        edge.face = {tf::operand_element::none, stored_face(edge.face.index)};
+    for (tf::operand_element& face : known.open_faces)
+        face = {tf::operand_element::none, stored_face(face.index)};
     return known.message();
 }
 

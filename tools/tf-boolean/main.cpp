@@ -162,7 +162,7 @@ exit_status operate(tools::job& work, const boolean_settings& s) {
                                "an open surface can be cut, but not united with a solid; ");
     }
     tf::boolean_result result = ask(work, s, solids, sheet, precision);
-    if (!result.certificate.open.empty())
+    if (!result.certificate.open_edges.empty())
         return refuse_open(work, solids, tools::check_solids(work, solids), {});
     if (!sheet)
         for (tools::json& input : work.entry["inputs"])

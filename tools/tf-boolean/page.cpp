@@ -55,9 +55,8 @@ void add_input(scene& shown, const numbering& kinds, const solid& input, std::si
 
 void add_curves(scene& shown, job& work, const numbering& kinds, const std::vector<solid>& solids) {
     const auto [joined, pairs] = meetings_of(work, solids);
-    scene_lines lines{.kind = kinds.curves()};
-    for (const tf::curve_segment& segment : tf::intersection_curves(joined, pairs))
-        lines.ends.push_back(segment.ends);
+    scene_lines lines{.kind = kinds.curves(),
+                      .ends = tf::intersection_curves(joined, pairs).answers};
     shown.lines.push_back(std::move(lines));
 }
 
@@ -102,7 +101,7 @@ void write_page(job& work, const std::vector<solid>& solids, const std::string& 
     if (ghosts) add_result(shown, kinds, solids, *made);
     for (std::size_t i = 0; i < solids.size(); ++i) {
         add_input(shown, kinds, solids[i], i, ghosts);
-        if (made != nullptr && made->certificate.open.empty()) continue;
+        if (made != nullptr && made->certificate.open_edges.empty()) continue;
         open_edges open = find_open_edges(solids[i].file.mesh);
         scene_lines lines{.kind = kinds.open(), .ends = std::move(open.ends), .word = "open edge"};
         lines.width = 3.0;

@@ -199,9 +199,9 @@ std::vector<std::uint32_t> check_solids(job& work, const std::vector<solid>& sol
         work.call_ended(known.status == tf::status::cancelled);
         const auto stored_face = [&](std::uint32_t f) { return solids[i].stored_face(f); };
         json& about = work.entry["inputs"][i];
-        about["closed"] = known.open.empty();
+        about["closed"] = known.open_edges.empty();
         about["open"] = open_entry(known, stored_face);
-        if (known.open.empty()) continue;
+        if (known.open_edges.empty()) continue;
         open.push_back(i);
         about["reason"] = message_of(known, stored_face);
     }

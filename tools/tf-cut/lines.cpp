@@ -94,7 +94,7 @@ drawn_lines drawn(const tf::isolines_result& made) {
 /// A layer by itself.
 tf::section_result layer_of(const tf::section_result& all, std::size_t i) {
     tf::section_result one;
-    one.frame = all.frame;
+    one.axes = all.axes;
     one.layers.push_back(all.layers[i]);
     const std::uint32_t first = std::exchange(one.layers[0].first_loop, 0);
     for (std::uint32_t l = first; l < first + all.layers[i].loop_count; ++l) {
@@ -163,7 +163,7 @@ void say_isolines(job& work, const cut_settings& s, const vertex_values& values,
 }  // namespace
 
 std::vector<double> heights_of(const cut_settings& s, const usable_input& input) {
-    const tf::point3 n = s.plane.frame().normal, at = s.plane.at;
+    const tf::point3 n = s.plane.axes()[2], at = s.plane.at;
     std::vector<double> heights;
     for (const tf::point3& p : input.file.mesh.points)
         heights.push_back(n.x * (p.x - at.x) + n.y * (p.y - at.y) + n.z * (p.z - at.z));
@@ -227,7 +227,7 @@ exit_status make_isolines(job& work, const usable_input& input, const cut_settin
     }
     give_lines(work, s, input, 1,
                [&](const auto& path, std::size_t, const auto& format, const auto& unit) {
-                   tf::write_isolines(path, made, s.plane.frame(), format, unit);
+                   tf::write_isolines(path, made, s.plane, format, unit);
                });
     return done;
 }

@@ -109,9 +109,9 @@ void add_deviation(scene& shown, const placing& p, const tf::deviation_result& r
                  .band = band};
     if (!r.is_signed) shown.map->colors = {"#f7f7f7", "#f4a582", "#b2182b"};
     scene_histogram shape{.title = "Distances of the points",
-                          .low = r.histogram.low,
-                          .high = r.histogram.high,
-                          .counts = r.histogram.counts};
+                          .low = r.lowest,
+                          .high = r.highest,
+                          .counts = r.histogram};
     if (band)
         for (const double end : *band) shape.marks.emplace_back(end, "band " + brief(end));
     shown.histograms.push_back(std::move(shape));

@@ -22,10 +22,10 @@ json counts_entry(const findings& result, const search_settings& settings) {
 }
 
 json region_entry(const findings& result, std::size_t id) {
-    const tf::intersection_region& region = result.regions.regions[id];
+    const tf::intersection_region& region = result.regions[id];
     return {{"id", id},
             {"faces", region.faces.size()},
-            {"pairs", region.pairs},
+            {"pairs", region.pairs.size()},
             {"box", tf::box3{region.min, region.max}},
             {"center", region.center()},
             {"components", or_null(!result.part.component.empty(), result.components_of(region))}};
@@ -36,7 +36,7 @@ json list_entry(const findings& result, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         const tf::face_pair& pair = result.found.pairs[i];
         list.push_back({result.part.face_in_file(pair.a), result.part.face_in_file(pair.b),
-                        name_of(pair.kind), result.regions.region_of_pair[i]});
+                        name_of(pair.kind), result.region_of(pair)});
     }
     return list;
 }
@@ -63,7 +63,7 @@ void enter_report(job& work, const findings& result, const search_settings& sett
     entry["complete"] = !(settings.first && !result.found.pairs.empty());
     entry["faces_hit"] = result.marks.marked();
     entry["regions"] = json::array();
-    for (std::size_t id = 0; id < result.regions.regions.size(); ++id)
+    for (std::size_t id = 0; id < result.regions.size(); ++id)
         entry["regions"].push_back(region_entry(result, id));
     entry["listed"] = listed;
     entry["truncated"] = listed < result.found.pairs.size();
@@ -79,7 +79,7 @@ void write_pairs(const job& work, const std::filesystem::path& path, const findi
             const tf::face_pair& pair = result.found.pairs[i];
             text += std::to_string(result.part.face_in_file(pair.a)) + "," +
                     std::to_string(result.part.face_in_file(pair.b)) + "," + name_of(pair.kind) +
-                    "," + std::to_string(result.regions.region_of_pair[i]) + "\n";
+                    "," + std::to_string(result.region_of(pair)) + "\n";
             file.write_full_pieces(text);
         }
         file.write(text);
@@ -87,11 +87,13 @@ void write_pairs(const job& work, const std::filesystem::path& path, const findi
 }
 
 void write_curves(const job& work, const std::filesystem::path& path, const findings& result) {
-    tf::pair_column kinds{"tf_class", {}};
-    for (const tf::face_pair& pair : result.found.pairs)
+    tf::pair_column kinds{"tf_class", {}}, regions{"tf_region", {}};
+    for (const tf::face_pair& pair : result.found.pairs) {
         kinds.second.push_back(static_cast<std::uint32_t>(pair.kind) + 1);
+        regions.second.push_back(result.region_of(pair));
+    }
     write_curves(work, path, result.part, result.found.pairs,
-                 {std::move(kinds), {"tf_region", result.regions.region_of_pair}});
+                 {std::move(kinds), std::move(regions)});
 }
 
 void write_marked(job& work, tf::mesh_file& file, const findings& result,

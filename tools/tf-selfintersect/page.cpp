@@ -16,6 +16,8 @@ namespace {
 constexpr std::size_t most_regions = 1000;
 constexpr std::uint8_t curve_class = 1 + tf::pair_kind_count;
 
+using segment_lists = tf::answer_lists<std::array<tf::point3, 2>>;
+
 std::vector<scene_class> classes_of(const findings& result) {
     const std::uint64_t others = result.searched - result.marks.marked();
     std::vector<scene_class> classes{
@@ -30,34 +32,33 @@ std::vector<scene_class> classes_of(const findings& result) {
     return classes;
 }
 
-void add_mesh(scene& shown, const findings& result, std::span<const tf::curve_segment> segments) {
+void add_mesh(scene& shown, const findings& result, const segment_lists& segments) {
     scene_mesh mesh{.mesh = result.part.mesh, .kind = result.marks.kind, .group_word = "region"};
     for (std::uint32_t f = 0; f < result.part.mesh.faces.size(); ++f)
         mesh.number.push_back(result.part.face_in_file(f));
     mesh.group.assign(result.marks.region.begin(), result.marks.region.end());
     shown.meshes.push_back(std::move(mesh));
-    scene_lines curves{.kind = curve_class};
-    for (const tf::curve_segment& segment : segments) curves.ends.push_back(segment.ends);
+    scene_lines curves{.kind = curve_class, .ends = segments.answers};
     shown.lines.push_back(std::move(curves));
 }
 
 /// [R] The boxes of curves: where long faces meet, rather than where they are.
-std::vector<tf::box3> places_of(const findings& result,
-                                std::span<const tf::curve_segment> segments) {
-    std::vector<std::optional<tf::box3>> boxes(result.regions.regions.size());
-    for (const tf::curve_segment& segment : segments) {
-        auto& box = boxes[result.regions.region_of_pair[segment.pair]];
-        for (const tf::point3& p : segment.ends) {
-            if (!box) box = {p, p};
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                box->min[axis] = std::min(box->min[axis], p[axis]);
-                box->max[axis] = std::max(box->max[axis], p[axis]);
+std::vector<tf::box3> places_of(const findings& result, const segment_lists& segments) {
+    std::vector<std::optional<tf::box3>> boxes(result.regions.size());
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        auto& box = boxes[result.region_of(result.found.pairs[i])];
+        for (const auto& ends : segments[i])
+            for (const tf::point3& p : ends) {
+                if (!box) box = {p, p};
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    box->min[axis] = std::min(box->min[axis], p[axis]);
+                    box->max[axis] = std::max(box->max[axis], p[axis]);
+                }
             }
-        }
     }
     std::vector<tf::box3> places;
     for (std::size_t r = 0; r < boxes.size(); ++r) {
-        const tf::intersection_region& region = result.regions.regions[r];
+        const tf::intersection_region& region = result.regions[r];
         places.push_back(boxes[r].value_or(tf::box3{region.min, region.max}));
     }
     return places;
@@ -68,28 +69,29 @@ void append(std::string& list, const std::string& word) {
 }
 
 scene_table regions_of(const findings& result, const std::vector<tf::box3>& places) {
-    const std::size_t count = std::min(result.regions.regions.size(), most_regions);
+    const std::size_t count = std::min(result.regions.size(), most_regions);
     std::vector<std::set<std::string>> kinds(count);
-    for (std::size_t i = 0; i < result.found.pairs.size(); ++i)
-        if (const std::uint32_t r = result.regions.region_of_pair[i]; r < count)
+    for (std::size_t r = 0; r < count; ++r)
+        for (const std::uint32_t i : result.regions[r].pairs)
             kinds[r].insert(name_of(result.found.pairs[i].kind));
     scene_table table{
         .title = "Regions",
         .columns = {"region", "kinds", "pairs", "faces", "center", "box", "components"}};
     for (std::size_t id = 0; id < count; ++id) {
-        const tf::intersection_region& region = result.regions.regions[id];
+        const tf::intersection_region& region = result.regions[id];
         std::string kinds_text, components;
         for (const std::string& kind : kinds[id]) append(kinds_text, kind);
         for (const std::uint32_t c : result.components_of(region))
             append(components, std::to_string(c));
         table.rows.push_back(
-            {.cells = {id, kinds_text, region.pairs, region.faces.size(), in_words(region.center()),
+            {.cells = {id, kinds_text, region.pairs.size(), region.faces.size(),
+                       in_words(region.center()),
                        in_words(region.min) + " to " + in_words(region.max), components},
              .box = places[id]});
     }
-    if (result.regions.regions.size() > most_regions)
+    if (result.regions.size() > most_regions)
         table.note = "The first " + grouped(most_regions) + " of " +
-                     grouped(result.regions.regions.size()) + "; the JSON report (-r) lists all.";
+                     grouped(result.regions.size()) + "; the JSON report (-r) lists all.";
     return table;
 }
 
@@ -120,7 +122,7 @@ void write_page(job& work, const findings& result, const search_settings& settin
     shown.classes = classes_of(result);
     const auto segments = tf::intersection_curves(result.part.mesh, result.found.pairs);
     add_mesh(shown, result, segments);
-    if (!result.regions.regions.empty())
+    if (!result.regions.empty())
         shown.tables.push_back(regions_of(result, places_of(result, segments)));
     add_facts(shown, result, settings);
     write_page(work, std::move(shown));

@@ -35,7 +35,7 @@ struct search_settings {
 struct findings {
     tf::usable_mesh part{};           ///< what was searched
     tf::intersection_result found{};  ///< only pairs that count; all counts
-    tf::intersection_regions regions{};
+    std::vector<tf::intersection_region> regions{};
     tf::face_marks marks{};
     std::optional<tf::box3> box{};  ///< of all finite points
     std::uint64_t faces_stored = 0;
@@ -45,6 +45,9 @@ struct findings {
     double tolerance_used = 0.0;
 
     [[nodiscard]] double diagonal() const { return box ? box->diagonal() : 0.0; }
+    [[nodiscard]] std::uint32_t region_of(const tf::face_pair& pair) const {
+        return static_cast<std::uint32_t>(marks.region[pair.a]);
+    }
     /// Empty where none were asked for.
     [[nodiscard]] std::set<std::uint32_t> components_of(const tf::intersection_region& r) const;
 };

@@ -32,7 +32,7 @@ std::string verdict(const findings& result, const search_settings& settings) {
         text += separator + grouped(counts[k]) + " " + name_of(kind);
         separator = ", ";
     }
-    if (pairs > 0) text += ", in " + counted(result.regions.regions.size(), "region", "regions");
+    if (pairs > 0) text += ", in " + counted(result.regions.size(), "region", "regions");
     const auto apart = counts[static_cast<std::size_t>(tf::pair_kind::degenerate)];
     if (apart > 0 && !settings.counted().contains(tf::pair_kind::degenerate))
         text += "; " + counted(apart, "pair", "pairs") + " with a degenerate face not counted";
@@ -47,10 +47,10 @@ void say_details(job& work, const findings& result) {
     if (result.tolerance_used > 0.0)
         out.info(work.name + ": " + counted(result.part.joined, "vertex", "vertices") +
                  " joined within " + brief(result.tolerance_used));
-    for (std::size_t id = 0; id < result.regions.regions.size(); ++id) {
-        const tf::intersection_region& region = result.regions.regions[id];
+    for (std::size_t id = 0; id < result.regions.size(); ++id) {
+        const tf::intersection_region& region = result.regions[id];
         out.info(work.name + ": region " + std::to_string(id) + ": " +
-                 counted(region.pairs, "pair", "pairs") + ", " +
+                 counted(region.pairs.size(), "pair", "pairs") + ", " +
                  counted(region.faces.size(), "face", "faces") + ", center " +
                  in_words(region.center()) + ", box " + in_words(region.min) + " to " +
                  in_words(region.max));

@@ -13,16 +13,16 @@ namespace treeform::bench {
 namespace {
 
 template <class Kernel>
-overlap kind_of(const test::triangle_pair& pair) {
+signed char kind_of(const test::triangle_pair& pair) {
     const auto triangle = [](const triangle3& t) {
         const auto at = [](const point3& p) { return typename Kernel::Point_3(p.x, p.y, p.z); };
         return typename Kernel::Triangle_3(at(t[0]), at(t[1]), at(t[2]));
     };
     const auto common = CGAL::intersection(triangle(pair.a), triangle(pair.b));
-    if (!common) return overlap::none;
-    if (boost::get<typename Kernel::Point_3>(&*common)) return overlap::point;
-    if (boost::get<typename Kernel::Segment_3>(&*common)) return overlap::segment;
-    return overlap::area;
+    if (!common) return 0;
+    if (boost::get<typename Kernel::Point_3>(&*common)) return 1;
+    if (boost::get<typename Kernel::Segment_3>(&*common)) return 2;
+    return 3;
 }
 
 template <class Kernel>
@@ -30,7 +30,7 @@ verdicts kinds_of(std::span<const test::triangle_pair> pairs) {
     verdicts result;
     for (const test::triangle_pair& pair : pairs) {
         try {
-            result.push_back(static_cast<signed char>(kind_of<Kernel>(pair)));
+            result.push_back(kind_of<Kernel>(pair));
         } catch (const std::exception&) {
             result.push_back(kind_failed);
         }

@@ -10,11 +10,11 @@
 
 namespace treeform::bench {
 
-/// What the intersection of two triangles may be said to be, beside the values of `overlap`.
+/// What the intersection of two triangles may be said to be, beside the number of ends.
 inline constexpr signed char kind_failed = -1;  ///< an exception
 
-/// [pairs] the `overlap` of each pair as `CGAL::intersection` constructs it; with the kernel EPECK
-/// exact, with EPICK in double.
+/// [pairs] 0 apart, 1 a point, 2 a segment, 3 an area: as `CGAL::intersection` constructs each
+/// pair; with the kernel EPECK exact, with EPICK in double.
 [[nodiscard]] verdicts cgal_kinds(std::span<const test::triangle_pair> pairs, bool exact);
 
 }  // namespace treeform::bench

@@ -46,7 +46,7 @@ def set_operations(plate: Mesh, cutters: list[Mesh], others: Sequence[MeshLike])
 def intersections(mesh: MeshLike) -> int:
     found = treeform.self_intersections(mesh, kinds=["crossing"])
     curves: list[NDArray[np.float64]] = tf.intersection_curves(mesh, found)
-    regions, _ = tf.intersection_regions(mesh, found)
+    regions = tf.intersection_regions(mesh, found)
     return len(found.pairs) + len(curves) + sum(len(one.faces) for one in regions)
 
 

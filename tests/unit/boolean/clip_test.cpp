@@ -54,7 +54,7 @@ tf::boolean_result clipped(const std::vector<tf::mesh>& meshes, const std::strin
     const tf::boolean_result result =
         tf::clip(std::vector<tf::mesh_view>(meshes.begin(), meshes.end()), which,
                  {text, meshes.size()}, options);
-    CHECK(static_cast<bool>(result.certificate) == result.certificate.open.empty());
+    CHECK(static_cast<bool>(result.certificate) == result.certificate.open_edges.empty());
     CHECK(tf::self_intersections(result.mesh).pairs.empty());
     for (const tf::operand_element& source : result.face_source) CHECK(source.operand == which);
     return result;
@@ -192,7 +192,7 @@ TEST_CASE("clip: another open operand is named, and a union refused") {
     const auto result = clipped({sheet(2, 0, 0, 5), open}, "a-b");
     CHECK(result.certificate.open_count == 3);
     CHECK(result.certificate.boundary_edges == 3);  // of the solid alone
-    CHECK(result.certificate.open[0].face.operand == 1);
+    CHECK(result.certificate.open_faces[0].operand == 1);
     CHECK(result.mesh == tf::mesh{});
     const tf::mesh b = box(1, 1, 1);
     const std::vector<tf::mesh_view> both{b, b};

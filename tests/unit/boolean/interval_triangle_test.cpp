@@ -37,7 +37,7 @@ bool meets(const corners3& t, const box3& box) {
         const auto [a, b, c] = f;
         return tf::intersect({t[0], t[1], t[2]},
                              {sides.points[a], sides.points[b], sides.points[c]})
-                   .kind != tf::overlap::none;
+                   .count != 0;
     });
 }
 

@@ -99,8 +99,8 @@ TEST_CASE("repair_file: a part that is no solid is named, with the numbers of th
     const tf::repaired_file made = tf::repair_file({&file});
     CHECK(made.certificate.status == tf::status::open_input);
     CHECK(made.certificate.open_count == 4);
-    for (const tf::open_edge& e : made.certificate.open)
-        CHECK((e.face.index == 12 || e.face.index == 13));
+    for (const tf::operand_element& face : made.certificate.open_faces)
+        CHECK((face.index == 12 || face.index == 13));
     REQUIRE(made.parts.size() == 3);
     CHECK(made.parts[1].certificate.status == tf::status::open_input);
     CHECK(made.parts[2].certificate);

@@ -41,12 +41,12 @@ std::span<const tf::point2> points_of(const tf::section_result& made, std::size_
 
 /// Area and length by segments alone, nothing linked. \pre no vertex lies in the plane
 std::array<double, 2> by_segments(const tf::mesh& mesh, const tf::oriented_plane& plane,
-                                  const tf::plane_frame& frame) {
+                                  const std::array<tf::point3, 3>& axes) {
     const auto dot = [](const tf::point3& a, const tf::point3& b) {
         return a.x * b.x + a.y * b.y + a.z * b.z;
     };
     const auto height = [&](std::uint32_t v) {
-        return dot(frame.normal, mesh.points[v]) - dot(frame.normal, plane.at);
+        return dot(axes[2], mesh.points[v]) - dot(axes[2], plane.at);
     };
     double area = 0.0, length = 0.0;
     for (const tf::face& f : mesh.faces) {
@@ -60,7 +60,7 @@ std::array<double, 2> by_segments(const tf::mesh& mesh, const tf::oriented_plane
             const tf::point3 &p = mesh.points[a], &q = mesh.points[b];
             const double t = up / (up - down);
             const tf::point3 x{p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), p.z + t * (q.z - p.z)};
-            (up > 0 ? from : to) = {dot(frame.x, x), dot(frame.y, x)};
+            (up > 0 ? from : to) = {dot(axes[0], x), dot(axes[1], x)};
         }
         if (!any) continue;
         area += (from.x * to.y - from.y * to.x) / 2;
@@ -337,7 +337,7 @@ TEST_CASE("areas, lengths and nesting are those of segments by themselves") {
         const tf::section_result made = tf::section(sponge, plane);
         check_layers(made);
         CHECK(tf::section(prepared, plane).points == made.points);
-        const auto [area, length] = by_segments(sponge, plane, made.frame);
+        const auto [area, length] = by_segments(sponge, plane, made.axes);
         CHECK(made.layers[0].area == doctest::Approx(area).epsilon(1e-12));
         CHECK(made.layers[0].length == doctest::Approx(length).epsilon(1e-12));
         for (std::size_t l = 0; l < made.loops.size(); ++l) {
@@ -356,7 +356,7 @@ TEST_CASE("of faces in any disorder, every segment is in a polyline") {
         const tf::mesh soup = test::random_soup(source, 200, 0.5);
         const tf::oriented_plane plane{{0.5, 0.5, 0.5}, {0.3, 0.2, 1.0}};
         const tf::section_result made = tf::section(soup, plane);
-        const auto [area, length] = by_segments(soup, plane, made.frame);
+        const auto [area, length] = by_segments(soup, plane, made.axes);
         CHECK(made.layers[0].length == doctest::Approx(length).epsilon(1e-12));
         CHECK(made.layers[0].open_count == made.loops.size());
         // On a lattice faces overlap, share edges by the dozen and lie in the planes.

@@ -79,7 +79,7 @@ TEST_CASE("isolines are written in space, and seen from a side as SVG") {
     const tf::mesh sheet{{{0, 0, 0}, {2, 0, 0}, {0, 0, 2}}, {{0, 1, 2}}};
     const tf::isolines_result lines =
         tf::isolines(sheet, std::array{0.0, 2.0, 2.0}, std::array{1.0, 1.5, 9.0});
-    const auto as = [&](const std::string& name, const tf::plane_frame& seen) {
+    const auto as = [&](const std::string& name, const tf::oriented_plane& seen) {
         tf::write_isolines(folder.path / name, lines, seen);
         return test::bytes_of(folder.path / name);
     };
@@ -90,7 +90,7 @@ TEST_CASE("isolines are written in space, and seen from a side as SVG") {
                            "\"length\":1.414213562"));
     CHECK(as("a.dxf", {}).find("0\nVERTEX\n8\nLEVEL1\n10\n0\n20\n0\n30\n1.5\n70\n32\n") !=
           std::string::npos);
-    const tf::plane_frame across = tf::oriented_plane{{}, {0, 1, 0}}.frame();  // z, x
+    const tf::oriented_plane across{{}, {0, 1, 0}};  // axes z, x
     CHECK(as("a.svg", across)
               .find("<g id=\"level1\" data-level=\"1.5\">\n"
                     "<path fill=\"none\" d=\"M1.5 0L0 -1.5\"/>") != std::string::npos);

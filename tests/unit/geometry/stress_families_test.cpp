@@ -294,7 +294,7 @@ TEST_CASE("every face of a pencil holds a point of its line") {
         const triangle3 t = corners_of(m, f);
         const point3 foot{std::round(t[2].x), std::round(t[2].y), 0};
         const triangle3 line{foot, {foot.x, foot.y, 1}, foot};
-        REQUIRE(tf::intersect(t, line).kind != tf::overlap::none);
+        REQUIRE(tf::intersect(t, line).count != 0);
     }
 }
 

@@ -16,7 +16,6 @@ namespace {
 using tf::contact;
 using tf::feature;
 using tf::intersect;
-using tf::overlap;
 using tf::point3;
 using tf::triangle3;
 using tf::triangle_contact;
@@ -85,7 +84,7 @@ triangle3 lattice_triangle(std::mt19937_64& engine, unsigned size_x, unsigned si
 
 TEST_CASE("triangles with a plane between them have nothing in common") {
     const auto found = intersect(base, moved(base, {0, 0, 1}));
-    CHECK(found.kind == overlap::none);
+    CHECK(found.count == 0);
     CHECK(found.count == 0);
     CHECK_FALSE(found.coplanar);
     CHECK_FALSE(found.crossing);
@@ -93,15 +92,15 @@ TEST_CASE("triangles with a plane between them have nothing in common") {
 
 TEST_CASE("triangles whose planes they reach may still pass each other by") {
     const triangle3 beside{{{3, 3, -1}, {5, 3, -1}, {4, 3, 1}}};
-    CHECK(intersect(base, beside).kind == overlap::none);
-    CHECK(intersect(beside, base).kind == overlap::none);
+    CHECK(intersect(base, beside).count == 0);
+    CHECK(intersect(beside, base).count == 0);
 }
 
 TEST_CASE("a crossing has a segment whose ends are named") {
     SUBCASE("two edges of one pierce the other") {
         const triangle3 blade{{{1, 0.5, -1}, {1, 1.5, -1}, {1, 1, 1}}};
         const auto found = intersect(base, blade);
-        CHECK(found.kind == overlap::segment);
+        CHECK(found.count == 2);
         CHECK(found.crossing);
         CHECK(ends_of(found) == names{{interior, e1}, {interior, e2}});
     }
@@ -122,7 +121,7 @@ TEST_CASE("a crossing has a segment whose ends are named") {
 TEST_CASE("a segment on the rim of one triangle is no crossing") {
     const triangle3 wall{{{1, 1, 0}, {2, 1, 0}, {1, 1, 2}}};
     const auto found = intersect(base, wall);
-    CHECK(found.kind == overlap::segment);
+    CHECK(found.count == 2);
     CHECK_FALSE(found.crossing);
     CHECK(ends_of(found) == names{{interior, v0}, {interior, v1}});
 }
@@ -136,7 +135,7 @@ TEST_CASE("a corner on any feature is a touch at one named point") {
             triangle3 above{{{5, 1, 3}, {1, 5, 4}, {-1, -1, 5}}};
             above[corner] = witness[f];
             const auto found = intersect(base, above);
-            CHECK(found.kind == overlap::point);
+            CHECK(found.count == 1);
             CHECK(found.count == 1);
             CHECK(found.ends[0] == contact{nth(f), nth(corner)});
             const auto swapped = intersect(above, base);
@@ -161,7 +160,7 @@ TEST_CASE("every feature of one meets every feature of the other, except two int
             const point3 to = witness[f];
             const triangle3 b = moved(standing, {to.x - from.x, to.y - from.y, to.z - from.z});
             const auto found = intersect(base, b);
-            CHECK(found.kind >= overlap::point);
+            CHECK(found.count >= 1);
             CHECK(agrees(found, reference(base, b)));
             // Where both planes' common line runs along a feature, its ends are elsewhere.
             const bool along_a = nth(f) == e0 || nth(f) == interior;
@@ -180,7 +179,7 @@ TEST_CASE("every feature of one meets every feature of the other, except two int
 TEST_CASE("triangles that share an edge or a corner report it") {
     const triangle3 roof{{{4, 0, 0}, {0, 0, 0}, {0, -4, 3}}};
     const auto edge = intersect(base, roof);
-    CHECK(edge.kind == overlap::segment);
+    CHECK(edge.count == 2);
     CHECK_FALSE(edge.crossing);
     CHECK_FALSE(edge.coplanar);
     CHECK(ends_of(edge) == names{{v0, v1}, {v1, v0}});
@@ -196,7 +195,7 @@ TEST_CASE("triangles that share an edge or a corner report it") {
 
 TEST_CASE("coplanar triangles apart are coplanar all the same") {
     const auto found = intersect(base, moved(base, {5, 0, 0}));
-    CHECK(found.kind == overlap::none);
+    CHECK(found.count == 0);
     CHECK(found.coplanar);
 }
 
@@ -205,7 +204,7 @@ TEST_CASE("coplanar triangles can touch at a corner or along an edge") {
     CHECK(ends_of(intersect(base, moved(base, {2, 2, 0}))) == names{{e1, v0}});
     const triangle3 other_half{{{4, 4, 0}, {0, 4, 0}, {4, 0, 0}}};
     const auto edge = intersect(base, other_half);
-    CHECK(edge.kind == overlap::segment);
+    CHECK(edge.count == 2);
     CHECK(edge.coplanar);
     CHECK_FALSE(edge.crossing);
     CHECK(ends_of(edge) == names{{v1, v2}, {v2, v1}});
@@ -220,7 +219,7 @@ TEST_CASE("the corners of a coplanar area come counter-clockwise as the first tr
     using list = std::vector<contact>;
     SUBCASE("identical") {
         const auto found = intersect(base, base);
-        CHECK(found.kind == overlap::area);
+        CHECK(found.count >= 3);
         CHECK(found.coplanar);
         CHECK_FALSE(found.crossing);
         CHECK(agrees(found, reference(base, base)));
@@ -244,7 +243,7 @@ TEST_CASE("the corners of a coplanar area come counter-clockwise as the first tr
         for (const triangle3& b : {star, flipped(star)}) {
             const auto found = intersect(base, b);
             CHECK(found.count == 6);
-            CHECK(found.kind == overlap::area);
+            CHECK(found.count >= 3);
             CHECK(agrees(found, reference(base, b)));
         }
         CHECK(ends_of(intersect(base, star)) ==
@@ -263,17 +262,17 @@ TEST_CASE("a point meets a triangle where it lies") {
     for (std::size_t f = 0; f < 7; ++f) {
         const triangle3 point{witness[f], witness[f], witness[f]};
         const auto found = intersect(base, point);
-        CHECK(found.kind == overlap::point);
+        CHECK(found.count == 1);
         CHECK(found.coplanar);
         CHECK(found.ends[0] == contact{nth(f), v0});
         CHECK(intersect(point, base).ends[0] == contact{v0, nth(f)});
         CHECK(intersect(point, point).ends[0] == contact{v0, v0});
     }
     const point3 off{1, 1, 1};
-    CHECK(intersect(base, {off, off, off}).kind == overlap::none);
+    CHECK(intersect(base, {off, off, off}).count == 0);
     CHECK_FALSE(intersect(base, {off, off, off}).coplanar);
     const point3 beside{3, 3, 0};
-    CHECK(intersect(base, {beside, beside, beside}).kind == overlap::none);
+    CHECK(intersect(base, {beside, beside, beside}).count == 0);
     CHECK(intersect(base, {beside, beside, beside}).coplanar);
 }
 
@@ -281,7 +280,7 @@ TEST_CASE("a triangle without area is the segment of its corners") {
     SUBCASE("through the interior, between two corners and on the one between them") {
         const triangle3 needle{{{1, 1, -1}, {1, 1, 3}, {1, 1, 1}}};
         const auto found = intersect(base, needle);
-        CHECK(found.kind == overlap::point);
+        CHECK(found.count == 1);
         CHECK_FALSE(found.crossing);
         CHECK_FALSE(found.coplanar);
         // v0 to v2 is edge e2, but e0 from v0 to v1 holds the point as well.
@@ -293,7 +292,7 @@ TEST_CASE("a triangle without area is the segment of its corners") {
     SUBCASE("in the plane, cut short by the triangle") {
         const triangle3 bar{{{-1, 1, 0}, {5, 1, 0}, {1, 1, 0}}};
         const auto found = intersect(base, bar);
-        CHECK(found.kind == overlap::segment);
+        CHECK(found.count == 2);
         CHECK(found.coplanar);
         CHECK(ends_of(found) == names{{e2, e0}, {e1, e0}});
     }
@@ -305,10 +304,10 @@ TEST_CASE("a triangle without area is the segment of its corners") {
         const triangle3 one{{{0, 0, 0}, {2, 2, 2}, {6, 6, 6}}};
         const triangle3 two{{{8, 8, 8}, {2, 2, 2}, {4, 4, 4}}};
         const auto found = intersect(one, two);
-        CHECK(found.kind == overlap::segment);
+        CHECK(found.count == 2);
         CHECK(found.coplanar);
         CHECK(ends_of(found) == names{{v1, v1}, {v2, e0}});
-        CHECK(intersect(one, moved(one, {7, 7, 7})).kind == overlap::none);
+        CHECK(intersect(one, moved(one, {7, 7, 7})).count == 0);
         CHECK(ends_of(intersect(one, moved(one, {6, 6, 6}))) == names{{v2, v0}});
     }
     SUBCASE("two that cross, and two that pass") {
@@ -316,7 +315,7 @@ TEST_CASE("a triangle without area is the segment of its corners") {
         const triangle3 two{{{4, 0, 0}, {0, 4, 4}, {0, 4, 4}}};
         CHECK(ends_of(intersect(one, two)) == names{{v2, e0}});
         CHECK(intersect(one, two).coplanar);
-        CHECK(intersect(one, moved(two, {0, 1, 0})).kind == overlap::none);
+        CHECK(intersect(one, moved(two, {0, 1, 0})).count == 0);
         CHECK_FALSE(intersect(one, moved(two, {0, 1, 0})).coplanar);
     }
 }
@@ -333,7 +332,7 @@ TEST_CASE("the answer is that of exact clipping on small lattices") {
         const triangle3 b = lattice_triangle(engine, 3, 3, depth);
         const auto expected = reference(a, b);
         REQUIRE(agrees(intersect(a, b), expected));
-        ++seen[static_cast<std::size_t>(expected.kind)];
+        ++seen[std::min<std::size_t>(expected.ends.size(), 3)];
         ++by_count[expected.ends.size()];
         degenerate += expected.degenerate;
     }

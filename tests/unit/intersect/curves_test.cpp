@@ -18,7 +18,7 @@ namespace {
 using tf::point3;
 using segment = std::array<point3, 2>;
 
-std::vector<tf::curve_segment> curves_of(const tf::mesh& mesh) {
+tf::answer_lists<segment> curves_of(const tf::mesh& mesh) {
     return tf::intersection_curves(mesh, tf::self_intersections(mesh).pairs);
 }
 
@@ -35,8 +35,8 @@ TEST_CASE("curves: two faces that cross meet in one segment") {
                         {{0, 1, 2}, {3, 4, 5}}};
     const auto curves = curves_of(mesh);
     REQUIRE(curves.size() == 1);
-    CHECK(ordered(curves[0].ends) == segment{{{1, 1, 0}, {1.5, 1, 0}}});
-    CHECK(curves[0].pair == 0);
+    REQUIRE(curves[0].size() == 1);
+    CHECK(ordered(curves[0][0]) == segment{{{1, 1, 0}, {1.5, 1, 0}}});
 }
 
 TEST_CASE("curves: a contact in a point is a segment without length") {
@@ -44,24 +44,28 @@ TEST_CASE("curves: a contact in a point is a segment without length") {
                         {{0, 1, 2}, {3, 4, 5}}};
     const auto curves = curves_of(mesh);
     REQUIRE(curves.size() == 1);
-    CHECK(curves[0].ends == segment{{{1, 1, 0}, {1, 1, 0}}});
+    REQUIRE(curves[0].size() == 1);
+    CHECK(curves[0][0] == segment{{{1, 1, 0}, {1, 1, 0}}});
 }
 
 TEST_CASE("curves: an overlap is outlined by a closed line") {
     const tf::mesh mesh{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0}, {5, 1, 0}, {1, 5, 0}},
                         {{0, 1, 2}, {3, 4, 5}}};
     const auto curves = curves_of(mesh);
-    REQUIRE(curves.size() == 3);
-    for (std::size_t i = 0; i < 3; ++i) CHECK(curves[i].ends[1] == curves[(i + 1) % 3].ends[0]);
+    REQUIRE(curves.size() == 1);
+    const auto sides = curves[0];
+    REQUIRE(sides.size() == 3);
+    for (std::size_t i = 0; i < 3; ++i) CHECK(sides[i][1] == sides[(i + 1) % 3][0]);
     std::vector<double> xs;
-    for (const auto& c : curves) xs.push_back(c.ends[0].x);
+    for (const segment& side : sides) xs.push_back(side[0].x);
     std::sort(xs.begin(), xs.end());
     CHECK(xs == std::vector<double>{1, 1, 3});
 }
 
 TEST_CASE("curves: no pairs, no segments") {
     const tf::mesh mesh{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}};
-    CHECK(curves_of(mesh).empty());
+    CHECK(curves_of(mesh).size() == 0);
+    CHECK(curves_of(mesh).answers.empty());
 }
 
 TEST_CASE("curves: pairs that are none of the mesh are refused") {
@@ -104,13 +108,19 @@ TEST_CASE("curves: follow the order of the pairs on any number of threads") {
     const auto pairs = tf::self_intersections(mesh).pairs;
     CHECK(pairs.size() == count * count);
     const auto curves = tf::intersection_curves(mesh, pairs);
-    CHECK(std::is_sorted(curves.begin(), curves.end(),
-                         [](const auto& a, const auto& b) { return a.pair < b.pair; }));
-    for (const auto& c : curves)
-        for (const point3& p : c.ends)
-            REQUIRE((std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)));
+    REQUIRE(curves.size() == pairs.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const auto [a, b, kind] = pairs[i];  // one across y, one across x, with a higher number
+        const double y = mesh.points[mesh.faces[a % 2 == 0 ? a : b][0]].y;
+        const double x = mesh.points[mesh.faces[a % 2 == 0 ? b : a][0]].x;
+        REQUIRE(curves[i].size() == 1);
+        for (const point3& p : curves[i][0])
+            REQUIRE((std::abs(p.x - x) < 1e-12 && std::abs(p.y - y) < 1e-12 && p.z >= -1.0));
+    }
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        CHECK(tf::intersection_curves(mesh, pairs) == curves);
+        const auto again = tf::intersection_curves(mesh, pairs);
+        CHECK(again.begin == curves.begin);
+        CHECK(again.answers == curves.answers);
     }
 }

@@ -35,8 +35,7 @@ pairs by_brute_force(const tf::mesh& a, const tf::mesh& b, const Common& common)
     for (std::uint32_t i = 0; i < a.faces.size(); ++i)
         for (std::uint32_t j = 0; j < b.faces.size(); ++j) {
             const test::common_set both = common(triangle(a, i), triangle(b, j));
-            if (both.dimension != tf::overlap::none)
-                found.push_back({i, j, test::kind_of(both, 0)});
+            if (!both.ends.empty()) found.push_back({i, j, test::kind_of(both, 0)});
         }
     return found;
 }

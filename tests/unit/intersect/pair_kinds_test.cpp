@@ -20,9 +20,9 @@ bool is_degenerate(const tf::triangle3& t) { return tf::collinear(t[0], t[1], t[
 
 std::optional<tf::pair_kind> kind_of(const tf::test::triangle_pair& pair) {
     const tf::triangle_contact common = tf::intersect(pair.a, pair.b);
-    if (common.kind == tf::overlap::none) return std::nullopt;
+    if (common.count == 0) return std::nullopt;
     if (is_degenerate(pair.a) || is_degenerate(pair.b)) return tf::pair_kind::degenerate;
-    if (common.kind == tf::overlap::area) return tf::pair_kind::overlap;
+    if (common.count >= 3) return tf::pair_kind::overlap;
     return common.crossing ? tf::pair_kind::crossing : tf::pair_kind::touching;
 }
 

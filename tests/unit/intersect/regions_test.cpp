@@ -48,8 +48,8 @@ std::vector<ids> by_definition(const tf::mesh& mesh, const pairs& list) {
 }  // namespace
 
 TEST_CASE("regions: no pairs, no regions") {
-    CHECK(tf::group_pairs({}, {}) == tf::intersection_regions{});
-    CHECK(tf::group_pairs(test::grid(3), {}).regions.empty());
+    CHECK(tf::group_pairs({}, {}).empty());
+    CHECK(tf::group_pairs(test::grid(3), {}).empty());
 }
 
 TEST_CASE("regions: pairs are linked by faces and by corners, not by faces that are in no pair") {
@@ -59,19 +59,20 @@ TEST_CASE("regions: pairs are linked by faces and by corners, not by faces that 
         mesh.points.push_back({static_cast<double>(i), -static_cast<double>(i), 0.5});
     mesh.faces = {{0, 1, 2}, {3, 4, 5}, {5, 6, 7}, {7, 8, 9}, {9, 10, 11}, {12, 13, 14}};
     const auto two = tf::group_pairs(mesh, pairs{{4, 5, {}}, {0, 1, {}}});
-    REQUIRE(two.regions.size() == 2);
-    CHECK(two.regions[0].faces == ids{0, 1});
-    CHECK(two.regions[0].min == tf::point3{0, -5, 0.5});
-    CHECK(two.regions[0].max == tf::point3{5, 0, 0.5});
-    CHECK(two.regions[1].faces == ids{4, 5});
-    CHECK(two.region_of_pair == ids{1, 0});
+    REQUIRE(two.size() == 2);
+    CHECK(two[0].faces == ids{0, 1});
+    CHECK(two[0].min == tf::point3{0, -5, 0.5});
+    CHECK(two[0].max == tf::point3{5, 0, 0.5});
+    CHECK(two[1].faces == ids{4, 5});
+    CHECK(two[0].pairs == ids{1});
+    CHECK(two[1].pairs == ids{0});
 
     const auto by_corner = tf::group_pairs(mesh, pairs{{0, 1, {}}, {2, 5, {}}, {0, 5, {}}});
-    REQUIRE(by_corner.regions.size() == 1);
-    CHECK(by_corner.regions[0].faces == ids{0, 1, 2, 5});
-    CHECK(by_corner.regions[0].pairs == 3);
-    CHECK(tf::group_pairs(mesh, pairs{{0, 2, {}}, {4, 5, {}}}).regions.size() == 2);
-    CHECK(tf::group_pairs(mesh, pairs{{0, 2, {}}, {3, 5, {}}}).regions.size() == 1);
+    REQUIRE(by_corner.size() == 1);
+    CHECK(by_corner[0].faces == ids{0, 1, 2, 5});
+    CHECK(by_corner[0].pairs == ids{0, 1, 2});
+    CHECK(tf::group_pairs(mesh, pairs{{0, 2, {}}, {4, 5, {}}}).size() == 2);
+    CHECK(tf::group_pairs(mesh, pairs{{0, 2, {}}, {3, 5, {}}}).size() == 1);
 }
 
 TEST_CASE("regions: as their definition on random pairs") {
@@ -83,19 +84,19 @@ TEST_CASE("regions: as their definition on random pairs") {
         for (tf::face_pair& pair : list)
             pair = {static_cast<std::uint32_t>(source.below(200)),
                     static_cast<std::uint32_t>(source.below(200)), tf::pair_kind::touching};
-        const tf::intersection_regions found = tf::group_pairs(soup, list);
+        const auto found = tf::group_pairs(soup, list);
         const std::vector<ids> expected = by_definition(soup, list);
-        REQUIRE(found.regions.size() == expected.size());
-        std::vector<std::uint64_t> sizes(expected.size(), 0);
-        for (std::size_t i = 0; i < list.size(); ++i) {
-            const ids& faces = expected.at(found.region_of_pair[i]);
-            CHECK(std::binary_search(faces.begin(), faces.end(), list[i].a));
-            ++sizes[found.region_of_pair[i]];
-        }
+        REQUIRE(found.size() == expected.size());
+        std::size_t grouped = 0;
         for (std::size_t r = 0; r < expected.size(); ++r) {
-            CHECK(found.regions[r].faces == expected[r]);
-            CHECK(found.regions[r].pairs == sizes[r]);
+            const ids& faces = expected[r];
+            CHECK(found[r].faces == faces);
+            CHECK(std::is_sorted(found[r].pairs.begin(), found[r].pairs.end()));
+            for (const std::uint32_t i : found[r].pairs)
+                CHECK(std::binary_search(faces.begin(), faces.end(), list[i].a));
+            grouped += found[r].pairs.size();
         }
+        CHECK(grouped == list.size());  // regions have no face in common, so each pair is in one
     }
 }
 
@@ -106,11 +107,11 @@ TEST_CASE("regions: two places where sheets cross are two, each with its box") {
     mesh = test::together(mesh, test::together(blade, test::moved(blade, {100, 0, 0})));
     const pairs found = tf::self_intersections(mesh).pairs;
     const auto result = tf::group_pairs(mesh, found);
-    REQUIRE(result.regions.size() == 2);
-    CHECK(result.regions[0].max.x < 4);
-    CHECK(result.regions[1].min.x > 99);
-    CHECK(result.regions[0].min.z == -1);
-    CHECK(result.regions[0].pairs + result.regions[1].pairs == found.size());
+    REQUIRE(result.size() == 2);
+    CHECK(result[0].max.x < 4);
+    CHECK(result[1].min.x > 99);
+    CHECK(result[0].min.z == -1);
+    CHECK(result[0].pairs.size() + result[1].pairs.size() == found.size());
 }
 
 TEST_CASE("regions: a pair of a face that is not there is refused by its number") {

@@ -50,7 +50,7 @@ told told_of(const tf::usable_mesh& part, const tf::intersection_result& found,
            .bounds = bounds};
     for (const tf::face_pair& p : found.pairs)
         t.pairs.push_back({part.face_in_file(p.a), part.face_in_file(p.b), p.kind});
-    for (const auto& region : tf::group_pairs(part.mesh, found.pairs).regions) {
+    for (const auto& region : tf::group_pairs(part.mesh, found.pairs)) {
         t.regions.emplace_back();
         for (const std::uint32_t f : region.faces) t.regions.back().push_back(part.face_in_file(f));
     }

@@ -27,7 +27,7 @@ using test::triangle_of;
 /// Counts the crossings of rays in random directions until one meets interiors only.
 tf::point_location by_random_rays(test::random& random, const tf::mesh& mesh, const tf::point3& q) {
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f)
-        if (tf::intersect(triangle_of(mesh, f), {q, q, q}).kind != tf::overlap::none)
+        if (tf::intersect(triangle_of(mesh, f), {q, q, q}).count != 0)
             return {tf::location::boundary, 0, f};
     for (;;) {
         const tf::point3 d{random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)};

@@ -71,21 +71,20 @@ TEST_CASE("clouds: a point outside, on a face, and inside of a box") {
         const auto found = tf::measure(given, solid);
         const auto swapped = tf::measure(solid, given);
         REQUIRE(found.has_value());
-        CHECK(found->relation.relation == swapped->relation.relation);
+        CHECK(found->relation == swapped->relation);
         CHECK(found->distance == swapped->distance);
         return *found;
     };
     const auto outside = at({{9, 9, 9}, {1, 1, 7}});
-    CHECK(outside.relation.relation == mesh_relation::separate);
+    CHECK(outside.relation == mesh_relation::separate);
     CHECK(outside.distance == 3.0);
     CHECK(outside.on_a.face == 1);
-    CHECK(at({{1, 1, 4}}).relation.relation == mesh_relation::touching);
-    CHECK(at({{4, 4, 4}}).relation.relation == mesh_relation::touching);
-    CHECK(at({{1, 1, 4}, {1, 1, 3}}).relation.relation == mesh_relation::penetrating);
-    CHECK(at({{1, 1, 4}, {1, 1, std::nextafter(4.0, 5.0)}}).relation.relation ==
-          mesh_relation::touching);
+    CHECK(at({{1, 1, 4}}).relation == mesh_relation::touching);
+    CHECK(at({{4, 4, 4}}).relation == mesh_relation::touching);
+    CHECK(at({{1, 1, 4}, {1, 1, 3}}).relation == mesh_relation::penetrating);
+    CHECK(at({{1, 1, 4}, {1, 1, std::nextafter(4.0, 5.0)}}).relation == mesh_relation::touching);
     const auto inside = at({{1, 1, 3.5}});
-    CHECK(inside.relation.relation == mesh_relation::penetrating);
+    CHECK(inside.relation == mesh_relation::penetrating);
     CHECK(inside.distance == 0.0);
     CHECK(inside.surface_distance == 0.5);
 }
@@ -192,7 +191,7 @@ TEST_CASE("clouds: the same answers on any number of threads") {
         const auto m = tf::measure(given, solid);
         return std::vector<double>{
             m->distance, m->surface_distance, static_cast<double>(m->on_a.face),
-            static_cast<double>(m->on_b.face), static_cast<double>(m->relation.face_a)};
+            static_cast<double>(m->on_b.face), static_cast<double>(m->face_a)};
     };
     const auto one = with(1);
     CHECK(one == with(2));

@@ -58,21 +58,21 @@ TEST_CASE("measure: boxes apart, touching, through each other, inside") {
         return *found;
     };
     const auto apart = at(7, 1, 1);
-    CHECK(apart.relation.relation == mesh_relation::separate);
+    CHECK(apart.relation == mesh_relation::separate);
     CHECK(apart.distance == 3.0);
     CHECK(apart.surface_distance == 3.0);
     const auto touching = at(4, 1, 1);
-    CHECK(touching.relation.relation == mesh_relation::touching);
+    CHECK(touching.relation == mesh_relation::touching);
     CHECK(touching.distance == 0.0);
     CHECK(touching.surface_distance == 0.0);
     CHECK(touching.on_a.point == touching.on_b.point);
     const auto through = at(3.5, 1, 1);
-    CHECK(through.relation.relation == mesh_relation::penetrating);
+    CHECK(through.relation == mesh_relation::penetrating);
     CHECK(through.distance == 0.0);
     CHECK(through.surface_distance == 0.0);
     const auto inside = at(1, 1.25, 1.5);
-    CHECK(inside.relation.relation == mesh_relation::penetrating);
-    CHECK(inside.relation.a_inside_b);
+    CHECK(inside.relation == mesh_relation::penetrating);
+    CHECK(inside.a_inside_b);
     CHECK(inside.distance == 0.0);
     CHECK(inside.surface_distance == 1.0);
 }
@@ -86,7 +86,7 @@ TEST_CASE("measure: swapping the meshes swaps the answer") {
         const auto one = tf::measure(a, b);
         const auto two = tf::measure(b, a);
         REQUIRE((one && two));
-        CHECK(one->relation.relation == two->relation.relation);
+        CHECK(one->relation == two->relation);
         CHECK(one->distance == doctest::Approx(two->distance).epsilon(1e-14));
         check_points(a, b, *one);
     }

@@ -59,7 +59,7 @@ struct operations {
                 return result.status == tf::status::cancelled;
         };
         const auto measured = [](const auto& result) {
-            return result->relation.status == tf::status::cancelled;
+            return result->status == tf::status::cancelled;
         };
         return {
             {"relation",

@@ -27,6 +27,7 @@ mesh_relation between(const tf::mesh& a, const tf::mesh& b) {
     const auto swapped = tf::relation(b, a);
     CHECK(found.relation == swapped.relation);
     CHECK(found.a_inside_b == swapped.b_inside_a);
+    CHECK(std::isnan(found.distance));
     return found.relation;
 }
 

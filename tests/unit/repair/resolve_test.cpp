@@ -129,7 +129,7 @@ TEST_CASE("repair: a surface with a border bounds nothing, and it is said where 
     CHECK(!result.certificate);
     CHECK(result.mesh.faces.empty());
     CHECK(result.certificate.open_count == 3);
-    REQUIRE(result.certificate.open.size() == 3);
+    REQUIRE(result.certificate.open_edges.size() == 3);
     CHECK(tf::resolve_self_intersections(mesh, mode::split).certificate);
 }
 

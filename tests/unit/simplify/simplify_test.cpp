@@ -128,8 +128,8 @@ void check_distances(const tf::mesh& given, const tf::simplify_result& made) {
     CHECK(before.furthest(after) <= made.back_at_most + before.spacing);
     const auto far = tf::deviation(given, made.mesh);
     REQUIRE(far);
-    CHECK(far->there.sampled <= made.there_at_most * (1 + 1e-12));
-    CHECK(far->back->sampled <= made.back_at_most * (1 + 1e-12));
+    CHECK(far->max <= made.there_at_most * (1 + 1e-12));
+    CHECK(far->back_max.value() <= made.back_at_most * (1 + 1e-12));
 }
 
 bool same(const tf::simplify_result& a, const tf::simplify_result& b) {

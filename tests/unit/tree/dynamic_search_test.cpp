@@ -269,11 +269,11 @@ TEST_CASE("dynamic_tree: two dynamic trees, moved or not, meet where brute force
             return squared_between(at(a.all.at(x)), b.all.at(y));
         };
         std::vector<tf::id_pair> expected;
-        std::vector<tf::near_pair<double>> near;
+        std::vector<tf::neighbor<double, tf::id_pair>> near;
         for (const auto& [x, of_x] : a.all)
             for (const auto& [y, of_y] : b.all) {
                 if (meet(x, y)) expected.emplace_back(x, y);
-                if (distance(x, y) > 0.0) near.push_back({x, y, distance(x, y)});
+                if (distance(x, y) > 0.0) near.push_back({{x, y}, distance(x, y)});
             }
         const tf::transformed first(a.tree, moved ? map : tf::transform<3>{});
         CHECK(tf::search_all(first, b.tree, meet) == expected);

@@ -22,6 +22,7 @@ namespace {
 using test::box_family;
 using test::boxes;
 using test::itself;
+using tf::detail::update_counts;
 using ids = std::vector<std::uint32_t>;
 
 template <std::size_t D>
@@ -51,17 +52,17 @@ TEST_CASE("dynamic_tree: ids stay, and those of removed ones are given out again
 
 TEST_CASE("dynamic_tree: a small move stays in its slot, a large one leaves it") {
     tf::dynamic_tree<3> tree(box_family<3>("random", 5000, 3), itself);
-    const auto built = tree.statistics().built;
+    const auto built = update_counts::of(tree).built;
     box<3> near = tree.box(17), far = tree.box(18);
     near.min[0] += 1e-4;
     far.min[0] += 100.0, far.max[0] += 100.0;
     tree.move(ids{17}, std::span(&near, 1));
-    CHECK(tree.statistics().refitted == 1);
-    CHECK(tree.statistics().built == built);
+    CHECK(update_counts::of(tree).refitted == 1);
+    CHECK(update_counts::of(tree).built == built);
     tree.move(ids{18}, std::span(&far, 1));
-    CHECK(tree.statistics().refitted == 1);
-    CHECK(tree.statistics().vacated == 1);
-    CHECK(tree.statistics().built == built + 1);
+    CHECK(update_counts::of(tree).refitted == 1);
+    CHECK(update_counts::of(tree).vacated == 1);
+    CHECK(update_counts::of(tree).built == built + 1);
     CHECK(tree.top().size() == 2);
 }
 
@@ -86,7 +87,7 @@ TEST_CASE("dynamic_tree: the same trees, ids and pairs on 1, 2 and 8 threads") {
             const auto in_order = tree.part(part).ids();
             result.insert(result.end(), in_order.begin(), in_order.end());
         }
-        const tf::update_statistics& cost = tree.statistics();
+        const auto& cost = update_counts::of(tree);
         for (const std::uint64_t count : {cost.built, cost.refitted, cost.vacated})
             result.push_back(static_cast<std::uint32_t>(count));
         using pairs = std::vector<tf::id_pair>;
@@ -118,7 +119,7 @@ TEST_CASE("dynamic_tree: builds cost what the documentation says, one by one and
             tree.remove(given);
             ++removed;
         }
-        REQUIRE(static_cast<double>(tree.statistics().built) <= bound());
+        REQUIRE(static_cast<double>(update_counts::of(tree).built) <= bound());
     }
     ids there;
     for (std::uint32_t id = 0; id < tree.id_end(); ++id)
@@ -127,17 +128,17 @@ TEST_CASE("dynamic_tree: builds cost what the documentation says, one by one and
     for (const std::uint32_t id : there) {
         tree.remove(std::span(&id, 1));
         ++removed;
-        REQUIRE(static_cast<double>(tree.statistics().built) <= bound());
+        REQUIRE(static_cast<double>(update_counts::of(tree).built) <= bound());
     }
     // Batches of a tenth that go anywhere: with each third one all is built.
     tf::dynamic_tree<3> large(box_family<3>("random", 10'000, 22), itself);
-    const auto before = large.statistics().built;
+    const auto before = update_counts::of(large).built;
     for (std::uint32_t batch = 0; batch < 30; ++batch) {
         ids which;
         for (std::uint32_t id = 0; id < 1000; ++id) which.push_back(id * 10 + batch % 10);
         large.move(which, box_family<3>("random", 1000, 23 + batch), itself);
     }
-    CHECK(large.statistics().built - before <= 30 * 10'000 / 2);
+    CHECK(update_counts::of(large).built - before <= 30 * 10'000 / 2);
 }
 
 TEST_CASE("dynamic_tree: refuses ids that are not there or come twice, and boxes, naming them") {
@@ -146,7 +147,7 @@ TEST_CASE("dynamic_tree: refuses ids that are not there or come twice, and boxes
     const box<3> sound = tree.box(0);
     box<3> unsound = sound;
     unsound.max[1] = std::numeric_limits<double>::quiet_NaN();
-    const auto before = tree.statistics();
+    const auto before = update_counts::of(tree);
     CHECK_THROWS_WITH_AS(tree.remove(ids{1, 5}),
                          "treeform::dynamic_tree: cannot remove id 5, which is not there",
                          std::invalid_argument);
@@ -171,7 +172,7 @@ TEST_CASE("dynamic_tree: refuses ids that are not there or come twice, and boxes
     CHECK_THROWS_WITH_AS((void)tree.insert(boxes<3>{sound, sound, unsound}),
                          "treeform::dynamic_tree: the box of element 2 is empty or not finite",
                          std::invalid_argument);
-    CHECK(tree.statistics() == before);
+    CHECK(update_counts::of(tree) == before);
     CHECK(tree.size() == 999);
     CHECK(tree.box(1) != sound);
 }

@@ -46,8 +46,8 @@ TEST_CASE("nearness batch: every answer is that of a single search, on any numbe
     const scene in;
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        const tf::nearness_options options{.radius = 0.05};
-        const auto nearest = tf::nearest_batch(in.tree, in.queries, in, options);
+        const double radius = 0.05;
+        const auto nearest = tf::nearest_batch(in.tree, in.queries, in, radius);
         const auto several = tf::k_nearest_batch(in.tree, in.queries, 6, in);
         const auto inside = tf::all_within_batch(in.tree, in.queries, 0.03, in);
         REQUIRE(nearest.size() == in.queries.size());
@@ -55,7 +55,7 @@ TEST_CASE("nearness batch: every answer is that of a single search, on any numbe
         REQUIRE(inside.size() == in.queries.size());
         for (std::size_t i = 0; i < in.queries.size(); ++i) {
             const auto from = [&](std::uint32_t id) { return in(i, id); };
-            REQUIRE(nearest[i] == tf::nearest(in.tree, in.queries[i], from, options));
+            REQUIRE(nearest[i] == tf::nearest(in.tree, in.queries[i], from, radius));
             REQUIRE(std::ranges::equal(several[i], tf::k_nearest(in.tree, in.queries[i], 6, from)));
             REQUIRE(
                 std::ranges::equal(inside[i], tf::all_within(in.tree, in.queries[i], 0.03, from)));

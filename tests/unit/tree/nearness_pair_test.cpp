@@ -15,14 +15,14 @@ namespace {
 
 using test::boxes;
 using test::squared_between;
-using near_pairs = std::vector<tf::near_pair<double>>;
+using near_pairs = std::vector<tf::neighbor<double, tf::id_pair>>;
 
 template <std::size_t D>
 near_pairs pairs_by_brute_force(const boxes<D>& a, const boxes<D>& b) {
     near_pairs all;
     for (std::uint32_t i = 0; i < a.size(); ++i)
         for (std::uint32_t j = 0; j < b.size(); ++j)
-            all.push_back({i, j, squared_between(a[i], b[j])});
+            all.push_back({{i, j}, squared_between(a[i], b[j])});
     std::sort(all.begin(), all.end(), [](const auto& x, const auto& y) { return nearer(x, y); });
     return all;
 }
@@ -88,8 +88,7 @@ TEST_CASE("nearest pair: boxes that coincide say nothing about contents in oppos
         [&](std::uint32_t i, std::uint32_t j) { return squared_between(a[i], b[j]); });
     REQUIRE(one);
     CHECK(one->answer == 0.875 * 0.875);
-    CHECK(one->a == 0);
-    CHECK(one->b == 0);
+    CHECK(one->id == tf::id_pair{0, 0});
 }
 
 TEST_CASE("nearest pair: the radius is inclusive") {
@@ -163,7 +162,7 @@ TEST_CASE("nearest pair: many equally near pairs give the same answer on any num
     };
     const auto expected = tf::k_nearest_pairs(tree_a, tree_b, 20, between);
     for (std::uint32_t i = 0; i < 20; ++i) {
-        CHECK(expected[i].a == i);
+        CHECK(expected[i].id.first == i);
         CHECK(expected[i].answer == 16.0);
     }
     const auto zero = tf::k_nearest_pairs(tree_a, tree_c, 40, touching);

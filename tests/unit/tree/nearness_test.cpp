@@ -66,15 +66,15 @@ void compare_with_brute_force(const std::string& family, std::size_t count) {
         const answers all = neighbors_by_brute_force(of, query);
         const double radius = all.empty() ? 1.0 : std::sqrt(all[all.size() / 2].answer);
         const tf::node_order order = node_orders[turn++ % node_orders.size()];
-        const auto one = tf::nearest(tree, query, distance_of, {.order = order});
+        const auto one = tf::nearest(tree, query, distance_of, tf::any_distance, order);
         REQUIRE(one.has_value() == !all.empty());
         if (one) REQUIRE(*one == all[0]);
         for (const std::size_t k : {std::size_t{1}, std::size_t{7}, std::size_t{40}, count + 1})
-            REQUIRE(tf::k_nearest(tree, query, k, distance_of, {.order = order}) == first(all, k));
+            REQUIRE(tf::k_nearest(tree, query, k, distance_of, tf::any_distance, order) ==
+                    first(all, k));
         const answers inside = neighbors_by_brute_force(of, query, radius);
         REQUIRE(tf::all_within(tree, query, radius, distance_of, order) == inside);
-        REQUIRE(tf::k_nearest(tree, query, 9, distance_of, {.radius = radius, .order = order}) ==
-                first(inside, 9));
+        REQUIRE(tf::k_nearest(tree, query, 9, distance_of, radius, order) == first(inside, 9));
     }
 }
 
@@ -118,8 +118,8 @@ TEST_CASE("nearness: the radius is inclusive") {
     const auto distance_of = [&](std::uint32_t id) { return squared_between(two[id], query); };
     const auto found = [&](double radius) {
         const std::size_t count = tf::all_within(tree, query, radius, distance_of).size();
-        CHECK(tf::k_nearest(tree, query, 2, distance_of, {.radius = radius}).size() == count);
-        CHECK(tf::nearest(tree, query, distance_of, {.radius = radius}).has_value() == (count > 0));
+        CHECK(tf::k_nearest(tree, query, 2, distance_of, radius).size() == count);
+        CHECK(tf::nearest(tree, query, distance_of, radius).has_value() == (count > 0));
         return count;
     };
     CHECK(found(std::nextafter(5.0, 0.0)) == 0);
@@ -136,8 +136,8 @@ TEST_CASE("nearness: of equally near primitives the lowest comes first") {
     const tf::aabb<double, 3> query = test::box_at<3>({0, 0, 0}, 0.5);
     const auto distance_of = [&](std::uint32_t id) { return squared_between(same[id], query); };
     for (const tf::node_order order : node_orders) {
-        CHECK(tf::nearest(tree, query, distance_of, {.order = order})->id == 2);
-        const auto some = tf::k_nearest(tree, query, 20, distance_of, {.order = order});
+        CHECK(tf::nearest(tree, query, distance_of, tf::any_distance, order)->id == 2);
+        const auto some = tf::k_nearest(tree, query, 20, distance_of, tf::any_distance, order);
         for (std::uint32_t i = 0; i < 20; ++i) CHECK(some[i].id == i + 2);
     }
 }
@@ -184,8 +184,7 @@ TEST_CASE("nearness: queries and radii that cannot be meant are refused") {
     CHECK_THROWS_AS((void)tf::nearest(tree, query{nan, 0}, zero), std::invalid_argument);
     CHECK_THROWS_AS((void)tf::nearest(tree, query{0, infinity}, zero), std::invalid_argument);
     CHECK_THROWS_AS((void)tf::nearest(tree, tf::aabb<double, 2>{}, zero), std::invalid_argument);
-    CHECK_THROWS_AS((void)tf::nearest(tree, query{}, zero, {.radius = -1.0}),
-                    std::invalid_argument);
+    CHECK_THROWS_AS((void)tf::nearest(tree, query{}, zero, -1.0), std::invalid_argument);
     CHECK_THROWS_AS((void)tf::all_within(tree, query{}, nan, zero), std::invalid_argument);
 }
 

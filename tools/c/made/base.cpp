@@ -22,10 +22,6 @@ static_assert(sizeof(treeform_element) == sizeof(tf::operand_element));
 static_assert(offsetof(treeform_element, operand) == offsetof(tf::operand_element, operand));
 static_assert(offsetof(treeform_element, index) == offsetof(tf::operand_element, index));
 
-static_assert(sizeof(treeform_open_edge) == sizeof(tf::open_edge));
-static_assert(offsetof(treeform_open_edge, face) == offsetof(tf::open_edge, face));
-static_assert(offsetof(treeform_open_edge, ends) == offsetof(tf::open_edge, ends));
-
 static_assert(sizeof(treeform_search_effort) == sizeof(tf::search_effort));
 static_assert(offsetof(treeform_search_effort, pairs) == offsetof(tf::search_effort, pairs));
 static_assert(offsetof(treeform_search_effort, bound) == offsetof(tf::search_effort, bound));
@@ -38,8 +34,9 @@ void glue::fill(keeper& kept, const tf::certificate& from, treeform_certificate&
     to.meeting_listed = from.meeting.size();
     to.meeting_at = flat(from.meeting_at);
     to.open_count = from.open_count;
-    to.open = same<treeform_open_edge>(from.open);
-    to.open_listed = from.open.size();
+    to.open_edges = flat(from.open_edges);
+    to.open_listed = from.open_edges.size();
+    to.open_faces = same<treeform_element>(from.open_faces);
     to.boundary_edges = from.boundary_edges;
     to.misoriented_edges = from.misoriented_edges;
     to.max_displacement = from.max_displacement;

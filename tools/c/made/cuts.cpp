@@ -39,9 +39,7 @@ void glue::fill(keeper&, const tf::section_result& from, treeform_section_result
     to.points = flat(from.points);
     to.point_count = from.points.size();
     to.faces = or_null(from.faces);
-    copy(from.frame.x, to.x);
-    copy(from.frame.y, to.y);
-    copy(from.frame.normal, to.normal);
+    std::memcpy(to.axes, from.axes.data(), sizeof to.axes);
 }
 
 tf::cut_options glue::read(const treeform_cut_options* options) {

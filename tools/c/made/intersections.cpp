@@ -63,19 +63,9 @@ void glue::fill(keeper&, const tf::intersection_region& from, treeform_region& t
     to.face_count = from.faces.size();
     copy(from.min, to.min);
     copy(from.max, to.max);
-    to.pairs = from.pairs;
+    to.pairs = or_null(from.pairs);
+    to.pair_count = from.pairs.size();
 }
-
-void glue::fill(keeper& kept, const tf::intersection_regions& from, treeform_regions& to) {
-    to.regions = list<treeform_region>(kept, from.regions);
-    to.count = from.regions.size();
-    to.region_of_pair = or_null(from.region_of_pair);
-    to.pair_count = from.region_of_pair.size();
-}
-
-static_assert(sizeof(treeform_segment) == sizeof(tf::curve_segment));
-static_assert(offsetof(treeform_segment, ends) == offsetof(tf::curve_segment, ends));
-static_assert(offsetof(treeform_segment, pair) == offsetof(tf::curve_segment, pair));
 
 void glue::fill(keeper&, const tf::curve_path& from, treeform_path& to) {
     to.points = or_null(from.points);
@@ -132,8 +122,9 @@ void glue::fill(keeper& kept, const tf::stream_search_result& from, treeform_sea
     to.finished_tiles = from.finished_tiles;
 }
 
-void glue::fill(keeper&, const std::vector<tf::curve_segment>& from, treeform_segments& to) {
-    to.segments = same<treeform_segment>(from);
+void glue::fill(keeper& kept, const std::vector<tf::intersection_region>& from,
+                treeform_regions& to) {
+    to.regions = list<treeform_region>(kept, from);
     to.count = from.size();
 }
 
@@ -195,7 +186,7 @@ treeform_code treeform_intersection_curves(const treeform_mesh* mesh,
     return glue::guard([&] {
         glue::start(segments);
         return glue::give(
-            tf::intersection_curves(glue::view(mesh), glue::pairs_of(mesh, pairs, count)),
+            glue::intersection_curves(glue::view(mesh), glue::pairs_of(mesh, pairs, count)),
             segments);
     });
 }

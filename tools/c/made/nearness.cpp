@@ -30,6 +30,8 @@ tf::measure_options glue::read(const treeform_measure_options& o) {
     tf::measure_options how;
     how.radius = o.radius;
     how.vertices = choice<tf::vertex_identity>(o.vertices, 2, "vertices");
+    how.directions = limit(o.directions);
+    how.effort = o.effort;
     how.progress = progress(o);
 
     return how;
@@ -40,15 +42,17 @@ void treeform_measure_options_init(treeform_measure_options* options, size_t siz
     const tf::measure_options from;
     to.radius = from.radius;
     to.vertices = static_cast<treeform_vertices>(from.vertices);
+    to.directions = from.directions;
+    to.effort = from.effort;
     glue::init(options, size, to);
 }
 
 void glue::fill(keeper&, const tf::mesh_measure& from, treeform_relation& to) {
-    to.how = static_cast<treeform_mesh_relation>(from.relation.relation);
-    to.face_a = from.relation.face_a;
-    to.face_b = from.relation.face_b;
-    to.a_inside_b = from.relation.a_inside_b;
-    to.b_inside_a = from.relation.b_inside_a;
+    to.how = static_cast<treeform_mesh_relation>(from.relation);
+    to.face_a = from.face_a;
+    to.face_b = from.face_b;
+    to.a_inside_b = from.a_inside_b;
+    to.b_inside_a = from.b_inside_a;
     to.distance = from.distance;
     to.surface_distance = from.surface_distance;
     to.nearest_a = from.on_a.face;
@@ -57,28 +61,6 @@ void glue::fill(keeper&, const tf::mesh_measure& from, treeform_relation& to) {
     to.nearest_b = from.on_b.face;
     copy(from.on_b.point, to.on_b);
     std::copy(from.on_b.barycentric.begin(), from.on_b.barycentric.end(), to.barycentric_b);
-}
-
-tf::depth_options glue::read(const treeform_depth_options* options) {
-    return read(chosen(options, treeform_depth_options_init));
-}
-tf::depth_options glue::read(const treeform_depth_options& o) {
-    tf::depth_options how;
-    how.directions = limit(o.directions);
-    how.effort = o.effort;
-    how.vertices = choice<tf::vertex_identity>(o.vertices, 2, "vertices");
-    how.progress = progress(o);
-
-    return how;
-}
-
-void treeform_depth_options_init(treeform_depth_options* options, size_t size) {
-    treeform_depth_options to{};
-    const tf::depth_options from;
-    to.directions = from.directions;
-    to.effort = from.effort;
-    to.vertices = static_cast<treeform_vertices>(from.vertices);
-    glue::init(options, size, to);
 }
 
 tf::deviation_options glue::read(const treeform_deviation_options* options) {
@@ -111,11 +93,8 @@ void glue::fill(keeper&, const tf::deviation_result& from, treeform_deviation_re
     to.count = from.distances.size();
     to.faces = or_null(from.faces);
     to.is_signed = from.is_signed;
-    if (from.sides) {
-        to.sides[0] = from.sides->inside;
-        to.sides[1] = from.sides->on;
-        to.sides[2] = from.sides->outside;
-    }
+    if (from.side_counts)
+        std::copy(from.side_counts->begin(), from.side_counts->end(), to.side_counts);
     to.mean = from.mean;
     to.mean_absolute = from.mean_absolute;
     to.rms = from.rms;
@@ -126,17 +105,13 @@ void glue::fill(keeper&, const tf::deviation_result& from, treeform_deviation_re
     to.worst = from.worst;
     to.lowest = from.lowest;
     to.highest = from.highest;
-    to.there_sampled = from.there.sampled;
-    to.there_at_most = from.there.at_most;
-    to.back_sampled = from.back ? from.back->sampled : not_known;
-    to.back_at_most = from.back ? from.back->at_most : not_known;
-    to.histogram_low = from.histogram.low;
-    to.histogram_high = from.histogram.high;
-    to.histogram = from.histogram.counts.data();
-    to.bins = from.histogram.counts.size();
-    if (from.band) to.below = from.band->below;
-    if (from.band) to.within = from.band->within;
-    if (from.band) to.above = from.band->above;
+    to.there_at_most = from.there_at_most;
+    to.back_max = from.back_max.value_or(not_known);
+    to.back_at_most = from.back_at_most.value_or(not_known);
+    to.histogram = or_null(from.histogram);
+    to.bins = from.histogram.size();
+    if (from.band_counts)
+        std::copy(from.band_counts->begin(), from.band_counts->end(), to.band_counts);
 }
 
 treeform_code treeform_closest_point(const treeform_mesh* mesh, const double* queries, size_t count,
@@ -236,7 +211,7 @@ treeform_code treeform_relate(const treeform_mesh* a, const treeform_mesh* b,
 }
 
 treeform_code treeform_penetration_depth(const treeform_mesh* a, const treeform_mesh* b,
-                                         const treeform_depth_options* options, double* depth,
+                                         const treeform_measure_options* options, double* depth,
                                          double move[3], treeform_search_effort* effort) {
     return glue::guard([&] {
         glue::penetration_depth(glue::ref(a, "a"), glue::ref(b, "b"), glue::read(options), depth,

@@ -48,7 +48,6 @@ void fill(keeper& kept, const tf::intersection_result& from, treeform_pairs& to)
 [[nodiscard]] tf::intersection_options read(const treeform_intersections_options* options);
 [[nodiscard]] tf::intersection_options read(const treeform_intersections_options& o);
 void fill(keeper& kept, const tf::intersection_region& from, treeform_region& to);
-void fill(keeper& kept, const tf::intersection_regions& from, treeform_regions& to);
 void fill(keeper& kept, const tf::curve_path& from, treeform_path& to);
 void fill(keeper& kept, const tf::curve_network& from, treeform_paths& to);
 [[nodiscard]] tf::stream_search_options read(const treeform_search_file_options* options);
@@ -84,8 +83,6 @@ void fill(keeper& kept, const tf::isolines_result& from, treeform_isolines_resul
 [[nodiscard]] tf::measure_options read(const treeform_measure_options* options);
 [[nodiscard]] tf::measure_options read(const treeform_measure_options& o);
 void fill(keeper& kept, const tf::mesh_measure& from, treeform_relation& to);
-[[nodiscard]] tf::depth_options read(const treeform_depth_options* options);
-[[nodiscard]] tf::depth_options read(const treeform_depth_options& o);
 [[nodiscard]] tf::deviation_options read(const treeform_deviation_options* options);
 [[nodiscard]] tf::deviation_options read(const treeform_deviation_options& o);
 void fill(keeper& kept, const tf::deviation_result& from, treeform_deviation_result& to);
@@ -140,7 +137,7 @@ void fill(keeper& kept, const tf::urdf_mesh& from, treeform_robot_mesh& to);
 void fill(keeper& kept, const tf::urdf_robot& from, treeform_robot_view& to);
 void fill(keeper& kept, const std::vector<tf::mesh_feature>& from, treeform_features& to);
 void fill(keeper& kept, const std::vector<tf::mesh_part>& from, treeform_mesh_parts& to);
-void fill(keeper& kept, const std::vector<tf::curve_segment>& from, treeform_segments& to);
+void fill(keeper& kept, const std::vector<tf::intersection_region>& from, treeform_regions& to);
 void fill(keeper& kept, const std::vector<std::uint32_t>& from, treeform_indices& to);
 void fill(keeper& kept, const std::vector<double>& from, treeform_heights& to);
 void fill(keeper& kept, const std::vector<std::string>& from, treeform_strings& to);

@@ -164,12 +164,14 @@ inline py::object value_of(std::vector<tf::face>&& faces) { return as_array(std:
 inline py::object value_of(std::vector<tf::operand_element>&& elements) {
     return as_array<std::uint32_t>(std::move(elements));
 }
-inline py::object value_of(const std::array<double, 2>& pair) {
-    return py::make_tuple(pair[0], pair[1]);
+template <class T, std::size_t N>
+requires std::is_arithmetic_v<T> py::object value_of(const std::array<T, N>& numbers) {
+    return py::tuple(py::cast(numbers));
 }
-/// Two corners, as rows.
-inline py::object value_of(const std::array<tf::point3, 2>& corners) {
-    return column(corners, [](const tf::point3& p) { return numbers(p); });
+/// Corners or axes, as rows.
+template <std::size_t N>
+py::object value_of(const std::array<tf::point3, N>& rows) {
+    return column(rows, [](const tf::point3& p) { return numbers(p); });
 }
 inline py::object value_of(const tf::box3& box) { return value_of(std::array{box.min, box.max}); }
 template <class T>

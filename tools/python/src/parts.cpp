@@ -7,10 +7,10 @@ py::object volumes_of(const tf::boolean_result& from) {
     return v ? py::object(py::make_tuple(v->first, v->second, v->either, v->both)) : py::none();
 }
 
-py::array ends_of(const std::vector<tf::open_edge>& open) {
-    auto ends = column(open, [](const tf::open_edge& edge) {
-        return std::array{edge.ends[0].x, edge.ends[0].y, edge.ends[0].z,
-                          edge.ends[1].x, edge.ends[1].y, edge.ends[1].z};
+py::array ends_of(const std::vector<std::array<tf::point3, 2>>& edges) {
+    auto ends = column(edges, [](const auto& edge) {
+        const auto& [from, to] = edge;
+        return std::array{from.x, from.y, from.z, to.x, to.y, to.z};
     });
     return ends.reshape({-1, 2, 3});
 }
@@ -76,11 +76,6 @@ py::object object(of_result, tf::cut_result&& from, const carrying& attributes) 
     made.attr("certificate") = as_python(std::move(from.certificate));
     made.attr("resolved") = from.resolved;
     return made;
-}
-
-py::object object(of_result, tf::intersection_regions&& from) {
-    const py::object regions = as_python(std::move(from.regions));
-    return py::make_tuple(regions, as_array(std::move(from.region_of_pair)));
 }
 
 py::object object(of_result, tf::curve_network&& from) {

@@ -7,7 +7,7 @@
 namespace binding {
 
 py::object volumes_of(const tf::boolean_result& from);
-py::array ends_of(const std::vector<tf::open_edge>& open);
+py::array ends_of(const std::vector<std::array<tf::point3, 2>>& edges);
 py::list regions_of(tf::part_clash& from);
 /// Of values of points, those of a loop.
 template <class Number, class T>
@@ -83,7 +83,6 @@ tf::boolean_expression expression_of(const std::string& operation, const std::st
 
 std::vector<tf::face_pair> pairs_of(const ids_array& pairs, const array_of<std::uint8_t>& kinds);
 /// The regions, and that of each pair.
-py::object object(of_result, tf::intersection_regions&& from);
 /// Points, and paths by their numbers.
 py::object object(of_result, tf::curve_network&& from);
 

@@ -63,7 +63,7 @@ void write_isolines(const std::filesystem::path& path, const py::list& lines,
              line.attr("oriented").cast<bool>(), line.attr("length").cast<double>()});
     const std::span<const tf::point3> given = rows_of<tf::point3>(points);
     all.points.assign(given.begin(), given.end());
-    const tf::plane_frame seen = plane_of({}, normal).frame();
+    const tf::oriented_plane seen = plane_of({}, normal);
     without_lock([&] { tf::write_isolines(path, all, seen, format, unit); });
 }
 

@@ -236,7 +236,7 @@ class PartClash(Result):
     a: The lower number.
     b: Number of the second part.
     how: 'penetrating', 'touching' or 'closer_than_clearance'.
-    a_inside_b: As in `mesh_relation_result`.
+    a_inside_b: As in `measure`.
     b_inside_a: The same with `a` and `b` swapped.
     distance: Distance of the surfaces; 0 if they meet.
     nearest: (2, 3) Nearest points on a and on b, of parts that are too close.

@@ -36,9 +36,9 @@ class Section(Result):
     areas: (K,) the area inside; of a solid, rounded.
     lengths: (K,) of all loops.
     open_counts: (K,) how many polylines are open; none of a solid.
-    frame: (3, 3) the axes x and y of `points`, and the normal, each of length 1.
     points: (P, 2) of all loops, one after the other: (x . p, y . p) of p in space.
     faces: (P,) the face that the side from each point on lies in.
+    axes: (3, 3) the axes x and y of `points`, and the normal, each of length 1.
     """
 
     heights: Floats
@@ -46,10 +46,10 @@ class Section(Result):
     areas: Floats
     lengths: Floats
     open_counts: Ids
-    frame: Floats
     points: Floats
     faces: Ids
     _data: _core.SectionData
+    axes: Floats
 # end
 
     def __repr__(self) -> str:
@@ -70,7 +70,7 @@ class Section(Result):
 
     def in_space(self, layer: int, points: ArrayLike) -> Floats:
         """(n, 3) points (n, 2) of a layer in space, rounded."""
-        x, y, normal = self.frame
+        x, y, normal = self.axes
         flat = _arrays.rows(points, 2, "points")
         up: Floats = normal * (normal @ self.origins[layer])
         made: Floats = flat[:, :1] * x + flat[:, 1:] * y + up
@@ -126,7 +126,7 @@ def joined(meshes: Iterable[MeshLike], progress: Progress) -> Mesh:
 class SectionLoop(Result):
     """A closed polygon, or an open polyline that ends at a border of the mesh.
 
-    points: (n, 2) in the frame of the section; the first is not repeated.
+    points: (n, 2) in the plane of the section; the first is not repeated.
     faces: (n,) the face that the side from each point to the next lies in.
     closed: Whether it is a polygon.
     oriented: The faces along it agree: what is inside is to the left, seen from above the plane.

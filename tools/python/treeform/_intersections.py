@@ -254,20 +254,19 @@ class Region(Result):
 
     faces: (n,) ascending.
     bounds: (2, 3) the box around them.
-    pairs: Pairs in this region.
+    pairs: (n,) their numbers in the list of pairs, ascending.
     """
 
     faces: Ids
     bounds: Floats
-    pairs: int
+    pairs: Ids
 
 
 def intersection_regions(mesh: MeshLike, found: FacePairs, *,
-                         progress: Progress = None) -> tuple[list[Region], Ids]:
-    """Groups the faces in `found` into regions. Two of these faces are in one region if a pair or a
-    shared corner links them, directly or through other faces of `found`.
-
-    Returns regions in the order of their lowest face, and (n,) the region of each pair.
+                         progress: Progress = None) -> list[Region]:
+    """Groups the faces in `found` into regions, in the order of their lowest faces. Two of these
+    faces are in one region if a pair or a shared corner links them, directly or through other faces
+    of `found`.
 
     Raises ValueError naming a pair with a face out of range, or the lowest face with a corner out
     of range.
@@ -277,8 +276,8 @@ def intersection_regions(mesh: MeshLike, found: FacePairs, *,
 
     >>> import treeform
     >>> m = treeform.read("data/two_spheres.stl")
-    >>> regions, of_pair = treeform.intersection_regions(m, treeform.self_intersections(m))
-    >>> len(regions), regions[0].pairs
+    >>> regions = treeform.intersection_regions(m, treeform.self_intersections(m))
+    >>> len(regions), len(regions[0].pairs)
     (1, 78)
     """
     return _core.group_pairs(held(mesh), *pairs_of(found), progress=progress)

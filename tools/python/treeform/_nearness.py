@@ -281,7 +281,7 @@ class Deviation(Result):
         solid that `b` bounds, exactly 0 on its surface. Never negative if `b` bounds no solid.
     faces: (V,) the nearest face of `b`.
     is_signed: Whether distances have a sign.
-    side_counts: Where they have: how many points are inside, on, outside; exact. Else None.
+    side_counts: If distances have a sign: points of `a` inside, on and outside of `b`.
     mean: Mean of the signed distances.
     mean_absolute: Mean of their magnitudes.
     rms: Root mean square of the distances.
@@ -292,13 +292,16 @@ class Deviation(Result):
     worst: The lowest point number with that magnitude.
     lowest: The least signed distance.
     highest: The greatest signed distance.
-    there: (over the points of the first, a bound that no point of its surface exceeds); of the
-        distances from the first to the second.
-    back: The same from the second to the first; the larger one is the Hausdorff distance. None
-        unless `both_ways`.
-    histogram: (bins,) how many signed distances are in intervals of equal length.
-    histogram_range: From where to where the intervals of `histogram` go.
-    band_counts: With `band`: how many are below, within, above.
+    histogram: (bins,) how many signed distances are in intervals of equal length from `lowest` to
+        `highest`.
+    band_counts: With a band: points below, within and above it. Both ends are within.
+    there_at_most: Bound of the distance from any point of the surface `a` to `b`: the maximum, over
+        its faces, of the largest corner distance plus the longest edge / sqrt(3). For a cloud the
+        same as `max`.
+    back_max: With `both_ways`, the largest distance of a vertex of `b` from `a`. The larger of this
+        and `max` is the Hausdorff distance of the points.
+    back_at_most: With `both_ways`, a bound of the distance from any point of the surface `b` to
+        `a`. The larger of this and `there_at_most` bounds the Hausdorff distance of the surfaces.
     """
 
     distances: Floats
@@ -315,11 +318,11 @@ class Deviation(Result):
     worst: int
     lowest: float
     highest: float
-    there: tuple[float, float]
-    back: tuple[float, float] | None
     histogram: NDArray[np.uint64]
-    histogram_range: tuple[float, float]
     band_counts: tuple[int, int, int] | None
+    there_at_most: float
+    back_max: float | None
+    back_at_most: float | None
 
 
 def deviation(a: Body, b: Body, *, band: tuple[float, float] | None = None, bins: int = 40,

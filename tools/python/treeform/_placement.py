@@ -750,7 +750,7 @@ def penetration_depth(a: MeshLike, b: MeshLike, *, directions: int = 256, effort
     >>> treeform.penetration_depth(cube, (cube.vertices + [0.75, 0, 0], cube.faces)).depth
     0.25
     """
-    how = options(_core.DepthOptions, locals())
+    how = options(_core.MeasureOptions, locals())
     return _core.penetration_depth(held(a), held(b), how, progress=progress)
 
 

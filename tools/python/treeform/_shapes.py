@@ -356,7 +356,7 @@ class OrientedBox(Result):
     """A box in any orientation.
 
     center: (3,) of the box.
-    axes: (3, 3) of length 1, right-handed: along the longest side, the next, the shortest.
+    axes: (3, 3) Unit axes, right-handed, rounded: along the longest, middle and shortest side.
     size: (3,) lengths along these axes.
     """
 

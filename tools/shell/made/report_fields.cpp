@@ -48,22 +48,6 @@ json effort_entry(const tf::search_effort& from) {
     return {{"pairs", from.pairs}, {"bound", from.bound}, {"cut", from.cut}};
 }
 
-json sides_entry(const tf::side_counts& from) {
-    return {{"inside", from.inside}, {"on", from.on}, {"outside", from.outside}};
-}
-
-json directed_entry(const tf::directed_distance& from) {
-    return {{"sampled", from.sampled}, {"at_most", from.at_most}};
-}
-
-json histogram_entry(const tf::distance_histogram& from) {
-    return {{"low", from.low}, {"high", from.high}, {"counts", from.counts}};
-}
-
-json band_entry(const tf::band_counts& from) {
-    return {{"below", from.below}, {"within", from.within}, {"above", from.above}};
-}
-
 json deviations_entry(const tf::deviation_result& from) {
     return {{"mean", from.mean},      {"mean_absolute", from.mean_absolute},
             {"rms", from.rms},        {"p50", from.p50},

@@ -6,7 +6,6 @@
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/deviation.hpp>
-#include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/repair.hpp>
 #include <treeform/tf.hpp>
 
@@ -18,10 +17,6 @@ namespace tools {
 [[nodiscard]] json cut_entry(const tf::repair_statistics& from);
 [[nodiscard]] json detach_entry(const tf::repair_statistics& from);
 [[nodiscard]] json effort_entry(const tf::search_effort& from);
-[[nodiscard]] json sides_entry(const tf::side_counts& from);
-[[nodiscard]] json directed_entry(const tf::directed_distance& from);
-[[nodiscard]] json histogram_entry(const tf::distance_histogram& from);
-[[nodiscard]] json band_entry(const tf::band_counts& from);
 [[nodiscard]] json deviations_entry(const tf::deviation_result& from);
 [[nodiscard]] json freedom_entry(const tf::align_freedom& from);
 [[nodiscard]] json fit_entry(const tf::align_result& from);

@@ -32,10 +32,9 @@ void enter_nearest(json& entry, const tf::body_set& moving, const tf::body_set& 
     entry["distance"] = near.distance;
     entry["surface_distance"] = near.surface_distance;
     entry["closest"] = {{"moving", side_entry(moving, 0, near.on_a)}, {"fixed", there}};
-    const tf::mesh_relation_result& how = near.relation;
     const bool cloud = moving.file_of(0).cloud || fixed.file_of(at.nearest_fixed).cloud;
-    if (!cloud && (how.a_inside_b || how.b_inside_a))
-        entry["inside"] = how.a_inside_b ? "moving" : "fixed";
+    if (!cloud && (near.a_inside_b || near.b_inside_a))
+        entry["inside"] = near.a_inside_b ? "moving" : "fixed";
 }
 
 json contact_entry(const tf::body_set& moving, const tf::body_set& fixed,

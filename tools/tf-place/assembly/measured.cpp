@@ -34,14 +34,14 @@ void enter_depth(job& work, const tf::body_set& moving, const tf::body_set& fixe
 
 /// `known` of all points, if it is.
 void enter_points(job& work, const tf::body_set& moving, const tf::body_set& fixed,
-                  const std::optional<tf::side_counts>& known) {
+                  const std::optional<std::array<std::uint64_t, 3>>& known) {
     if (!moving.file_of(0).cloud) return;
     const tf::points_view points = moving.shapes[0].view().points;
-    const tf::side_counts counts = known ? *known : tf::count_sides(points, fixed.shapes);
+    const auto [inside, on, outside] = known ? *known : tf::count_sides(points, fixed.shapes);
     work.call_ended();
-    work.entry["points"] = sides_entry(counts);
-    work.out.result(work.name + ": " + grouped(counts.inside) + " of " +
-                    counted(points.size(), "point", "points") + " inside, " + grouped(counts.on) +
+    work.entry["points"] = {{"inside", inside}, {"on", on}, {"outside", outside}};
+    work.out.result(work.name + ": " + grouped(inside) + " of " +
+                    counted(points.size(), "point", "points") + " inside, " + grouped(on) +
                     " on the surface");
 }
 
@@ -49,15 +49,17 @@ json deviation_entry(const tf::deviation_result& r, const deviation_settings& se
     json band = nullptr;
     if (settings.band) {
         band = {{"low", (*settings.band)[0]}, {"high", (*settings.band)[1]}};
-        band.update(band_entry(*r.band));
+        const auto& [below, within, above] = *r.band_counts;
+        band.update({{"below", below}, {"within", within}, {"above", above}});
     }
     json entry = {{"signed", r.is_signed}, {"points", r.distances.size()}};
     entry.update(deviations_entry(r));
     entry.update(
         {{"hausdorff",
-          {{"there", directed_entry(r.there)},
-           {"back", r.back ? directed_entry(*r.back) : json(nullptr)}}},
-         {"histogram", histogram_entry(r.histogram)},
+          {{"there", {{"sampled", r.max}, {"at_most", r.there_at_most}}},
+           {"back", r.back_max ? json{{"sampled", *r.back_max}, {"at_most", *r.back_at_most}}
+                               : json(nullptr)}}},
+         {"histogram", {{"low", r.lowest}, {"high", r.highest}, {"counts", r.histogram}}},
          {"tolerance_band", band},
          {"distances_file", or_null(!settings.distances.empty(), settings.distances.string())},
          {"color_scale", nullptr}});
@@ -83,13 +85,17 @@ void write_distances(job& work, const deviation_settings& settings, const tf::bo
     place.commit();
 }
 
+std::uint64_t out_of_band(const tf::deviation_result& r) {
+    return r.band_counts ? r.band_counts->front() + r.band_counts->back() : 0;
+}
+
 std::string sentence(const tf::deviation_result& r, const deviation_settings& settings) {
     std::string text = std::string(r.is_signed ? "signed" : "unsigned") + " distances of " +
                        counted(r.distances.size(), "point", "points") + ": mean " + brief(r.mean) +
                        ", rms " + brief(r.rms) + ", 95% within " + brief(r.p95) + ", from " +
                        brief(r.lowest) + " to " + brief(r.highest);
-    if (!r.band) return text;
-    const std::uint64_t out = r.band->below + r.band->above;
+    if (!r.band_counts) return text;
+    const std::uint64_t out = out_of_band(r);
     return text + "; " +
            (out == 0 ? "all within" : grouped(out) + (out == 1 ? " is" : " are") + " out of") +
            " the band from " + shortest((*settings.band)[0]) + " to " +
@@ -141,7 +147,7 @@ exit_status enter_measured(job& work, const deviation_settings& settings,
     work.call_ended(found && found->status == tf::status::cancelled);
     // Several solids count one by one, their distances as one surface.
     const bool same = found && fixed.shapes.size() == 1;
-    enter_points(work, moving, fixed, same ? found->sides : std::nullopt);
+    enter_points(work, moving, fixed, same ? found->side_counts : std::nullopt);
     if (!settings.no_depth) enter_depth(work, moving, fixed, at);
     if (!found) return done;
     if (!found->is_signed)
@@ -149,7 +155,7 @@ exit_status enter_measured(job& work, const deviation_settings& settings,
     work.entry["deviation"] = deviation_entry(*found, settings);
     write_distances(work, settings, moving, *found);
     work.out.result(work.name + ": " + sentence(*found, settings));
-    const bool out = found->band && found->band->below + found->band->above > 0;
+    const bool out = out_of_band(*found) > 0;
     return out ? tools::found : done;
 }
 

@@ -38,7 +38,7 @@ struct carry_source {
         return file->stored_face.empty() ? t : file->stored_face[t];
     }
     /// Gives corners of caps (`cut_piece::cap`) planar texture coordinates, if this source, the
-    /// mesh that was cut, has texture coordinates. The axes are those of `oriented_plane::frame`
+    /// mesh that was cut, has texture coordinates. The axes are those of `oriented_plane::axes`
     /// for the mean normal of a cap, signed so that its largest component is positive: so both
     /// sides of a cut have the same. The scale is the average of this source, in texture units per
     /// length.
@@ -165,8 +165,8 @@ struct repaired_file {
     /// [F'] the number in the input file of the source of each face, or `repair_result::none`.
     std::vector<std::uint32_t> face_source{};
     std::vector<std::uint8_t> is_left{};  ///< [F] of the input's mesh, as in `repair_result`
-    /// That of the first part that failed; if none failed, of all together. Numbers in `open` are
-    /// those of the input file.
+    /// That of the first part that failed; if none failed, of all together. Numbers in `open_faces`
+    /// are those of the input file.
     treeform::certificate certificate{};
     repair_statistics statistics{};      ///< of all parts
     std::vector<repaired_part> parts{};  ///< empty if all was repaired as one mesh
@@ -222,7 +222,7 @@ struct face_marks {
     ///
     /// \pre `regions` are those of `pairs`, whose faces are in range
     TREEFORM_API face_marks(std::size_t face_count, std::span<const face_pair> pairs,
-                            const intersection_regions& regions);
+                            std::span<const intersection_region> regions);
 
     /// Gives `file` these marks of `looked_at`, the searched faces of the file: colors of faces and
     /// vertices (a vertex gets the color of its first face in a pair), and the properties tf_class

@@ -20,7 +20,7 @@ namespace treeform {
 /// The outcome of an operation that makes a mesh.
 enum class status : std::uint8_t {
     ok,              ///< everything that the operation guarantees was verified
-    open_input,      ///< an operand is not closed; `open` lists where; no mesh is returned
+    open_input,      ///< an operand is not closed; `open_edges` lists where; no mesh is returned
     sheet,           ///< the mesh has a border, as requested; all other guarantees hold
     excessive_loss,  ///< more was lost than the caller allows
     not_manifold,    ///< with equal coordinates joined, an edge has more than two faces, or a
@@ -52,13 +52,6 @@ struct operand_element {
     friend bool operator==(const operand_element&, const operand_element&) = default;
 };
 
-/// An edge where a surface ends, or where its faces are oriented inconsistently.
-struct open_edge {
-    operand_element face{};  ///< a face at the edge
-    /// Ends of the open part of the edge; rounded if the edge is cut.
-    std::array<point3, 2> ends{};
-};
-
 /// The outcome of checking a mesh that an operation (`boolean`, `resolve_self_intersections`,
 /// `slide`, `pack`) returns or places: with exact predicates, on the returned coordinates.
 struct TREEFORM_API certificate {
@@ -69,9 +62,11 @@ struct TREEFORM_API certificate {
     std::vector<std::array<std::uint32_t, 2>> meeting{};
     std::vector<point3> meeting_at{};  ///< a corner of the first face of each pair in `meeting`
     /// Number of edges whose signed face count is not zero, counted in pieces where edges overlap.
-    /// `open` lists the first 100.
+    /// `open_edges` and `open_faces` list the first 100.
     std::uint64_t open_count = 0;
-    std::vector<open_edge> open{};
+    /// Ends of the open part of each edge; rounded if the edge is cut.
+    std::vector<std::array<point3, 2>> open_edges{};
+    std::vector<operand_element> open_faces{};  ///< a face at each of these edges
     /// The same edges in the operands, after joining equal coordinates: edges of an odd number of
     /// faces, where the surface ends, and edges of an even number of faces, which are oriented
     /// inconsistently. Both are 0 if a vertex lies inside such an edge, since edges may then match
@@ -92,8 +87,8 @@ struct TREEFORM_API certificate {
     bool size_is_volume = false;
 
     explicit operator bool() const { return status == treeform::status::ok; }
-    /// The outcome as a clause for messages, without a full stop. Faces have the numbers in `open`;
-    /// an operand that is `operand_element::none` is not named.
+    /// The outcome as a clause for messages, without a full stop. Faces have the numbers in
+    /// `open_faces`; an operand that is `operand_element::none` is not named.
     [[nodiscard]] std::string message() const;
 };
 

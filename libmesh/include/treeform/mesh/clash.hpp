@@ -33,7 +33,7 @@ struct clash_options {
     /// Compute the volume of the intersection of closed parts.
     bool volumes = true;
     bool depths = true;                    ///< compute depths of penetrating parts
-    std::uint64_t effort = 0;              ///< for each depth, as in `depth_options`
+    std::uint64_t effort = 0;              ///< for each depth, as in `measure_options`
     std::size_t limit = 1000;              ///< faces listed for each region and part
     bool first_only = false;               ///< `check_poses`: only the first clash of each pose
     std::span<const part_pair> ignored{};  ///< pairs that are not looked at, in any order
@@ -55,7 +55,7 @@ struct part_clash {
     std::uint32_t a = 0;                          ///< the lower number
     std::uint32_t b = 0;                          ///< number of the second part
     mesh_relation how = mesh_relation::touching;  ///< or penetrating, closer_than_clearance
-    bool a_inside_b = false;                      ///< as in `mesh_relation_result`
+    bool a_inside_b = false;                      ///< as in `measure`
     bool b_inside_a = false;                      ///< the same with `a` and `b` swapped
     double distance = 0.0;                        ///< distance of the surfaces; 0 if they meet
     /// Nearest points on a and on b, of parts that are too close.

@@ -30,30 +30,6 @@ struct deviation_options {
     progress_callback progress{};
 };
 
-/// The largest distance of a point of one surface from another surface.
-struct directed_distance {
-    /// The largest distance of a vertex of the first surface, or of a cloud's point: a lower bound.
-    double sampled = 0.0;
-    /// An upper bound over all points of the first surface: the maximum, over its faces, of the
-    /// largest corner distance plus the longest edge / sqrt(3). For a cloud the same as `sampled`.
-    double at_most = 0.0;
-};
-
-/// Counts of signed distances in `counts.size()` intervals of equal length from `low` to `high`.
-/// The last one includes `high`.
-struct distance_histogram {
-    double low = 0.0;                     ///< the least signed distance
-    double high = 0.0;                    ///< the greatest signed distance
-    std::vector<std::uint64_t> counts{};  ///< points in each interval, from `low` up
-};
-
-/// How many signed distances are below, in and above the tolerance band.
-struct band_counts {
-    std::uint64_t below = 0;   ///< points below the band
-    std::uint64_t within = 0;  ///< points in it, both ends included
-    std::uint64_t above = 0;   ///< points above it
-};
-
 /// How far points are from a surface.
 struct deviation_result {
     /// [V] of `a`: the distance of each point from the surface of `b`, negative inside the solid
@@ -62,8 +38,8 @@ struct deviation_result {
     std::vector<std::uint32_t> faces{};  ///< [V] the nearest face of `b`
     /// Whether `b` is closed, so that distances have a sign.
     bool is_signed = false;
-    /// Counts of the points of `a` by side, if distances have a sign.
-    std::optional<side_counts> sides{};
+    /// If distances have a sign: points of `a` inside, on and outside of `b`.
+    std::optional<std::array<std::uint64_t, 3>> side_counts{};
     double mean = 0.0;           ///< mean of the signed distances
     double mean_absolute = 0.0;  ///< mean of their magnitudes
     double rms = 0.0;            ///< root mean square of the distances
@@ -75,12 +51,21 @@ struct deviation_result {
     std::uint32_t worst = 0;  ///< the lowest point number with that magnitude
     double lowest = 0.0;      ///< the least signed distance
     double highest = 0.0;     ///< the greatest signed distance
-    /// From `a` to `b`, and back with `both_ways`. The maximum over both of `sampled` is the
-    /// Hausdorff distance of the points; the maximum of the bounds bounds that of the surfaces.
-    directed_distance there{};
-    std::optional<directed_distance> back{};
-    distance_histogram histogram{};
-    std::optional<band_counts> band{};
+    /// Bound of the distance from any point of the surface `a` to `b`: the maximum, over its faces,
+    /// of the largest corner distance plus the longest edge / sqrt(3). For a cloud the same as
+    /// `max`.
+    double there_at_most = 0.0;
+    /// With `both_ways`, the largest distance of a vertex of `b` from `a`. The larger of this and
+    /// `max` is the Hausdorff distance of the points.
+    std::optional<double> back_max{};
+    /// With `both_ways`, a bound of the distance from any point of the surface `b` to `a`. The
+    /// larger of this and `there_at_most` bounds the Hausdorff distance of the surfaces.
+    std::optional<double> back_at_most{};
+    /// [bins] points by signed distance, in intervals of equal length from `lowest` to `highest`;
+    /// the last one includes `highest`.
+    std::vector<std::uint64_t> histogram{};
+    /// With a band: points below, within and above it. Both ends are within.
+    std::optional<std::array<std::uint64_t, 3>> band_counts{};
     /// Number of points with a winding number of their own; for other points it follows from that
     /// of a neighbor and the faces between.
     std::uint64_t winding_numbers = 0;

@@ -64,16 +64,9 @@ mesh_intersections(const mesh_ref& a, const mesh_ref& b, const intersection_opti
                                                                    const point3& min,
                                                                    const point3& max);
 
-/// The intersection of two faces, or one side of it.
-struct curve_segment {
-    std::array<point3, 2> ends{};  ///< equal when the faces meet in a point
-    std::uint32_t pair = 0;        ///< index into the pairs given
-    friend bool operator==(const curve_segment&, const curve_segment&) = default;
-};
-
-/// The intersection of each pair as segments, in the order of `pairs`: one segment for a crossing,
+/// [pairs] The intersection of each pair as segments, by their ends: one segment for a crossing,
 /// the 3 to 6 sides of the common area for faces that overlap, a segment of length 0 for a single
-/// point.
+/// point, none for faces that do not meet.
 ///
 /// Whether there is a segment is exact. Its ends are rounded, and finite.
 ///
@@ -81,7 +74,7 @@ struct curve_segment {
 ///         not finite
 /// \cost O(pairs)
 /// \same on any number of threads
-[[nodiscard]] TREEFORM_API std::vector<curve_segment> intersection_curves(
+[[nodiscard]] TREEFORM_API answer_lists<std::array<point3, 2>> intersection_curves(
     mesh_view mesh, std::span<const face_pair> pairs);
 
 /// A point of a curve, named by the lowest-numbered corners, edges or faces that meet there: a

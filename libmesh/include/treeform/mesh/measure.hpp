@@ -27,15 +27,32 @@ enum class mesh_relation : std::uint8_t {
     clear  ///< separate, by at least the clearance
 };
 
-/// How to look.
+/// How to look. What an operation has no use for, it ignores.
 struct measure_options {
     double radius = std::numeric_limits<double>::infinity();  ///< of `measure`; inclusive
     /// Only closed meshes have an inside; this decides whether a mesh is closed.
     vertex_identity vertices = vertex_identity::by_coordinates;
+    /// Of `penetration_depth`: directions spread over the sphere, tried besides normals of faces
+    /// that meet.
+    std::size_t directions = 256;
+    /// Of `penetration_depth`: pairs of faces that the search may test, a pair in motion counting
+    /// as two; 0: 20 million plus 200 for each face.
+    std::uint64_t effort = 0;
     progress_callback progress{};
 };
 
-struct mesh_relation_result {
+/// A point of a surface.
+struct surface_point {
+    std::uint32_t face = 0;
+    point3 point{};  ///< rounded
+    /// Barycentric coordinates of the point in the face: each 0 or more, their sum 1, rounded. For
+    /// a face without area, weights of two corners.
+    std::array<double, 3> barycentric{1.0, 0.0, 0.0};
+    friend bool operator==(const surface_point&, const surface_point&) = default;
+};
+
+/// How two meshes lie to each other.
+struct mesh_measure {
     mesh_relation relation = mesh_relation::separate;
     /// Faces that prove the relation: two that cross, overlap with the inside on the same side, or
     /// touch. For a mesh that is or reaches inside the other, its lowest face there. Both are 0 if
@@ -44,10 +61,18 @@ struct mesh_relation_result {
     std::uint32_t face_b = 0;
     bool a_inside_b = false;  ///< a component of `a` is inside the solid `b` without touching it
     bool b_inside_a = false;  ///< the same with `a` and `b` exchanged
+    /// Not squared. 0 if and only if the meshes touch or penetrate each other.
+    double distance = 0.0;
+    /// Exactly 0 if and only if a face of one meets a face of the other. So it is positive for a
+    /// mesh inside a solid whose surface it does not touch.
+    double surface_distance = 0.0;
+    surface_point on_a{};  ///< nearest points of the surfaces; a common point if they meet
+    surface_point on_b{};
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is known
 };
 
-/// The relation of `a` and `b`, exact on the coordinates as given.
+/// The relation of `a` and `b`, exact on the coordinates as given. Distances of the result are NaN,
+/// and its points are not set: `measure` finds them.
 ///
 /// They penetrate each other in any of these cases:
 /// - two faces pass through each other;
@@ -74,8 +99,8 @@ struct mesh_relation_result {
 /// \cost   as `intersects` for meshes that penetrate or are far apart; else O(V) more, plus a ray
 ///         for each component, or for each corner if the meshes touch
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API mesh_relation_result relation(const mesh_ref& a, const mesh_ref& b,
-                                                         const measure_options& options = {});
+[[nodiscard]] TREEFORM_API mesh_measure relation(const mesh_ref& a, const mesh_ref& b,
+                                                 const measure_options& options = {});
 
 /// The number of components of a closed mesh that are inside out (of negative volume) without being
 /// cavities, that is, inside no other component. Components are faces linked by edges, with corners
@@ -88,28 +113,6 @@ struct mesh_relation_result {
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::uint64_t count_inside_out(const mesh_ref& mesh);
 
-/// A point of a surface.
-struct surface_point {
-    std::uint32_t face = 0;
-    point3 point{};  ///< rounded
-    /// Barycentric coordinates of the point in the face: each 0 or more, their sum 1, rounded. For
-    /// a face without area, weights of two corners.
-    std::array<double, 3> barycentric{1.0, 0.0, 0.0};
-    friend bool operator==(const surface_point&, const surface_point&) = default;
-};
-
-/// How two meshes lie to each other.
-struct mesh_measure {
-    mesh_relation_result relation{};  ///< its status is that of the whole result
-    /// Not squared. 0 if and only if the meshes touch or penetrate each other.
-    double distance = 0.0;
-    /// Exactly 0 if and only if a face of one meets a face of the other. So it is positive for a
-    /// mesh inside a solid whose surface it does not touch.
-    double surface_distance = 0.0;
-    surface_point on_a{};  ///< nearest points of the surfaces; a common point if they meet
-    surface_point on_b{};
-};
-
 /// The relation of `a` and `b`, their distance and their nearest points. None if one has no faces,
 /// or if they are separate and further apart than `options.radius`.
 ///
@@ -121,17 +124,6 @@ struct mesh_measure {
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<mesh_measure> measure(const mesh_ref& a, const mesh_ref& b,
                                                                const measure_options& options = {});
-
-/// How to search for a short separating translation.
-struct depth_options {
-    std::size_t directions =
-        256;  ///< directions spread over the sphere, tried besides normals of faces that meet
-    /// Pairs of faces that the search may test, a pair in motion counting as two; 0: 20 million
-    /// plus 200 for each face.
-    std::uint64_t effort = 0;
-    vertex_identity vertices = vertex_identity::by_coordinates;  ///< as in `relation`
-    progress_callback progress{};
-};
 
 /// The separating translation found.
 struct penetration_depth_result {
@@ -161,7 +153,7 @@ struct penetration_depth_result {
 ///         one; at most `options.effort`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<penetration_depth_result> penetration_depth(
-    const mesh_ref& a, const mesh_ref& b, const depth_options& options = {});
+    const mesh_ref& a, const mesh_ref& b, const measure_options& options = {});
 
 /// How the thickness of a wall is measured at a face.
 enum class thickness_by : std::uint8_t {
@@ -193,19 +185,15 @@ struct thickness_result {
                                                            thickness_by by = thickness_by::ray,
                                                            const progress_callback& progress = {});
 
-/// Numbers of points inside a solid, on a surface, and outside of all.
-struct side_counts {
-    std::uint64_t inside = 0;   ///< points strictly inside one of the solids
-    std::uint64_t on = 0;       ///< points on a surface, and inside no solid
-    std::uint64_t outside = 0;  ///< points outside all
-};
-
-/// Classifies the points relative to `solids`, exactly: strictly inside any solid, else on the
-/// surface of any, else outside. Open meshes and clouds are ignored.
+/// The numbers of points inside, on and outside of `solids`, exactly: strictly inside any solid,
+/// else on the surface of any, else outside. Open meshes and clouds are ignored.
+///
+///     const auto [inside, on, outside] = tf::count_sides(points, {bed, box});
 ///
 /// \throws std::invalid_argument naming a point that is not finite, or a face as in `locate`
 /// \cost   as `deviation` without distances, for points in the box of a solid
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API side_counts count_sides(points_view points, const mesh_refs& solids);
+[[nodiscard]] TREEFORM_API std::array<std::uint64_t, 3> count_sides(points_view points,
+                                                                    const mesh_refs& solids);
 
 }  // namespace treeform

@@ -46,8 +46,8 @@ struct TREEFORM_API offset_result {
     treeform::mesh mesh;
     /// Status ok means, verified on the coordinates of `mesh`: a closed manifold, oriented outward,
     /// whose faces meet only in common corners and edges. `open_input`: the input bounds no solid;
-    /// `open` lists where. `vanished`: nothing is left, since the solid is nowhere thick enough, or
-    /// only by less than a cell.
+    /// `open_edges` lists where. `vanished`: nothing is left, since the solid is nowhere thick
+    /// enough, or only by less than a cell.
     treeform::certificate certificate{};
     double distance = 0.0;    ///< asked for, without its sign; of `wrap`, that of its vertices
     double resolution = 0.0;  ///< that was used; of `wrap`, its size

@@ -89,19 +89,17 @@ struct contact {
     friend constexpr bool operator==(const contact&, const contact&) = default;
 };
 
-/// The dimension of the common set.
-enum class overlap : std::uint8_t { none, point, segment, area };
-
+/// What two triangles have in common.
 struct triangle_contact {
-    overlap kind = overlap::none;
     /// All six corners lie in one plane. Degenerate triangles count: two collinear ones are
     /// coplanar when their lines meet or are parallel, a point is coplanar with any segment.
     bool coplanar = false;
     /// Both triangles have a plane, each has corners strictly on both sides of the other's, and
     /// the common segment has length: the triangles pass through each other.
     bool crossing = false;
-    /// Ends of the common set: none, 1 point, 2 ends of a segment, or the 3 to 6 corners of a
-    /// convex area in counter-clockwise order, seen from the side that the normal of `a` points to.
+    /// Ends of the common set, which tell its dimension: 0 where they have nothing in common, 1
+    /// point, 2 ends of a segment, or the 3 to 6 corners of a convex area in counter-clockwise
+    /// order, seen from the side that the normal of `a` points to.
     std::uint8_t count = 0;
     std::array<contact, 6> ends{};  ///< the first `count` are set; no two are equal
 };

@@ -21,23 +21,18 @@
 
 namespace treeform {
 
-/// Unit axes of a plane, rounded; x, y and the normal are right-handed. If the normal is an axis of
-/// space, x and y are the next two axes: (x, y) for +z, (y, z) for +x, (z, x) for +y.
-struct plane_frame {
-    point3 x{1.0, 0.0, 0.0};
-    point3 y{0.0, 1.0, 0.0};
-    point3 normal{0.0, 0.0, 1.0};
-};
-
 /// The plane through `at` with a normal: p is above it if normal . (p - at) > 0. The normal may
 /// have any length except zero.
 struct oriented_plane {
     point3 at{};
     point3 normal{0.0, 0.0, 1.0};
 
-    /// The axes of the plane.
+    /// The unit axes x and y of the plane, and its unit normal, rounded; right-handed. If the
+    /// normal is an axis of space, x and y are the next two axes: (x, y) for +z, (y, z) for +x,
+    /// (z, x) for +y.
+    ///
     /// \throws std::invalid_argument for a normal that is zero or not finite
-    [[nodiscard]] TREEFORM_API plane_frame frame() const;
+    [[nodiscard]] TREEFORM_API std::array<point3, 3> axes() const;
 
     /// The plane at a height above this one: through at + height n, for the unit normal n, each
     /// coordinate rounded to double. Exact if the normal is an axis and `at` is the origin.
@@ -85,12 +80,13 @@ struct section_layer {
 struct section_result {
     std::vector<section_layer> layers{};
     std::vector<section_loop> loops{};
-    /// In the frame: (x . p, y . p) for a point p in space, which is accurate to 2^-45 of its
+    /// In the plane: (x . p, y . p) for a point p in space, which is accurate to 2^-45 of its
     /// largest coordinate.
     std::vector<point2> points{};
     /// [points] the face in which the segment from each point begins
     std::vector<std::uint32_t> faces{};
-    plane_frame frame{};
+    /// x, y and the normal, as of `oriented_plane::axes`
+    std::array<point3, 3> axes{point3{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is returned
 
     /// A point of a layer in space, rounded.
@@ -172,7 +168,7 @@ struct isolines_result {
 
 /// Writes sections as `svg`, `dxf`, `obj` or `json`; by default the format of the extension. SVG (a
 /// group for each layer, y up), DXF (polylines with the height as z) and JSON (all data) have loops
-/// in the frame; OBJ has lines in space. "-" is standard output. With a `unit` (mm, cm, m, in, ft
+/// in the plane; OBJ has lines in space. "-" is standard output. With a `unit` (mm, cm, m, in, ft
 /// or um), SVG has a size on paper, and DXF has $INSUNITS.
 ///
 /// \throws io_error for an unknown format, or if the file cannot be written: then a previous file
@@ -181,10 +177,10 @@ struct isolines_result {
 TREEFORM_API void write_section(const std::filesystem::path& path, const section_result& section,
                                 const std::string& format = {}, const std::string& unit = {});
 
-/// The same for isolines: SVG has their projection along the normal of a frame, in a group for each
-/// level; DXF and OBJ have lines in space; JSON has all data.
+/// The same for isolines: SVG has their projection onto a plane, in a group for each level; DXF and
+/// OBJ have lines in space; JSON has all data.
 TREEFORM_API void write_isolines(const std::filesystem::path& path, const isolines_result& isolines,
-                                 const plane_frame& seen = {}, const std::string& format = {},
+                                 const oriented_plane& seen = {}, const std::string& format = {},
                                  const std::string& unit = {});
 
 }  // namespace treeform

@@ -129,7 +129,7 @@ struct intersection_region {
     std::vector<std::uint32_t> faces;  ///< ascending
     point3 min;                        ///< box of these faces
     point3 max;
-    std::uint64_t pairs = 0;  ///< pairs in this region
+    std::vector<std::uint32_t> pairs{};  ///< their numbers in the list of pairs, ascending
 
     [[nodiscard]] point3 center() const {  ///< half-way between the corners of the box
         return {0.5 * min.x + 0.5 * max.x, 0.5 * min.y + 0.5 * max.y, 0.5 * min.z + 0.5 * max.z};
@@ -137,15 +137,9 @@ struct intersection_region {
     friend bool operator==(const intersection_region&, const intersection_region&) = default;
 };
 
-/// All regions, and the region of each pair.
-struct intersection_regions {
-    std::vector<intersection_region> regions;   ///< in the order of their lowest face
-    std::vector<std::uint32_t> region_of_pair;  ///< [pairs]
-    friend bool operator==(const intersection_regions&, const intersection_regions&) = default;
-};
-
-/// Groups the faces in `pairs` into regions. Two of these faces are in one region if a pair or a
-/// shared corner links them, directly or through other faces of `pairs`.
+/// Groups the faces in `pairs` into regions, in the order of their lowest faces. Two of these faces
+/// are in one region if a pair or a shared corner links them, directly or through other faces of
+/// `pairs`.
 ///
 /// \pre    coordinates of the faces in `pairs` are finite
 /// \throws std::invalid_argument naming a pair with a face out of range, or the lowest face with a
@@ -153,8 +147,8 @@ struct intersection_regions {
 /// \cost   O(V + F + pairs) time, up to an inverse Ackermann factor; about 8 bytes a face and 4 a
 ///         point
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API intersection_regions group_pairs(mesh_view mesh,
-                                                            std::span<const face_pair> pairs);
+[[nodiscard]] TREEFORM_API std::vector<intersection_region> group_pairs(
+    mesh_view mesh, std::span<const face_pair> pairs);
 
 /// How to search a file that is larger than memory.
 struct stream_search_options {

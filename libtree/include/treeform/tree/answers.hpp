@@ -53,21 +53,13 @@ template <class Answer>
         return static_cast<double>(answer.squared_distance);
 }
 
-/// Whether `a` comes before `b` in answers: by distance, then by what `less` says of equally near
-/// ones.
-template <class Neighbor, class Less>
-[[nodiscard]] constexpr bool comes_before(const Neighbor& a, const Neighbor& b, const Less& less) {
-    const double of_a = a.squared_distance();
-    const double of_b = b.squared_distance();
-    return of_a != of_b ? of_a < of_b : less(a, b);
-}
-
 }  // namespace detail
 
-/// A primitive near a query, and what the caller's function returned for it.
-template <class Answer = double>
+/// A primitive near a query, and what the caller's function returned for it; of two trees, the
+/// pair of a primitive of each (`id_pair`).
+template <class Answer = double, class Id = std::uint32_t>
 struct neighbor {
-    std::uint32_t id;
+    Id id;
     Answer answer;
 
     [[nodiscard]] constexpr double squared_distance() const {
@@ -76,7 +68,8 @@ struct neighbor {
     friend bool operator==(const neighbor&, const neighbor&) = default;
     /// Whether `a` comes before `b` in answers: by distance, then by id.
     friend constexpr bool nearer(const neighbor& a, const neighbor& b) {
-        return detail::comes_before(a, b, [](const auto& x, const auto& y) { return x.id < y.id; });
+        const double of_a = a.squared_distance(), of_b = b.squared_distance();
+        return of_a != of_b ? of_a < of_b : a.id < b.id;
     }
 };
 

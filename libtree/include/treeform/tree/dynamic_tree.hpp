@@ -18,13 +18,25 @@
 
 namespace treeform {
 
-/// The cost of all updates of a `dynamic_tree`.
-struct update_statistics {
+template <std::size_t D>
+class dynamic_tree;
+
+namespace detail {
+
+/// The cost of all updates of a `dynamic_tree`: its bound is documented, and tested.
+struct update_counts {
     std::uint64_t built = 0;     ///< primitives in builds of trees, counted for each build
     std::uint64_t refitted = 0;  ///< boxes updated in place
     std::uint64_t vacated = 0;   ///< primitives taken out of a tree: removed, or moved elsewhere
-    friend bool operator==(const update_statistics&, const update_statistics&) = default;
+
+    template <std::size_t D>
+    [[nodiscard]] static const update_counts& of(const dynamic_tree<D>& tree) {
+        return tree.counts_;
+    }
+    friend bool operator==(const update_counts&, const update_counts&) = default;
 };
+
+}  // namespace detail
 
 /// A tree over a changing set of primitives: batches are inserted, removed and moved. Searches give
 /// the same results as on a new tree of the present primitives. No search may run during an update.
@@ -107,9 +119,10 @@ class TREEFORM_API dynamic_tree {
     /// The interface of `tree_of_trees`. An update invalidates references to these trees.
     [[nodiscard]] const tree<D>& top() const { return top_; }
     [[nodiscard]] const tree<D>& part(std::uint32_t number) const { return parts_[number].boxes; }
-    [[nodiscard]] const update_statistics& statistics() const { return statistics_; }
 
   private:
+    friend struct detail::update_counts;
+
     struct location {
         std::uint32_t part;
         std::uint32_t place;
@@ -144,7 +157,7 @@ class TREEFORM_API dynamic_tree {
     std::vector<packed> parts_;        ///< those not in use have no slots
     std::vector<box_type> roots_;      ///< around each part; empty of those not in use
     tree<D> top_;                      ///< over these
-    update_statistics statistics_;
+    detail::update_counts counts_;
 };
 
 template <std::size_t D>

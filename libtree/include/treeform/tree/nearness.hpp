@@ -30,12 +30,9 @@ enum class node_order : std::uint8_t {
     best_first     ///< the nearest of all that are not opened yet: opens the fewest nodes
 };
 
-struct nearness_options {
-    /// Largest distance of an answer, not squared: the root of its squared distance is at most
-    /// this.
-    double radius = std::numeric_limits<double>::infinity();
-    node_order order = node_order::depth_first;
-};
+/// A radius that leaves nothing out. No radius is squared, and all are inclusive: the root of an
+/// answer's squared distance is at most this.
+inline constexpr double any_distance = std::numeric_limits<double>::infinity();
 
 /// What a search measures from: a box `treeform::aabb<T, D>`, or a point, which is anything else
 /// with [].
@@ -108,7 +105,7 @@ class nearest_one {
 /// Calls `visit(id)` for every primitive near `query`, the nearest boxes first, as a rule. What
 /// `visit` returns is the bound from there on: a squared distance. Primitives that are further than
 /// the bound are skipped where their boxes prove it, others may be visited as well; those at the
-/// bound are not skipped. The first bound is that of `options.radius`.
+/// bound are not skipped. The first bound is that of `radius`.
 ///
 /// \throws std::invalid_argument for a query that is not finite or an empty box, or a radius that
 ///         is negative or NaN
@@ -121,10 +118,9 @@ class nearest_one {
 template <any_tree Tree, nearness_query<Tree::dimensions> Query, class Visit>
 requires std::is_invocable_r_v<double, const Visit&, std::uint32_t>
 void visit_near(const Tree& tree, const Query& query, const Visit& visit,
-                const nearness_options& options = {}) {
+                double radius = any_distance, node_order order = node_order::depth_first) {
     detail::walk_near(tree, detail::box_of_query<Tree::dimensions>(query),
-                      detail::squared_radius("treeform::visit_near", options.radius), options.order,
-                      visit);
+                      detail::squared_radius("treeform::visit_near", radius), order, visit);
 }
 
 /// The nearest primitive, of equally near ones that of the lowest number; none when the tree is
@@ -140,11 +136,12 @@ void visit_near(const Tree& tree, const Query& query, const Visit& visit,
 /// \same   as a loop over all primitives, whatever the order
 template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceOf>
 [[nodiscard]] auto nearest(const Tree& tree, const Query& query, const DistanceOf& distance_of,
-                           const nearness_options& options = {}) {
+                           double radius = any_distance,
+                           node_order order = node_order::depth_first) {
     using answer = std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t>>;
-    detail::nearest_one<answer> one(detail::squared_radius("treeform::nearest", options.radius));
-    detail::walk_near(tree, detail::box_of_query<Tree::dimensions>(query), one.bound(),
-                      options.order, [&](std::uint32_t id) {
+    detail::nearest_one<answer> one(detail::squared_radius("treeform::nearest", radius));
+    detail::walk_near(tree, detail::box_of_query<Tree::dimensions>(query), one.bound(), order,
+                      [&](std::uint32_t id) {
                           one.offer(id, distance_of);
                           return one.bound();
                       });
@@ -159,12 +156,13 @@ template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceO
 /// \same   as sorting all primitives, whatever the order
 template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceOf>
 [[nodiscard]] auto k_nearest(const Tree& tree, const Query& query, std::size_t k,
-                             const DistanceOf& distance_of, const nearness_options& options = {}) {
+                             const DistanceOf& distance_of, double radius = any_distance,
+                             node_order order = node_order::depth_first) {
     using answer = std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t>>;
     detail::nearest_k<neighbor<answer>> found(
-        std::min(k, tree.size()), detail::squared_radius("treeform::k_nearest", options.radius));
-    detail::walk_near(tree, detail::box_of_query<Tree::dimensions>(query), found.bound(),
-                      options.order, [&](std::uint32_t id) {
+        std::min(k, tree.size()), detail::squared_radius("treeform::k_nearest", radius));
+    detail::walk_near(tree, detail::box_of_query<Tree::dimensions>(query), found.bound(), order,
+                      [&](std::uint32_t id) {
                           found.offer({id, distance_of(id)});
                           return found.bound();
                       });

@@ -76,23 +76,23 @@ template <std::size_t D, class Queries, class Search>
 /// \same   on any number of threads: as calling `nearest` for each
 template <any_tree Tree, std::ranges::random_access_range Queries, class DistanceOf>
 [[nodiscard]] auto nearest_batch(const Tree& tree, const Queries& queries,
-                                 const DistanceOf& distance_of,
-                                 const nearness_options& options = {}) {
+                                 const DistanceOf& distance_of, double radius = any_distance,
+                                 node_order order = node_order::depth_first) {
     using answer =
         std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::size_t, std::uint32_t>>;
-    const double squared = detail::squared_radius("treeform::nearest_batch", options.radius);
-    const std::vector<std::uint32_t> order = detail::order_of_queries<Tree::dimensions>(queries);
-    std::vector<std::optional<neighbor<answer>>> found(order.size());
+    const double squared = detail::squared_radius("treeform::nearest_batch", radius);
+    const auto in_space = detail::order_of_queries<Tree::dimensions>(queries);
+    std::vector<std::optional<neighbor<answer>>> found(in_space.size());
     const auto search = [&](std::size_t begin, std::size_t end, std::size_t) {
         std::optional<std::uint32_t> before;
         for (std::size_t i = begin; i < end; ++i) {
-            const std::uint32_t query = order[i];
+            const std::uint32_t query = in_space[i];
             const auto from_query = [&](std::uint32_t id) { return distance_of(query, id); };
             detail::nearest_one<answer> one(squared);
             if (before) one.offer(*before, from_query);
             detail::walk_near(
                 tree, detail::box_of_query<Tree::dimensions>(detail::element(queries, query)),
-                one.bound(), options.order, [&](std::uint32_t id) {
+                one.bound(), order, [&](std::uint32_t id) {
                     if (id != before) one.offer(id, from_query);
                     return one.bound();
                 });
@@ -100,7 +100,7 @@ template <any_tree Tree, std::ranges::random_access_range Queries, class Distanc
             found[query] = std::move(one.best);
         }
     };
-    for_chunks(order.size(), detail::queries_per_chunk, search);
+    for_chunks(in_space.size(), detail::queries_per_chunk, search);
     return found;
 }
 
@@ -111,12 +111,12 @@ template <any_tree Tree, std::ranges::random_access_range Queries, class Distanc
 /// \same   on any number of threads: as calling `k_nearest` for each
 template <any_tree Tree, std::ranges::random_access_range Queries, class DistanceOf>
 [[nodiscard]] auto k_nearest_batch(const Tree& tree, const Queries& queries, std::size_t k,
-                                   const DistanceOf& distance_of,
-                                   const nearness_options& options = {}) {
+                                   const DistanceOf& distance_of, double radius = any_distance,
+                                   node_order order = node_order::depth_first) {
     return detail::lists_of<Tree::dimensions>(queries, [&](std::size_t query) {
         return k_nearest(
             tree, detail::element(queries, query), k,
-            [&](std::uint32_t id) { return distance_of(query, id); }, options);
+            [&](std::uint32_t id) { return distance_of(query, id); }, radius, order);
     });
 }
 

@@ -21,24 +21,6 @@
 
 namespace treeform {
 
-/// Two primitives, one of each tree, and what the caller's function said about them.
-template <class Answer = double>
-struct near_pair {
-    std::uint32_t a;
-    std::uint32_t b;
-    Answer answer;
-
-    [[nodiscard]] constexpr double squared_distance() const {
-        return detail::squared_distance_of(answer);
-    }
-    friend bool operator==(const near_pair&, const near_pair&) = default;
-    /// The order of pairs: by distance, then by the numbers of a, then of b.
-    friend constexpr bool nearer(const near_pair& x, const near_pair& y) {
-        return detail::comes_before(
-            x, y, [](const auto& p, const auto& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
-    }
-};
-
 namespace detail {
 
 /// Adds the nearest pairs of two trees to those `found`.
@@ -56,7 +38,7 @@ template <bool has_empty_slots, std::size_t D, class Kept, class DistanceOf>
                 const std::uint32_t of_b = ids_b[blocks.b * 8 + j];
                 if constexpr (has_empty_slots)
                     if (of_a == no_primitive || of_b == no_primitive) continue;
-                mine.offer({of_a, of_b, distance_of(of_a, of_b)});
+                mine.offer({{of_a, of_b}, distance_of(of_a, of_b)});
                 if (mine.done()) return;
                 bound = blocks.bound_of(std::min(limit, mine.bound()));
             }
@@ -100,8 +82,9 @@ template <std::size_t D, class A, class B, class Kept, class DistanceOf>
 
 }  // namespace detail
 
-/// The k nearest pairs of a primitive of `a` and one of `b`, ascending by distance, then by their
-/// numbers; fewer when there are fewer within `radius` (not squared, inclusive).
+/// The k nearest pairs of a primitive of `a` and one of `b`, as `neighbor` with an `id_pair`,
+/// ascending by distance, then by their numbers; fewer when there are fewer within `radius` (not
+/// squared, inclusive).
 ///
 /// `distance_of(a, b)` is the squared distance of two primitives, as in `nearest`; it is called by
 /// several threads at once, and for no pair twice. Either tree may be treated as transformed
@@ -124,7 +107,7 @@ template <any_placed_tree A, any_placed_tree B, class DistanceOf>
         std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t, std::uint32_t>>;
     const transformed a(first);
     const transformed b(second);
-    detail::nearest_k<near_pair<answer>> found(
+    detail::nearest_k<neighbor<answer, id_pair>> found(
         k, detail::squared_radius("treeform::k_nearest_pairs", radius));
     if (k == 0) return found.sorted();
     if constexpr (placed_tree<A> && placed_tree<B>)

@@ -6,6 +6,7 @@
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/detail/export.hpp>
+#include <treeform/tree/nearness.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/tree.hpp>
 
@@ -47,7 +48,6 @@ template <std::size_t D>
 class TREEFORM_API point_search {
   public:
     using point = std::array<double, D>;
-    static constexpr double any_distance = std::numeric_limits<double>::infinity();
 
     /// No points: every search finds nothing.
     point_search() = default;

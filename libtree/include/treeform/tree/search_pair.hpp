@@ -18,16 +18,6 @@
 
 namespace treeform {
 
-/// When boxes of a tree and of a moved tree count as overlapping.
-enum class turned_boxes {
-    /// If the axis-aligned box around the rotated box overlaps the other box.
-    upright,
-    /// If, in addition, the same holds in the frame of the moved tree: about a quarter fewer pairs
-    /// of rotated surfaces, without missing primitives that meet. The same as `upright`, unless
-    /// exactly one of the trees is moved.
-    both_ways
-};
-
 namespace detail {
 
 /// Two trees, and how boxes of each come into the frame in which they are compared.
@@ -59,9 +49,13 @@ struct two_trees {
 template <std::size_t D>
 class TREEFORM_API pair_search {
   public:
+    /// Boxes of a moved tree count as overlapping if the axis-aligned boxes around them do. With
+    /// `in_both_frames`, the same must hold in the frame of the moved tree: about a quarter fewer
+    /// pairs of rotated surfaces, without missing primitives that meet. It makes no difference
+    /// unless exactly one of the trees is moved.
+    ///
     /// \pre the trees outlive the search and are not rebuilt meanwhile
-    pair_search(const transformed<D>& a, const transformed<D>& b,
-                turned_boxes boxes = turned_boxes::upright);
+    pair_search(const transformed<D>& a, const transformed<D>& b, bool in_both_frames = false);
 
     [[nodiscard]] std::size_t chunks() const;
 
@@ -78,7 +72,7 @@ class TREEFORM_API pair_search {
     /// splitting the search: for searches that are likely to stop early.
     static search_statistics visit_all(const transformed<D>& a, const transformed<D>& b,
                                        detail::function_ref<bool(const candidate_block&)> visit,
-                                       turned_boxes boxes = turned_boxes::upright);
+                                       bool in_both_frames = false);
 
   private:
     detail::two_trees<D> trees_;
@@ -152,7 +146,7 @@ namespace detail {
 /// the search is split, so that a collision that is easy to find costs little.
 template <placed_tree A, placed_tree B, class Accept>
 [[nodiscard]] bool search_any_broad(const A& a, const B& b, const Accept& accept,
-                                    turned_boxes boxes = turned_boxes::upright) {
+                                    bool in_both_frames = false) {
     constexpr std::size_t serially = 4096;
     bool found = false;
     std::size_t seen = 0;
@@ -163,9 +157,9 @@ template <placed_tree A, placed_tree B, class Accept>
             seen += block.first.size();
             return !found && seen < serially;
         },
-        boxes);
+        in_both_frames);
     if (found || seen < serially) return found;
-    return detail::search_for_any(pair_search<A::dimensions>(a, b, boxes), accept);
+    return detail::search_for_any(pair_search<A::dimensions>(a, b, in_both_frames), accept);
 }
 
 }  // namespace detail

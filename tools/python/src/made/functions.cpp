@@ -241,7 +241,7 @@ py::object measure(const held_mesh& a, const held_mesh& b, tf::measure_options o
     }));
 }
 
-py::object penetration_depth(const held_mesh& a, const held_mesh& b, tf::depth_options options) {
+py::object penetration_depth(const held_mesh& a, const held_mesh& b, tf::measure_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
         options.progress = report;
         return tf::penetration_depth(a.prepared(), b.prepared(), options);

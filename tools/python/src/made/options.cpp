@@ -169,10 +169,6 @@ template <class Visit>
 void each_field(tf::measure_options& how, const Visit& visit) {
     visit("radius", how.radius);
     visit("vertices", how.vertices);
-}
-
-template <class Visit>
-void each_field(tf::depth_options& how, const Visit& visit) {
     visit("directions", how.directions);
     visit("effort", how.effort);
 }
@@ -262,7 +258,6 @@ void add_options(py::module_& module) {
     add_options_of<tf::weld_stream_options>(module, "WeldStreamOptions");
     add_options_of<tf::placement_options>(module, "PlacementOptions");
     add_options_of<tf::measure_options>(module, "MeasureOptions");
-    add_options_of<tf::depth_options>(module, "DepthOptions");
     add_options_of<tf::impact_options>(module, "ImpactOptions");
     add_options_of<tf::lay_flat_options>(module, "LayFlatOptions");
     add_options_of<tf::align_options>(module, "AlignOptions");

@@ -8,10 +8,7 @@ py::object object(of_result, tf::deviation_result&& from) {
     made["distances"] = as_python(std::move(from.distances));
     made["faces"] = as_python(std::move(from.faces));
     made["is_signed"] = as_python(std::move(from.is_signed));
-    made["side_counts"] =
-        from.sides
-            ? py::object(py::make_tuple(from.sides->inside, from.sides->on, from.sides->outside))
-            : py::none();
+    made["side_counts"] = as_python(std::move(from.side_counts));
     made["mean"] = as_python(std::move(from.mean));
     made["mean_absolute"] = as_python(std::move(from.mean_absolute));
     made["rms"] = as_python(std::move(from.rms));
@@ -22,15 +19,11 @@ py::object object(of_result, tf::deviation_result&& from) {
     made["worst"] = as_python(std::move(from.worst));
     made["lowest"] = as_python(std::move(from.lowest));
     made["highest"] = as_python(std::move(from.highest));
-    made["there"] = py::make_tuple(from.there.sampled, from.there.at_most);
-    made["back"] =
-        from.back ? py::object(py::make_tuple(from.back->sampled, from.back->at_most)) : py::none();
-    made["histogram_range"] = py::make_tuple(from.histogram.low, from.histogram.high);
-    made["histogram"] = as_python(std::move(from.histogram.counts));
-    made["band_counts"] =
-        from.band
-            ? py::object(py::make_tuple(from.band->below, from.band->within, from.band->above))
-            : py::none();
+    made["there_at_most"] = as_python(std::move(from.there_at_most));
+    made["back_max"] = as_python(std::move(from.back_max));
+    made["back_at_most"] = as_python(std::move(from.back_at_most));
+    made["histogram"] = as_python(std::move(from.histogram));
+    made["band_counts"] = as_python(std::move(from.band_counts));
     return object_of("treeform._nearness", "Deviation", made);
 }
 
@@ -82,9 +75,9 @@ py::object object(of_result, tf::search_effort&& from) {
 
 py::object object(of_result, tf::mesh_measure&& from) {
     py::dict made;
-    made["relation"] = as_python(std::move(from.relation.relation));
-    made["a_inside_b"] = as_python(std::move(from.relation.a_inside_b));
-    made["b_inside_a"] = as_python(std::move(from.relation.b_inside_a));
+    made["relation"] = as_python(std::move(from.relation));
+    made["a_inside_b"] = as_python(std::move(from.a_inside_b));
+    made["b_inside_a"] = as_python(std::move(from.b_inside_a));
     made["distance"] = as_python(std::move(from.distance));
     made["surface_distance"] = as_python(std::move(from.surface_distance));
     made["on_a"] = as_python(from.on_a.point);

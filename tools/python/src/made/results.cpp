@@ -9,9 +9,9 @@ py::object object(of_result, tf::certificate&& from) {
     made["meeting_count"] = as_python(std::move(from.meeting_count));
     made["meeting"] = column(from.meeting, [](const auto& one) { return one; });
     made["open_count"] = as_python(std::move(from.open_count));
-    made["open_edges"] = ends_of(from.open);
-    made["open_faces"] = column(from.open, [](const auto& one) {
-        return std::array{one.face.operand, one.face.index};
+    made["open_edges"] = ends_of(from.open_edges);
+    made["open_faces"] = column(from.open_faces, [](const auto& one) {
+        return std::array{one.operand, one.index};
     });
     made["boundary_edges"] = as_python(std::move(from.boundary_edges));
     made["misoriented_edges"] = as_python(std::move(from.misoriented_edges));
@@ -62,8 +62,7 @@ py::object object(of_result, tf::section_result&& from) {
     made["open_counts"] = column(from.layers, [](const auto& one) { return one.open_count; });
     made["points"] = as_array<double>(std::vector(from.points));
     made["faces"] = as_array(std::vector(from.faces));
-    made["frame"] =
-        column(std::array{from.frame.x, from.frame.y, from.frame.normal}, std::identity{});
+    made["axes"] = as_python(std::move(from.axes));
     made["_data"] = py::cast(std::move(from));
     return object_of("treeform._cuts", "Section", made);
 }
@@ -150,7 +149,7 @@ py::object object(of_result, tf::thickness_result&& from) {
 py::object object(of_result, tf::oriented_box&& from) {
     py::dict made;
     made["center"] = as_python(std::move(from.center));
-    made["axes"] = as_array<double>(std::vector<tf::point3>(from.axes.begin(), from.axes.end()));
+    made["axes"] = as_python(std::move(from.axes));
     made["size"] = as_python(std::move(from.size));
     return object_of("treeform._shapes", "OrientedBox", made);
 }

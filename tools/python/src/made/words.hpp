@@ -49,10 +49,6 @@ struct words_of<tf::node_order> {
     static constexpr words<3> all{"depth_first", "top_k_sorted", "best_first"};
 };
 template <>
-struct words_of<tf::overlap> {
-    static constexpr words<4> all{"none", "point", "segment", "area"};
-};
-template <>
 struct words_of<tf::pair_kind> {
     static constexpr words<7> all{"crossing", "overlap",  "fold",      "duplicate",
                                   "pierce",   "touching", "degenerate"};

@@ -63,7 +63,7 @@ typedef struct treeform_clash_options {
     /// Compute the volume of the intersection of closed parts; default 1
     int32_t volumes;
     int32_t depths;   ///< compute depths of penetrating parts; default 1
-    uint64_t effort;  ///< for each depth, as in `treeform_depth_options`
+    uint64_t effort;  ///< for each depth, as in `treeform_measure_options`
     uint64_t limit;   ///< faces listed for each region and part; default 1000
 } treeform_clash_options;
 /// Sets the defaults.
@@ -85,7 +85,7 @@ typedef struct treeform_part_clash {
     uint32_t a;                  ///< the lower number
     uint32_t b;                  ///< number of the second part
     treeform_mesh_relation how;  ///< or penetrating, closer_than_clearance
-    int32_t a_inside_b;          ///< as in `mesh_relation_result`
+    int32_t a_inside_b;          ///< as in `treeform_measure`
     int32_t b_inside_a;          ///< the same with `a` and `b` swapped
     double distance;             ///< distance of the surfaces; 0 if they meet
     double on_a[3];              ///< nearest points of those that are too close; else NaN

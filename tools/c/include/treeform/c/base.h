@@ -167,7 +167,7 @@ typedef struct treeform_box {
 } treeform_box;
 
 // made of the headers of C++:
-//   operand_element indices strings status open_edge certificate search_effort
+//   operand_element indices strings status certificate search_effort
 /// A vertex or face of an operand: its number within that operand.
 typedef struct treeform_element {
     uint32_t operand;
@@ -193,7 +193,7 @@ typedef int32_t treeform_status;
 enum {
     /// everything that the operation guarantees was verified
     TREEFORM_STATUS_OK = 0,
-    /// an operand is not closed; `open` lists where; no mesh is returned
+    /// an operand is not closed; `open_edges` lists where; no mesh is returned
     TREEFORM_STATUS_OPEN_INPUT = 1,
     /// the mesh has a border, as requested; all other guarantees hold
     TREEFORM_STATUS_SHEET = 2,
@@ -215,13 +215,6 @@ enum {
     TREEFORM_STATUS_CANCELLED = 9
 };
 
-/// An edge where a surface ends, or where its faces are oriented inconsistently.
-typedef struct treeform_open_edge {
-    treeform_element face;  ///< a face at the edge
-    /// Ends of the open part of the edge; rounded if the edge is cut.
-    double ends[2][3];
-} treeform_open_edge;
-
 /// The outcome of checking a mesh that an operation (`treeform_boolean`,
 /// `treeform_resolve_self_intersections`, `treeform_slide`, `treeform_pack`) returns or places:
 /// with exact predicates, on the returned coordinates.
@@ -236,9 +229,8 @@ typedef struct treeform_certificate {
     const double* meeting_at;  ///< a corner of the first face of each pair in `meeting`
     size_t meeting_listed;
     /// Number of edges whose signed face count is not zero, counted in pieces where edges overlap.
-    /// `open` lists the first 100.
+    /// `open_edges` and `open_faces` list the first 100.
     uint64_t open_count;
-    const treeform_open_edge* open;  ///< [open_listed]
     size_t open_listed;
     /// The same edges in the operands, after joining equal coordinates: edges of an odd number of
     /// faces, where the surface ends, and edges of an even number of faces, which are oriented
@@ -258,6 +250,9 @@ typedef struct treeform_certificate {
     double size_before;
     double size_after;
     int32_t size_is_volume;
+    /// [open_listed][2][3] Ends of the open part of each edge; rounded if the edge is cut.
+    const double* open_edges;
+    const treeform_element* open_faces;  ///< a face at each of these edges
 } treeform_certificate;
 
 /// The work of a bounded search, in pairs of faces tested. It depends on the input alone. A result

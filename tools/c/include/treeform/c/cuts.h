@@ -48,15 +48,13 @@ typedef struct treeform_section_result {
     size_t layer_count;
     const treeform_section_loop* loops;  ///< [loop_count]
     size_t loop_count;
-    /// [point_count][2] In the frame: (x . p, y . p) for a point p in space, which is accurate to
+    /// [point_count][2] In the plane: (x . p, y . p) for a point p in space, which is accurate to
     /// 2^-45 of its largest coordinate.
     const double* points;
     /// [points] the face in which the segment from each point begins
     const uint32_t* faces;
     size_t point_count;
-    double x[3];
-    double y[3];
-    double normal[3];
+    double axes[3][3];  ///< x, y and the normal, as of `oriented_plane::axes`
 } treeform_section_result;
 
 /// Sections of a mesh by the planes at `heights` above `plane` (`oriented_plane::parallel`).

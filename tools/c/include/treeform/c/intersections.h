@@ -5,6 +5,14 @@
 
 #include <treeform/c/files.h>
 
+/// Segments in which pairs of faces meet: pair i has the segments begin[i] ... begin[i + 1] - 1.
+typedef struct treeform_segments {
+    void* owner;
+    const size_t* begin;  ///< [count + 1]
+    const double* ends;   ///< [begin[count]][2][3] equal when the faces meet in a point
+    size_t count;         ///< pairs
+} treeform_segments;
+
 // made of the headers of C++:
 //   pair_kind
 /// How two faces meet. Each pair has exactly one kind. A shared corner is one that both faces
@@ -33,11 +41,10 @@ enum {
 
 // made of the headers of C++:
 //   face_pair intersection_result intersection_options self_intersections()
-//   intersection_region intersection_regions group_pairs() intersections=mesh_intersections()
-//   intersects() intersects_poses() faces_in_box() curve_segment segments
-//   intersection_curves() curve_path curve_network intersection_paths() write_curves()
-//   color_pairs() stream_search_options stream_search_result self_intersections_of_file()
-//   is_searched_in_tiles()
+//   intersection_region regions group_pairs() intersections=mesh_intersections() intersects()
+//   intersects_poses() faces_in_box() intersection_curves() curve_path curve_network
+//   intersection_paths() write_curves() color_pairs() stream_search_options
+//   stream_search_result self_intersections_of_file() is_searched_in_tiles()
 /// Two faces that meet.
 typedef struct treeform_face_pair {
     uint32_t a;  ///< the lower face number
@@ -90,20 +97,21 @@ typedef struct treeform_region {
     size_t face_count;
     double min[3];  ///< box of these faces
     double max[3];
-    uint64_t pairs;  ///< pairs in this region
+    /// [pair_count] their numbers in the list of pairs, ascending
+    const uint32_t* pairs;
+    size_t pair_count;
 } treeform_region;
 
-/// All regions, and the region of each pair.
+/// Regions, in the order of their lowest faces.
 typedef struct treeform_regions {
     void* owner;
-    const treeform_region* regions;  ///< [count] in the order of their lowest face
+    const treeform_region* regions;  ///< [count]
     size_t count;
-    const uint32_t* region_of_pair;  ///< [pairs]
-    size_t pair_count;
 } treeform_regions;
 
-/// Groups the faces in `pairs` into regions. Two of these faces are in one region if a pair or a
-/// shared corner links them, directly or through other faces of `pairs`.
+/// Groups the faces in `pairs` into regions, in the order of their lowest faces. Two of these
+/// faces are in one region if a pair or a shared corner links them, directly or through other
+/// faces of `pairs`.
 TREEFORM_C_API treeform_code treeform_group_pairs(const treeform_mesh* mesh,
                                                   const treeform_face_pair* pairs, size_t count,
                                                   treeform_regions** regions);
@@ -137,22 +145,9 @@ TREEFORM_C_API treeform_code treeform_faces_in_box(const treeform_mesh* mesh,
                                                    const treeform_box* box,
                                                    treeform_indices** indices);
 
-/// The intersection of two faces, or one side of it.
-typedef struct treeform_segment {
-    double ends[2][3];  ///< equal when the faces meet in a point
-    uint32_t pair;      ///< index into the pairs given
-} treeform_segment;
-
-/// Segments, in the order of the pairs.
-typedef struct treeform_segments {
-    void* owner;
-    const treeform_segment* segments;  ///< [count]
-    size_t count;
-} treeform_segments;
-
-/// The intersection of each pair as segments, in the order of `pairs`: one segment for a crossing,
+/// [pairs] The intersection of each pair as segments, by their ends: one segment for a crossing,
 /// the 3 to 6 sides of the common area for faces that overlap, a segment of length 0 for a single
-/// point.
+/// point, none for faces that do not meet.
 ///
 /// Whether there is a segment is exact. Its ends are rounded, and finite.
 TREEFORM_C_API treeform_code treeform_intersection_curves(const treeform_mesh* mesh,

@@ -118,7 +118,7 @@ typedef struct treeform_hits {
 } treeform_hits;
 
 // made of the headers of C++:
-//   raycast_all() mesh_relation mesh_measure measure_options measure() relate() depth_options
+//   raycast_all() mesh_relation mesh_measure measure_options measure() relate()
 //   penetration_depth() count_inside_out() count_sides() deviation_options deviation_result
 //   deviation()
 /// All faces that each ray hits, in the exact order along the ray, then by number.
@@ -162,7 +162,7 @@ typedef struct treeform_relation {
     double barycentric_b[3];  ///< of it in that face
 } treeform_relation;
 
-/// How to look.
+/// How to look. What an operation has no use for, it ignores.
 typedef struct treeform_measure_options {
     size_t size;
     double radius;  ///< of `treeform_measure`; inclusive; default infinite
@@ -170,6 +170,12 @@ typedef struct treeform_measure_options {
     treeform_vertices vertices;
     treeform_progress progress;
     void* progress_data;
+    /// Of `treeform_penetration_depth`: directions spread over the sphere, tried besides normals
+    /// of faces that meet; default 256
+    uint64_t directions;
+    /// Of `treeform_penetration_depth`: pairs of faces that the search may test, a pair in motion
+    /// counting as two; 0: 20 million plus 200 for each face.
+    uint64_t effort;
 } treeform_measure_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_measure_options_init(treeform_measure_options* options, size_t size);
@@ -189,27 +195,12 @@ TREEFORM_C_API treeform_code treeform_relate(const treeform_mesh* a, const treef
                                              treeform_vertices vertices,
                                              treeform_mesh_relation* result);
 
-/// How to search for a short separating translation.
-typedef struct treeform_depth_options {
-    size_t size;
-    /// directions spread over the sphere, tried besides normals of faces that meet; default 256
-    uint64_t directions;
-    /// Pairs of faces that the search may test, a pair in motion counting as two; 0: 20 million
-    /// plus 200 for each face.
-    uint64_t effort;
-    treeform_vertices vertices;  ///< as in `treeform_relation`
-    treeform_progress progress;
-    void* progress_data;
-} treeform_depth_options;
-/// Sets the defaults.
-TREEFORM_C_API void treeform_depth_options_init(treeform_depth_options* options, size_t size);
-
 /// The length of a short translation `move` that takes `a` out of `b`, verified exactly: an upper
 /// bound of the depth of penetration. `depth` is 0 and `move` zero where they do not penetrate.
 /// What the search took comes in `effort`, which may be null.
 TREEFORM_C_API treeform_code treeform_penetration_depth(const treeform_mesh* a,
                                                         const treeform_mesh* b,
-                                                        const treeform_depth_options* options,
+                                                        const treeform_measure_options* options,
                                                         double* depth, double move[3],
                                                         treeform_search_effort* effort);
 
@@ -255,24 +246,30 @@ typedef struct treeform_deviation_result {
     double rms;            ///< root mean square of the distances
     /// Median of the magnitudes: the least value that half of them do not exceed.
     double p50;
-    double p95;            ///< the same for 95 % of them
-    double p99;            ///< the same for 99 % of them
-    double max;            ///< the largest magnitude
-    uint32_t worst;        ///< the lowest point number with that magnitude
-    double lowest;         ///< the least signed distance
-    double highest;        ///< the greatest signed distance
-    double there_sampled;  ///< over the points of the first
-    double there_at_most;  ///< a bound for its surface
-    double back_sampled;   ///< the other way; NaN unless `both_ways`
+    double p95;      ///< the same for 95 % of them
+    double p99;      ///< the same for 99 % of them
+    double max;      ///< the largest magnitude
+    uint32_t worst;  ///< the lowest point number with that magnitude
+    double lowest;   ///< the least signed distance
+    double highest;  ///< the greatest signed distance
+    /// Bound of the distance from any point of the surface `a` to `b`: the maximum, over its
+    /// faces, of the largest corner distance plus the longest edge / sqrt(3). For a cloud the same
+    /// as `max`.
+    double there_at_most;
+    /// With `both_ways`, a bound of the distance from any point of the surface `b` to `a`. The
+    /// larger of this and `there_at_most` bounds the Hausdorff distance of the surfaces.
     double back_at_most;
-    double histogram_low;
-    double histogram_high;
-    const uint64_t* histogram;  ///< [bins]
+    /// [bins] points by signed distance, in intervals of equal length from `lowest` to `highest`;
+    /// the last one includes `highest`.
+    const uint64_t* histogram;
     size_t bins;
-    uint64_t below;  ///< the band
-    uint64_t within;
-    uint64_t above;
-    uint64_t sides[3];  ///< points inside, on and outside
+    /// If distances have a sign: points of `a` inside, on and outside of `b`.
+    uint64_t side_counts[3];
+    /// With `both_ways`, the largest distance of a vertex of `b` from `a`. The larger of this and
+    /// `max` is the Hausdorff distance of the points.
+    double back_max;
+    /// With a band: points below, within and above it. Both ends are within.
+    uint64_t band_counts[3];
 } treeform_deviation_result;
 
 /// The signed distances of all points of `a`, used by faces or not, from the surface of `b`.

@@ -41,8 +41,8 @@ typedef struct treeform_offset_result {
     treeform_arrays mesh;
     /// Status ok means, verified on the coordinates of `mesh`: a closed manifold, oriented
     /// outward, whose faces meet only in common corners and edges. `open_input`: the input bounds
-    /// no solid; `open` lists where. `vanished`: nothing is left, since the solid is nowhere thick
-    /// enough, or only by less than a cell.
+    /// no solid; `open_edges` lists where. `vanished`: nothing is left, since the solid is nowhere
+    /// thick enough, or only by less than a cell.
     const treeform_certificate* certificate;
     /// asked for, without its sign; of `treeform_wrap`, that of its vertices
     double distance;
@@ -214,7 +214,7 @@ TREEFORM_C_API treeform_code treeform_wall_thickness(const treeform_mesh* mesh,
 typedef struct treeform_oriented_box {
     void* owner;
     double center[3];  ///< of the box
-    /// of length 1, right-handed, rounded: along the longest side, the next, the shortest
+    /// Unit axes, right-handed, rounded: along the longest, middle and shortest side.
     double axes[3][3];
     double size[3];  ///< lengths along these axes
 } treeform_oriented_box;
