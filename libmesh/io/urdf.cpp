@@ -26,8 +26,9 @@ constexpr int most_folders_up = 64;
 
 class urdf_reader {
   public:
-    urdf_reader(const std::filesystem::path& path, const urdf_options& options)
-        : path_(path), options_(options) {}
+    urdf_reader(const std::filesystem::path& path,
+                std::span<const std::filesystem::path> package_folders, bool visual)
+        : path_(path), package_folders_(package_folders), visual_(visual) {}
 
     [[nodiscard]] urdf_robot read() {
         std::ifstream in(path_, std::ios::binary);
@@ -111,7 +112,7 @@ class urdf_reader {
         const auto number = static_cast<std::uint32_t>(robot_.links.size());
         if (!numbers_.emplace(name, number).second) fail("two links have the name " + name);
         robot_.links.push_back(name);
-        for (const pugi::xml_node one : node.children(options_.visual ? "visual" : "collision"))
+        for (const pugi::xml_node one : node.children(visual_ ? "visual" : "collision"))
             read_shape(one, number, "link " + name);
     }
 
@@ -170,7 +171,7 @@ class urdf_reader {
         if (name.starts_with(package)) {
             const std::filesystem::path full = name.substr(package.size());
             const std::filesystem::path rest = full.lexically_relative(*full.begin());
-            for (const auto& in : options_.package_folders)
+            for (const auto& in : package_folders_)
                 tried.insert(tried.end(), {in / full, in / rest});
             std::filesystem::path up = folder;
             for (int i = 0; i < most_folders_up; ++i) {
@@ -263,7 +264,8 @@ class urdf_reader {
     }
 
     std::filesystem::path path_;
-    const urdf_options& options_;
+    std::span<const std::filesystem::path> package_folders_;
+    bool visual_;
     pugi::xml_document document_{};
     urdf_robot robot_{};
     links_by_name numbers_{}, joint_names_{};
@@ -304,8 +306,9 @@ std::vector<std::array<std::uint32_t, 2>> urdf_robot::adjacent() const {
     return pairs;
 }
 
-urdf_robot read_urdf(const std::filesystem::path& path, const urdf_options& options) {
-    return urdf_reader(path, options).read();
+urdf_robot read_urdf(const std::filesystem::path& path,
+                     std::span<const std::filesystem::path> package_folders, bool visual) {
+    return urdf_reader(path, package_folders, visual).read();
 }
 
 std::vector<transform<3>> urdf_robot::link_transforms(

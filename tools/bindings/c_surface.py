@@ -12,8 +12,6 @@ ENUMS = {
     "status": ("treeform_status", "STATUS_"),
     "fill_rule": ("treeform_fill_rule", ""),
     "resolve_mode": ("treeform_resolve_mode", "RESOLVE_"),
-    "repair_rule": ("treeform_repair_rule", "REPAIR_"),
-    "repair_scope": ("treeform_repair_scope", ""),
     "pair_kind": ("treeform_pair_kind", ""),
     "location": ("treeform_location", ""),
     "mesh_relation": ("treeform_mesh_relation", {"touching": "MEETING",
@@ -35,7 +33,6 @@ ENUMS = {
     "weld_rule": ("treeform_weld_rule", "WELD_"),
     "weld_keep": ("treeform_weld_keep", "KEEP_"),
     "weld_order": ("treeform_weld_order", "ORDER_"),
-    "file_content": ("treeform_file_content", ""),
     "scalar_type": ("treeform_scalar", {"float32": "SCALAR_FLOAT32", "float64": "SCALAR_FLOAT64"}),
 }
 
@@ -295,7 +292,6 @@ BOUND = [
         "component": [Member("const uint32_t* component",
                              "[F] with `details`: the component; else null",
                              "to.component = or_null(from.component);")]}),
-    Bound("urdf_options", "robot_options"),
     Bound("urdf_joint", "robot_joint", "part", leave="origin axis mimics mimic_line", custom={
         "limits": [Member("double lower", "the limits; NaN for none",
                           "to.lower = from.limits ? (*from.limits)[0] : not_known;"),

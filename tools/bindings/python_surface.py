@@ -456,7 +456,7 @@ STATES = {"io_warning": "", "column": "", "element": "", "part": "", "corner_val
 OPTIONS = {
     "cloud_inputs": "format names", "read_options": "", "write_options": "keep_names",
     "boolean_options": "face_groups", "cut_options": "keep_cuts",
-    "resolve_options": "removal_rounds", "repair_options": "",
+    "resolve_options": "removal_rounds", "repair_options": "as_one",
     "offset_options": "", "simplify_options": "face_groups corner_groups",
     "feature_options": "", "intersection_options": "component_of_face between within",
     "stream_search_options": "box communicator",

@@ -26,7 +26,7 @@ struct table_column {
 
 struct common_options {
     std::vector<std::string> inputs;
-    tf::file_content content = tf::file_content::meshes;  ///< of a folder among the inputs
+    bool takes_points = false;           ///< of a folder among the inputs, files of points, too
     std::vector<std::string> words;      ///< one of which may stand ahead of the inputs
     std::vector<std::string> also_read;  ///< files that are read beside the inputs, of any kind
     std::filesystem::path output;

@@ -180,7 +180,7 @@ int run(int argc, char** argv, tools::team_member& me) {
     line.inputs(options.inputs,
                 "points: PLY PCD LAS LAZ XYZ PTS CSV; meshes: STL\n"
                 "OBJ PLY OFF GLB/glTF 3MF; or folders; \"-\" = stdin");
-    options.content = tf::file_content::meshes_and_points;
+    options.takes_points = true;
     line.flag(options.joined, {"--join", "", "treat all INPUTs as one set", "each on its own"});
     add_what_is_merged(line, r.settings, exact);
     add_which_one_stays(line, r.settings.options);

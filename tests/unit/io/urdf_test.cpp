@@ -145,14 +145,13 @@ TEST_CASE("urdf: meshes are found beside the file, in packages, and where it is 
     std::filesystem::create_directories(folder.path() / "elsewhere");
     const auto away = folder.write(with("package://meshes/a.stl"), "elsewhere/robot.urdf");
     CHECK_THROWS_AS(static_cast<void>(tf::read_urdf(away)), tf::io_error);
-    tf::urdf_options options;
-    options.package_folders = {folder.path() / "arm"};
-    CHECK(tf::read_urdf(away, options).meshes.size() == 1);
+    const std::filesystem::path packages = folder.path() / "arm";
+    CHECK(tf::read_urdf(away, {&packages, 1}).meshes.size() == 1);
     const auto r = tf::read_urdf(folder.write(with(
         "meshes/a.stl", "<collision><geometry><capsule radius=\"1\"/></geometry></collision>")));
     CHECK(r.skipped == std::vector<std::string>{"link a: a capsule is not read"});
-    options.visual = true;
-    CHECK(tf::read_urdf(folder.write(with("meshes/a.stl")), options).meshes.empty());
+    constexpr bool visual = true;
+    CHECK(tf::read_urdf(folder.write(with("meshes/a.stl")), {}, visual).meshes.empty());
 }
 
 TEST_CASE("urdf: parts are the links that have faces, each one mesh in the frame of its link") {

@@ -133,8 +133,6 @@ void fill(keeper& kept, const tf::write_result& from, treeform_written& to);
 [[nodiscard]] tf::part_options read(const treeform_part_options* options);
 [[nodiscard]] tf::part_options read(const treeform_part_options& o);
 void fill(keeper& kept, const tf::usable_mesh& from, treeform_part& to);
-[[nodiscard]] tf::urdf_options read(const treeform_robot_options* options);
-[[nodiscard]] tf::urdf_options read(const treeform_robot_options& o);
 void fill(keeper& kept, const tf::urdf_joint& from, treeform_robot_joint& to);
 void fill(keeper& kept, const tf::urdf_mesh& from, treeform_robot_mesh& to);
 void fill(keeper& kept, const tf::urdf_robot& from, treeform_robot_view& to);

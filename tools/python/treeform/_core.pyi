@@ -245,9 +245,10 @@ class RepairOptions:
     defaults: dict[str, Any]
     def __init__(self, *, join: bool = ..., orient: bool = ..., fill: bool = ...,
                  resolve: bool = ..., detach: bool = ..., gap: Optional[float] = ...,
-                 largest_hole: Optional[int] = ..., strays: float = ..., inside: str = ...,
-                 max_loss: float = ..., sheet: bool = ..., precision: str = ...,
-                 max_displacement: float = ..., keep_cuts: bool = ...) -> None: ...
+                 largest_hole: Optional[int] = ..., strays: float = ...,
+                 inside: Optional[str] = ..., max_loss: float = ..., sheet: bool = ...,
+                 precision: str = ..., max_displacement: float = ...,
+                 keep_cuts: bool = ...) -> None: ...
 
 class OffsetOptions:
     names: tuple[str, ...]

@@ -42,10 +42,9 @@ tf::mesh read_part(job& work, const std::string& path) {
 
 movable read_robot(job& work, const assembly_settings& settings) {
     movable all;
-    tf::urdf_options options;
-    for (const std::string& folder : settings.package_folders)
-        options.package_folders.emplace_back(folder);
-    all.robot = tf::read_urdf(work.path, options);
+    const std::vector<std::filesystem::path> folders(settings.package_folders.begin(),
+                                                     settings.package_folders.end());
+    all.robot = tf::read_urdf(work.path, folders);
     work.entry["inputs"].push_back({{"input", work.path},
                                     {"format", nullptr},
                                     {"sha256", nullptr},

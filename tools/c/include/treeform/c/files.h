@@ -347,26 +347,11 @@ typedef struct treeform_scene_parts {
 } treeform_scene_parts;
 
 // made of the headers of C++:
-//   split_parts() file_content files_of()
+//   split_parts()
 /// The parts of a file by its objects, groups or nodes, each as a file of its own. Parts that have
 /// points or open edges in common are one.
 TREEFORM_C_API treeform_code treeform_split_parts(const treeform_file* file,
                                                   treeform_scene_parts** parts);
-
-/// Which files of a folder are included.
-typedef int32_t treeform_file_content;
-enum {
-    /// STL, OBJ, PLY, OFF, 3MF, GLB, glTF
-    TREEFORM_MESHES = 0,
-    /// also PCD, LAS, LAZ, XYZ, CSV, PTS, ASC
-    TREEFORM_MESHES_AND_POINTS = 1
-};
-
-/// `paths` with each folder replaced by its files of these formats, by extension, in the order of
-/// their names. Subfolders are not searched. A folder without such files is kept, and so is "-".
-TREEFORM_C_API treeform_code treeform_files_of(const char* const* paths, size_t count,
-                                               treeform_file_content content,
-                                               treeform_strings** strings);
 // end
 
 /// Whether other scenes than glTF and GLB (DAE, FBX, ...) can be read: 0 if treeform was built
@@ -377,24 +362,15 @@ TREEFORM_C_API int32_t treeform_reads_scenes(void);
 typedef struct treeform_robot treeform_robot;
 
 // made of the headers of C++:
-//   urdf_options read_urdf() urdf_mesh urdf_joint urdf_robot robot_look()
-/// How to read a robot.
-typedef struct treeform_robot_options {
-    size_t size;
-    int32_t visual;  ///< use visual meshes instead of collision meshes
-    /// [package_folder_count] Folders of packages: `package://name/rest` is FOLDER/name/rest or
-    /// FOLDER/rest for one of these, else for the file's folder or one above it.
-    const char* const* package_folders;
-    size_t package_folder_count;
-} treeform_robot_options;
-/// Sets the defaults.
-TREEFORM_C_API void treeform_robot_options_init(treeform_robot_options* options, size_t size);
-
+//   read_urdf() urdf_mesh urdf_joint urdf_robot robot_look()
 /// Reads the robot at `path`. Joints are fixed, revolute, continuous or prismatic. Boxes,
 /// cylinders and spheres become meshes. Mesh files are not read, but must exist.
+/// `package://name/rest` is FOLDER/name/rest or FOLDER/rest for one of `package_folders`, else for
+/// the file's folder or one above it. With `visual`, visual meshes are used instead of collision
+/// meshes.
 TREEFORM_C_API treeform_code treeform_read_urdf(const char* path,
-                                                const treeform_robot_options* options,
-                                                treeform_robot** robot);
+                                                const char* const* package_folders, size_t count,
+                                                int32_t visual, treeform_robot** robot);
 
 /// A mesh of a link, from a file or a shape; `place` maps its points to the link's frame.
 typedef struct treeform_robot_mesh {
