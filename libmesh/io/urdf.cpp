@@ -306,6 +306,16 @@ std::vector<std::array<std::uint32_t, 2>> urdf_robot::adjacent() const {
     return pairs;
 }
 
+std::vector<std::array<std::uint32_t, 2>> urdf_robot::adjacent(
+    std::span<const urdf_mesh> parts) const {
+    std::map<std::uint32_t, std::uint32_t> part_of;  // by link
+    for (std::uint32_t p = 0; p < parts.size(); ++p) part_of[parts[p].link] = p;
+    std::vector<std::array<std::uint32_t, 2>> pairs;
+    for (const auto& [a, b] : adjacent())
+        if (part_of.contains(a) && part_of.contains(b)) pairs.push_back({part_of[a], part_of[b]});
+    return pairs;
+}
+
 urdf_robot read_urdf(const std::filesystem::path& path,
                      std::span<const std::filesystem::path> package_folders, bool visual) {
     return urdf_reader(path, package_folders, visual).read();
@@ -340,7 +350,7 @@ std::vector<transform<3>> urdf_robot::link_transforms(
     return at;
 }
 
-robot_parts urdf_robot::parts(
+std::vector<urdf_mesh> urdf_robot::parts(
     const std::function<mesh(const std::filesystem::path&)>& mesh_of_file) const {
     const urdf_robot& robot = *this;
     std::vector<mesh> of_link(robot.links.size());
@@ -354,18 +364,10 @@ robot_parts urdf_robot::parts(
             to.faces.push_back(
                 {first + f[0], first + f[turned ? 2 : 1], first + f[turned ? 1 : 2]});
     }
-    constexpr std::uint32_t none = 0xFFFFFFFFU;
-    robot_parts made;
-    std::vector<std::uint32_t> part_of(of_link.size(), none);
-    for (std::uint32_t link = 0; link < of_link.size(); ++link) {
-        if (of_link[link].faces.empty()) continue;
-        part_of[link] = static_cast<std::uint32_t>(made.parts.size());
-        made.links.push_back(link);
-        made.parts.push_back(std::move(of_link[link]));
-    }
-    for (const auto& [a, b] : robot.adjacent())
-        if (part_of[a] != none && part_of[b] != none)
-            made.adjacent.push_back({part_of[a], part_of[b]});
+    std::vector<urdf_mesh> made;
+    for (std::uint32_t link = 0; link < of_link.size(); ++link)
+        if (!of_link[link].faces.empty())
+            made.push_back({.link = link, .shape = std::move(of_link[link])});
     return made;
 }
 

@@ -206,10 +206,10 @@ void tile_steps::check_before_borders() const {
 }
 
 void tile_steps::fail_for_memory(std::uint64_t needed, const std::string& more) const {
-    throw stream_error(stream_error::reason::memory, folder_.path(),
-                       "--memory " + in_megabytes(task_.memory) + " is too little; " +
-                           in_megabytes(needed) + " would be enough" + more,
-                       needed);
+    throw io_error(io_error::kind::memory, folder_.path(),
+                   "--memory " + in_megabytes(task_.memory) + " is too little; " +
+                       in_megabytes(needed) + " would be enough" + more,
+                   needed);
 }
 
 /// Of the points of a cube whose diagonal is the tolerance, one.

@@ -190,7 +190,7 @@ void tile_steps::give_points() {
     const share mine = read_by(communicator_.rank());
     std::optional<row_reader> ranks;
     if (has_order()) ranks.emplace(ranks_file(), ranks_, 1, piece);
-    point_block block;
+    io::point_block block;
     std::vector<std::uint64_t> of_block;
     std::vector<std::uint32_t> halos;
     std::uint64_t id = mine.first;
@@ -244,8 +244,8 @@ void tile_steps::share_counts(std::uint64_t read, const std::vector<record_count
     for (const tile& t : tiles_) own += t.own;
     if (all == survey_.cloud.points && own == survey_.cloud.points) return;
     const std::filesystem::path& input = task_.inputs.paths.front();
-    throw stream_error(stream_error::reason::input_changed, input,
-                       input.string() + ": the file changed while it was read");
+    throw io_error(io_error::kind::input_changed, input,
+                   input.string() + ": the file changed while it was read");
 }
 
 std::uint64_t tile_steps::most_points() const {

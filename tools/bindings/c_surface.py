@@ -32,7 +32,6 @@ ENUMS = {
     "thickness_by": ("treeform_thickness_by", "THICKNESS_BY_"),
     "weld_rule": ("treeform_weld_rule", "WELD_"),
     "weld_keep": ("treeform_weld_keep", "KEEP_"),
-    "weld_order": ("treeform_weld_order", "ORDER_"),
     "scalar_type": ("treeform_scalar", {"float32": "SCALAR_FLOAT32", "float64": "SCALAR_FLOAT64"}),
 }
 
@@ -185,23 +184,22 @@ BOUND = [
         Member("size_t column_count"),
         Member("int32_t mixed", "join LAS of other reference systems or time types, which are then "
                "the first's")]}),
-    Bound("weld_stream_result", custom={
+    Bound("weld_stream_result", leave="left_alone removed label_replaced las_moved", custom={
         "survey": [Member(f"{type} {name}", doc, f"to.{name} = from.survey.{name};")
                    for type, name, doc in (
                        ("uint64_t", "points", ""),
-                       ("uint64_t", "non_finite", "points left as they are"),
                        ("double", "tolerance", "as a length"), ("uint64_t", "tiles", ""),
                        ("uint64_t", "finished_tiles", "by an earlier run"))],
         "max_displacement": [Member(
             "double max_displacement", "the furthest that a point moved",
-            "to.max_displacement = from.counts.max_displacement + from.survey.las_moved;")],
-        "written": [
-            Member("const char* format", "of the output",
-                   'to.format = from.written.welded ? from.written.welded->format.c_str() : "";'),
+            "to.max_displacement = from.statistics.max_displacement + from.survey.las_moved;")],
+        "welded": [Member("const char* format", "of the output",
+                          'to.format = from.welded ? from.welded->format.c_str() : "";')],
+        "still_within": [
             Member("uint64_t still_within", "points that would be merged if the output were welded",
-                   "to.still_within = from.written.still_within.value_or(0);"),
+                   "to.still_within = from.still_within.value_or(0);"),
             Member("int32_t still_within_known", "",
-                   "to.still_within_known = from.written.still_within.has_value();")]}),
+                   "to.still_within_known = from.still_within.has_value();")]}),
     # placement.h
     Bound("placement_options", "place_options"),
     Bound("placement_contact", "contact", "part", custom={"fixed": [
@@ -250,7 +248,6 @@ BOUND = [
     Bound("clash_result", "clashes", counts={"pairs": "count"}),
     Bound("pose_clash", kind="same"),
     # files.h
-    Bound("named_column", kind="part"),
     Bound("io_warning", "warning", "part"),
     Bound("column", kind="part", leave="role", custom={
         "list_length": [

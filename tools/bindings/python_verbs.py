@@ -31,9 +31,9 @@ _WELD = {
     "keep": "which point of a group stays: 'first', 'last', 'mean', 'lowest' or 'highest' of "
             "`keep_by`.",
     "keep_by": "a property of vertices.",
-    "order": "in which 'first' goes through the points: 'given', 'lowest' or 'highest' of "
-             "`order_by`. Needs `keep` 'first'.",
-    "order_by": "a property of vertices.",
+    "order_by": "a property of vertices: points are visited by its values, the least first; needs "
+                "`keep` 'first'. '': by number.",
+    "highest_first": "the greatest value of `order_by` first.",
     "across": "properties that `keep_seams` does not look at."}
 _FIXED = "a fixed body, or a list of them."
 

@@ -92,7 +92,7 @@ void add_columns(command_line& line, common_options& o, bool& mixed) {
     line.option({"--rename", "P=NAME,...", "write property P of points as NAME"},
                 [&o](std::string_view text) {
                     o.rename = tools::parse_names("--rename", text);
-                    for (auto& r : o.rename) std::swap(r.name, r.source);
+                    for (auto& [name, source] : o.rename) std::swap(name, source);
                 });
     line.option({"--las-scale", "S[,S,S]", "scale of LAS coordinates, one or one for each axis",
                  "of the input, else chosen"},
@@ -157,7 +157,7 @@ void check_request(const command_line& line, const tools::weld_request& r,
         for (const auto& name : r.settings.options.across)
             if (condition.property == name) refuse(name + " is named by --same and by --across");
     const tf::weld_options& options = r.settings.options;
-    if (options.order != tf::weld_order::given && options.keep != tf::weld_keep::first)
+    if (!options.order_by.empty() && options.keep != tf::weld_keep::first)
         refuse("--order says which point stays; it excludes --keep " +
                tools::keep_in_words(options));
     check_what_is_marked(outputs, r.settings, o);

@@ -45,8 +45,7 @@ struct weld_request {
 [[nodiscard]] std::vector<tf::weld_condition> parse_same(std::string_view text);
 [[nodiscard]] std::vector<std::string> parse_across(std::string_view text);
 /// "x=E,y=N,z=H"; `option` is named where it is none
-[[nodiscard]] std::vector<tf::named_column> parse_names(std::string_view option,
-                                                        std::string_view text);
+[[nodiscard]] name_pairs parse_names(std::string_view option, std::string_view text);
 /// "P,..."
 [[nodiscard]] std::vector<std::string> parse_properties(std::string_view option,
                                                         std::string_view text);

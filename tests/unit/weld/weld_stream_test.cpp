@@ -82,9 +82,9 @@ TEST_CASE("weld_stream: files, map and counts are what weld gives") {
         CHECK(streamed.status == tf::status::ok);
         CHECK(streamed.survey.points == 2000);
         CHECK(streamed.survey.tiles > 3);
-        CHECK(streamed.counts.kept == whole.mesh.points.size());
-        CHECK(streamed.counts.groups == whole.statistics.groups);
-        CHECK(streamed.counts.max_displacement == whole.statistics.max_displacement);
+        CHECK(streamed.kept == whole.mesh.points.size());
+        CHECK(streamed.statistics.groups == whole.statistics.groups);
+        CHECK(streamed.statistics.max_displacement == whole.statistics.max_displacement);
         CHECK(map == whole.groups.group_of_point);
         CHECK(tf::read(folder.output()).mesh.points == whole.mesh.points);
         CHECK_FALSE(fs::exists(folder.work()));
@@ -103,8 +103,7 @@ TEST_CASE("weld_stream: a relative tolerance is a share of the diagonal") {
     const auto streamed = tf::weld_stream(folder.inputs(), tf::weld_stream_outputs{}, options);
     const double length = 0.05 * tf::bounding_box(folder.points())->diagonal();
     CHECK(streamed.survey.tolerance == length);
-    CHECK(streamed.counts.kept ==
-          tf::weld(folder.points(), {.tolerance = length}).mesh.points.size());
+    CHECK(streamed.kept == tf::weld(folder.points(), {.tolerance = length}).mesh.points.size());
 }
 
 TEST_CASE("weld_stream: wherever it is cancelled nothing is written, and the next call goes on") {
@@ -147,8 +146,8 @@ TEST_CASE("weld_stream: what it cannot work with is refused") {
     try {
         tf::weld_stream(folder.inputs(), tf::weld_stream_outputs{}, options);
         FAIL("not refused");
-    } catch (const tf::stream_error& error) {
-        CHECK(error.why() == tf::stream_error::reason::folder_foreign);
+    } catch (const tf::io_error& error) {
+        CHECK(error.why() == tf::io_error::kind::folder_foreign);
         CHECK(error.path() == folder.work());
     }
     fs::remove_all(folder.work());
@@ -156,8 +155,8 @@ TEST_CASE("weld_stream: what it cannot work with is refused") {
     try {
         tf::weld_stream(folder.inputs(), tf::weld_stream_outputs{}, options);
         FAIL("not refused");
-    } catch (const tf::stream_error& error) {
-        CHECK(error.why() == tf::stream_error::reason::folder_in_use);
+    } catch (const tf::io_error& error) {
+        CHECK(error.why() == tf::io_error::kind::folder_in_use);
     }
 }
 

@@ -17,11 +17,6 @@ static_assert(TREEFORM_UINT64 == static_cast<int>(tf::scalar_type::uint64));
 static_assert(TREEFORM_SCALAR_FLOAT32 == static_cast<int>(tf::scalar_type::float32));
 static_assert(TREEFORM_SCALAR_FLOAT64 == static_cast<int>(tf::scalar_type::float64));
 
-void glue::fill(keeper&, const tf::named_column& from, treeform_named_column& to) {
-    to.name = from.name.c_str();
-    to.source = from.source.c_str();
-}
-
 void glue::fill(keeper&, const tf::io_warning& from, treeform_warning& to) {
     to.code = from.code.c_str();
     to.text = from.text.c_str();

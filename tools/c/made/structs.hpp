@@ -119,7 +119,6 @@ void fill(keeper& kept, const tf::align_result& from, treeform_align_result& to)
 void fill(keeper& kept, const tf::contact_region& from, treeform_contact_region& to);
 void fill(keeper& kept, const tf::part_clash& from, treeform_part_clash& to);
 void fill(keeper& kept, const tf::clash_result& from, treeform_clashes& to);
-void fill(keeper& kept, const tf::named_column& from, treeform_named_column& to);
 void fill(keeper& kept, const tf::io_warning& from, treeform_warning& to);
 void fill(keeper& kept, const tf::column& from, treeform_column& to);
 void fill(keeper& kept, const tf::element& from, treeform_rows& to);

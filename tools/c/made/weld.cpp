@@ -13,9 +13,6 @@ static_assert(TREEFORM_KEEP_LAST == static_cast<int>(tf::weld_keep::last));
 static_assert(TREEFORM_KEEP_MEAN == static_cast<int>(tf::weld_keep::mean));
 static_assert(TREEFORM_KEEP_LOWEST == static_cast<int>(tf::weld_keep::lowest));
 static_assert(TREEFORM_KEEP_HIGHEST == static_cast<int>(tf::weld_keep::highest));
-static_assert(TREEFORM_ORDER_GIVEN == static_cast<int>(tf::weld_order::given));
-static_assert(TREEFORM_ORDER_LOWEST == static_cast<int>(tf::weld_order::lowest));
-static_assert(TREEFORM_ORDER_HIGHEST == static_cast<int>(tf::weld_order::highest));
 
 void glue::fill(keeper&, const tf::weld_condition& from, treeform_weld_condition& to) {
     to.property = from.property.c_str();
@@ -42,8 +39,8 @@ tf::weld_options glue::read(const treeform_weld_options& o) {
 
     how.keep = choice<tf::weld_keep>(o.keep, 5, "keep");
     how.keep_by = text(o.keep_by);
-    how.order = choice<tf::weld_order>(o.order, 3, "order");
     how.order_by = text(o.order_by);
+    how.highest_first = o.highest_first != 0;
     how.only_borders = o.only_borders != 0;
     how.keep_manifold = o.keep_manifold != 0;
     how.keep_degenerate = o.keep_degenerate != 0;
@@ -59,7 +56,7 @@ void treeform_weld_options_init(treeform_weld_options* options, size_t size) {
     to.rule = static_cast<treeform_weld_rule>(from.rule);
     to.keep_seams = from.keep_seams;
     to.keep = static_cast<treeform_weld_keep>(from.keep);
-    to.order = static_cast<treeform_weld_order>(from.order);
+    to.highest_first = from.highest_first;
     to.only_borders = from.only_borders;
     to.keep_manifold = from.keep_manifold;
     to.keep_degenerate = from.keep_degenerate;

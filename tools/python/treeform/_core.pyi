@@ -287,7 +287,7 @@ class WeldOptions:
     defaults: dict[str, Any]
     def __init__(self, *, tolerance: float = ..., rule: str = ..., same: Same = ...,
                  keep_seams: bool = ..., across: list[str] = ..., keep: str = ...,
-                 keep_by: str = ..., order: str = ..., order_by: str = ...,
+                 keep_by: str = ..., order_by: str = ..., highest_first: bool = ...,
                  only_borders: bool = ..., keep_manifold: bool = ...,
                  keep_degenerate: bool = ...) -> None: ...
 
@@ -295,8 +295,8 @@ class WeldStreamOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
     def __init__(self, *, tolerance: float = ..., relative: bool = ..., rule: str = ...,
-                 same: Same = ..., keep: str = ..., keep_by: str = ..., order: str = ...,
-                 order_by: str = ..., keep_seams: bool = ..., across: list[str] = ...,
+                 same: Same = ..., keep: str = ..., keep_by: str = ..., order_by: str = ...,
+                 highest_first: bool = ..., keep_seams: bool = ..., across: list[str] = ...,
                  keep_degenerate: bool = ..., as_las: bool = ..., memory: Optional[int] = ...,
                  folder: str = ..., points_per_tile: Optional[int] = ...) -> None: ...
 

@@ -113,13 +113,6 @@ struct urdf_mesh {
     mesh shape{};
 };
 
-/// A robot as parts of an assembly: its links that have faces.
-struct robot_parts {
-    std::vector<mesh> parts{};           ///< [P] all meshes of a link as one, in its frame
-    std::vector<std::uint32_t> links{};  ///< [P] ascending
-    std::vector<std::array<std::uint32_t, 2>> adjacent{};  ///< `urdf_robot::adjacent`, by parts
-};
-
 /// A robot.
 struct urdf_robot {
     std::string name{};
@@ -133,10 +126,15 @@ struct urdf_robot {
     /// first, ascending.
     [[nodiscard]] TREEFORM_API std::vector<std::array<std::uint32_t, 2>> adjacent() const;
 
-    /// The links that have faces. `mesh_of_file` returns the mesh of a file; it is called in the
-    /// order of `meshes`, once for each mesh with a file.
-    [[nodiscard]] TREEFORM_API robot_parts
-    parts(const std::function<mesh(const std::filesystem::path&)>& mesh_of_file) const;
+    /// The same as numbers of `parts`, of those of which both links are among them.
+    [[nodiscard]] TREEFORM_API std::vector<std::array<std::uint32_t, 2>> adjacent(
+        std::span<const urdf_mesh> parts) const;
+
+    /// The robot as parts of an assembly: for each link that has faces, ascending, all its meshes
+    /// as one, a `shape` in the frame of the link. `mesh_of_file` returns the mesh of a file; it is
+    /// called in the order of `meshes`, once for each mesh with a file.
+    [[nodiscard]] TREEFORM_API std::vector<urdf_mesh> parts(
+        const std::function<mesh(const std::filesystem::path&)>& mesh_of_file) const;
 
     /// [L] Where each link is: from its own frame to that of the robot. Joints without a value are
     /// at 0, fixed ones stay, and those that mimic another follow it unless they have a value of

@@ -37,13 +37,6 @@ enum class weld_keep : std::uint8_t {
     highest  ///< the one with the greatest value of `keep_by`, otherwise as `lowest`
 };
 
-/// The order in which rules visit points.
-enum class weld_order : std::uint8_t {
-    given,   ///< by point number
-    lowest,  ///< by `order_by`, the least value first, NaN last; of equal ones the lowest-numbered
-    highest  ///< by `order_by`, the greatest value first, otherwise as `lowest`
-};
-
 /// A vertex property that must agree for two points to be merged.
 struct weld_condition {
     /// A column of the element "vertex" with one value a row; "x", "y" or "z" for a coordinate;
@@ -71,13 +64,14 @@ struct weld_options {
     std::vector<std::string> across{};
     weld_keep keep = weld_keep::first;
     std::string keep_by{};  ///< for `lowest` and `highest`: a property as in `weld_condition`
-    /// The order in which the rule visits points; the first point of a group in this order is kept.
-    /// Other values than `given` need `weld_keep::first`. Kept points stay in the order of their
-    /// numbers.
-    weld_order order = weld_order::given;
-    std::string order_by{};      ///< for `lowest` and `highest`: a property as in `weld_condition`
-    bool only_borders = false;   ///< merge only points on edges of exactly one face
-    bool keep_manifold = false;  ///< split groups that would make non-manifold edges or points
+    /// A property as in `weld_condition`: the rule visits points by its values, the least first,
+    /// NaN last, of equal ones the lowest-numbered; the first point of a group in this order is
+    /// kept. Needs `weld_keep::first`. Empty: by point number. Kept points stay in the order of
+    /// their numbers.
+    std::string order_by{};
+    bool highest_first = false;    ///< for `order_by`: the greatest value first
+    bool only_borders = false;     ///< merge only points on edges of exactly one face
+    bool keep_manifold = false;    ///< split groups that would make non-manifold edges or points
     bool keep_degenerate = false;  ///< keep faces that repeat a corner
     progress_callback progress{};
 

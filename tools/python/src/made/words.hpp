@@ -126,10 +126,6 @@ struct words_of<tf::weld_keep> {
     static constexpr words<5> all{"first", "last", "mean", "lowest", "highest"};
 };
 template <>
-struct words_of<tf::weld_order> {
-    static constexpr words<3> all{"given", "lowest", "highest"};
-};
-template <>
 struct words_of<tf::weld_rule> {
     static constexpr words<2> all{"first", "chain"};
 };

@@ -7,10 +7,16 @@
 /// The content of a mesh or point file: points, faces, all attributes.
 typedef struct treeform_file treeform_file;
 
+/// A column by the name that it gets.
+typedef struct treeform_named_column {
+    const char* name;    ///< "x", "intensity", ...
+    const char* source;  ///< what the heading calls it, or its number, from 1
+} treeform_named_column;
+
 // made of the headers of C++:
-//   read() read_mesh() named_column read_options read_as() read_memory() file_create()
-//   file_copy() scalar_type column element part io_warning mesh_file file_look()
-//   file_set_points() file_set_column() file_set_texture() file_add_part()
+//   read() read_mesh() read_options read_as() read_memory() file_create() file_copy()
+//   scalar_type column element part io_warning mesh_file file_look() file_set_points()
+//   file_set_column() file_set_texture() file_add_part()
 /// Reads the file at `path`, UTF-8; "-" is standard input. `format` is an extension without its
 /// dot ("stl", "ply", ...), or null: the content decides, then the extension. Coordinates are as
 /// stored.
@@ -21,18 +27,12 @@ TREEFORM_C_API treeform_code treeform_read(const char* path, const char* format,
 /// triangles that are not finite are left out. `treeform_read` and `treeform_as_mesh` tell which.
 TREEFORM_C_API treeform_code treeform_read_mesh(const char* path, treeform_mesh** mesh);
 
-/// A column of a table of text, by the name that it gets.
-typedef struct treeform_named_column {
-    const char* name;    ///< "x", "intensity", ...
-    const char* source;  ///< what the heading calls it, or its number, from 1
-} treeform_named_column;
-
 /// How to read.
 typedef struct treeform_read_options {
     size_t size;
     const char* format;  ///< null: by content
-    /// [column_count] Of XYZ, PTS and CSV: names for columns. Those for x, y and z are the
-    /// coordinates.
+    /// [column_count] Of XYZ, PTS and CSV: names for columns, such as {"x", "easting"}; what the
+    /// heading calls it, or its number, from 1. Those for x, y and z are the coordinates.
     const treeform_named_column* columns;
     size_t column_count;
     /// `mesh_file::drop_non_finite`, which a warning says; of `treeform_read` alone
@@ -236,7 +236,7 @@ typedef struct treeform_write_options {
     /// kind, also of corners.
     const char* const* drop;
     size_t drop_count;
-    /// [rename_count] of points: `source` is the column, `name` the new one
+    /// [rename_count] Of points: new names for columns, such as {"height", "z_value"}.
     const treeform_named_column* rename;
     size_t rename_count;
     /// [3] For LAS and LAZ; `TREEFORM_NONE`: those of the file, else chosen by `treeform_write`;

@@ -5,7 +5,7 @@
 #include <treeform/c/files.h>
 
 // made of the headers of C++:
-//   weld_rule weld_keep weld_order weld_condition weld_options weld_result weld() weld_file()
+//   weld_rule weld_keep weld_condition weld_options weld_result weld() weld_file()
 //   group_points() count_nearly_equal() count_still_within() withhold()
 /// The rule that forms groups.
 typedef int32_t treeform_weld_rule;
@@ -35,17 +35,6 @@ enum {
     TREEFORM_KEEP_LOWEST = 3,
     /// the one with the greatest value of `keep_by`, otherwise as `lowest`
     TREEFORM_KEEP_HIGHEST = 4
-};
-
-/// The order in which rules visit points.
-typedef int32_t treeform_weld_order;
-enum {
-    /// by point number
-    TREEFORM_ORDER_GIVEN = 0,
-    /// by `order_by`, the least value first, NaN last; of equal ones the lowest-numbered
-    TREEFORM_ORDER_LOWEST = 1,
-    /// by `order_by`, the greatest value first, otherwise as `lowest`
-    TREEFORM_ORDER_HIGHEST = 2
 };
 
 /// A vertex property that must agree for two points to be merged.
@@ -80,11 +69,10 @@ typedef struct treeform_weld_options {
     treeform_weld_keep keep;
     /// for `lowest` and `highest`: a property as in `treeform_weld_condition`
     const char* keep_by;
-    /// The order in which the rule visits points; the first point of a group in this order is
-    /// kept. Other values than `given` need `weld_keep::first`. Kept points stay in the order of
-    /// their numbers.
-    treeform_weld_order order;
-    /// for `lowest` and `highest`: a property as in `treeform_weld_condition`
+    /// A property as in `treeform_weld_condition`: the rule visits points by its values, the least
+    /// first, NaN last, of equal ones the lowest-numbered; the first point of a group in this
+    /// order is kept. Needs `weld_keep::first`. Empty: by point number. Kept points stay in the
+    /// order of their numbers.
     const char* order_by;
     int32_t only_borders;  ///< merge only points on edges of exactly one face
     /// split groups that would make non-manifold edges or points
@@ -92,6 +80,7 @@ typedef struct treeform_weld_options {
     int32_t keep_degenerate;  ///< keep faces that repeat a corner
     treeform_progress progress;
     void* progress_data;
+    int32_t highest_first;  ///< for `order_by`: the greatest value first
 } treeform_weld_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_weld_options_init(treeform_weld_options* options, size_t size);
@@ -102,7 +91,7 @@ typedef struct treeform_weld_result {
     treeform_arrays mesh;
     const uint32_t* group_of_point;  ///< [V] groups in the order of their first points
     size_t point_count;
-    /// [G] the first point of each group, ascending: the lowest-numbered, unless `order` is set
+    /// [G] the first point of each group, ascending: the lowest-numbered, unless `order_by` is set
     const uint32_t* first_of_group;
     const uint32_t* point_of_group;  ///< [G] input point that gave its properties
     size_t group_count;
