@@ -98,7 +98,7 @@ class StreamWeld(InSteps[_core.WeldInSteps]):
 
     def __init__(self, files: Path | Iterable[Path], tolerance: float = 0.0, *,
                  relative: bool = False, rule: str = "first", keep: str = "first",
-                 keep_by: str = "", order: str = "given", order_by: str = "",
+                 keep_by: str = "", order_by: str = "", highest_first: bool = False,
                  same: Mapping[str, float] | None = None, keep_seams: bool = False,
                  across: Iterable[str] = (),
                  keep_degenerate: bool = False, as_las: bool = False, memory: int = 0,
