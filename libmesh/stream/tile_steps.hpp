@@ -152,13 +152,13 @@ class tile_steps {
 
     [[nodiscard]] bool has_order() const { return !task_.options.order_by.empty(); }
     /// The rule first where it comes to the same: it holds fewer points.
-    [[nodiscard]] weld_rule rule() const;
+    [[nodiscard]] bool by_chain() const;
     [[nodiscard]] std::filesystem::path file(std::size_t t, const char* what) const;
     [[nodiscard]] std::size_t values() const { return keys_.agree().size(); }
     /// Numbers in a row of a tile's points, and of its border.
     [[nodiscard]] std::size_t point_width() const { return 4 + values(); }
     [[nodiscard]] std::size_t border_width() const {
-        return border_numbers + (rule() == weld_rule::first ? values() : 0);
+        return border_numbers + (!by_chain() ? values() : 0);
     }
     [[nodiscard]] weld::number_slices slices() const {
         return weld::number_slices(survey_.cloud.points);

@@ -42,7 +42,7 @@ std::string identity_of(const cloud_inputs& inputs, const weld_stream_options& o
         state.text(source);
     }
     state.number(inputs.mixed ? 1 : 0);
-    state.number(static_cast<std::uint64_t>(o.rule));
+    state.number(o.chain ? 1 : 0);
     state.real(o.tolerance);
     for (const weld_condition& c : o.same) {
         state.text(c.property);
@@ -83,10 +83,10 @@ detail::stream::tile_task task_of(cloud_inputs inputs, weld_stream_options optio
 /// difference, tiles do not do it.
 void check_soup(const mesh_file& header, const weld_stream_options& o) {
     if (header.indexed) return;
-    if (o.keep != weld_keep::first || (o.tolerance > 0.0 && o.rule == weld_rule::first))
+    if (o.keep != weld_keep::first || (o.tolerance > 0.0 && !o.chain))
         throw std::invalid_argument(
             "treeform::weld_stream: an STL is welded in tiles with weld_keep::first, and without a "
-            "tolerance or by weld_rule::chain; a PLY made of it is with all options");
+            "tolerance or by chains; a PLY made of it is with all options");
 }
 
 /// Whether files with these headers have the same values of what conditions look at. Coordinates

@@ -30,7 +30,6 @@ ENUMS = {
                                          "nothing_to_align": "ALIGN_NOTHING"}),
     "thick_side": ("treeform_thick_side", "THICK_"),
     "thickness_by": ("treeform_thickness_by", "THICKNESS_BY_"),
-    "weld_rule": ("treeform_weld_rule", "WELD_"),
     "weld_keep": ("treeform_weld_keep", "KEEP_"),
     "scalar_type": ("treeform_scalar", {"float32": "SCALAR_FLOAT32", "float64": "SCALAR_FLOAT64"}),
 }

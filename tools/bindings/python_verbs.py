@@ -26,8 +26,8 @@ _WELD = {
     "same": "vertex properties that must agree, with the largest difference.",
     "keep_seams": "normals, texture coordinates and colors must agree, except for those in "
                   "`across`.",
-    "rule": "'first' drops a point when an earlier kept one is within the tolerance; 'chain' makes "
-            "one point of all that steps of at most the tolerance link.",
+    "chain": "one point of all that steps of at most the tolerance link. By default a point is "
+             "dropped when an earlier kept one is within the tolerance.",
     "keep": "which point of a group stays: 'first', 'last', 'mean', 'lowest' or 'highest' of "
             "`keep_by`.",
     "keep_by": "a property of vertices.",

@@ -41,7 +41,7 @@ tf::weld_stream_options library_options(job& work, const weld_request& request,
     tf::weld_stream_options options;
     options.tolerance = tolerance.value;
     options.relative = tolerance.relative;
-    options.rule = asked.rule;
+    options.chain = asked.chain;
     options.same = asked.same;
     options.keep = asked.keep;
     options.keep_by = asked.keep_by;

@@ -32,7 +32,7 @@ void add_what_is_merged(command_line& line, weld_settings& s, bool& exact) {
                  "kept one is within DIST\n"
                  "chain: merge all points linked by steps of DIST",
                  "first"},
-                [&s](std::string_view text) { s.options.rule = tools::parse_rule(text); });
+                [&s](std::string_view text) { tools::parse_rule(text, s.options); });
     line.offer("--rule", {"first", "chain"});
     line.option({"--same", "P[=TOL],...",
                  "merge only if property P agrees, too (within TOL),\n"

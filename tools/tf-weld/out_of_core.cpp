@@ -53,7 +53,7 @@ std::string what_needs_memory(const job& work, const weld_request& request,
     const auto path = mesh_output(work.options, work.path);
     if (!header.indexed && chooses) return "--keep of an STL";
     if (!header.indexed && !request.outputs.label.empty()) return "--label of an STL";
-    if (!header.indexed && request.settings.tolerance.value > 0.0 && o.rule == tf::weld_rule::first)
+    if (!header.indexed && request.settings.tolerance.value > 0.0 && !o.chain)
         return "-t of an STL (not of a PLY that tf-weld without -t makes of it)";
     const std::string format = path ? form_of(work, header, *path).format : std::string();
     if (path && !is_of_blocks(format, is_mesh))

@@ -92,10 +92,10 @@ void check_properties(const job& work, const tf::mesh_file& file) {
     }
 }
 
-tf::weld_rule parse_rule(std::string_view text) {
-    if (text == "first") return tf::weld_rule::first;
-    if (text == "chain") return tf::weld_rule::chain;
-    refuse("--rule " + std::string(text) + ": expected first or chain");
+void parse_rule(std::string_view text, tf::weld_options& options) {
+    if (text != "first" && text != "chain")
+        refuse("--rule " + std::string(text) + ": expected first or chain");
+    options.chain = text == "chain";
 }
 
 std::vector<tf::weld_condition> parse_same(std::string_view text) {
@@ -142,7 +142,9 @@ std::string keep_in_words(const tf::weld_options& options) {
     return words[static_cast<std::size_t>(options.keep)] + options.keep_by;
 }
 
-const char* name_of(tf::weld_rule rule) { return rule == tf::weld_rule::first ? "first" : "chain"; }
+const char* rule_in_words(const tf::weld_options& options) {
+    return options.chain ? "chain" : "first";
+}
 
 failure property_failure(const tf::weld_property_error& error, const tf::attributes& known) {
     const std::string option = error.option() == "keep_by"    ? "--keep "

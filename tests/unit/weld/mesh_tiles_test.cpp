@@ -206,7 +206,7 @@ TEST_CASE("mesh tiles: faces of one length, text, facets of STL and OBJ are shar
                 CAPTURE(out);
                 tf::weld_stream_options options;
                 options.tolerance = tolerance;
-                options.rule = tf::weld_rule::chain;
+                options.chain = true;
                 options.points_per_tile = 200;
                 check_teams(here.path / name, here.path / out, options);
             }

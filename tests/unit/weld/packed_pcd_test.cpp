@@ -182,7 +182,7 @@ TEST_CASE(
         work.options.folder = path / "work";
         work.options.tolerance = 0.05;
         work.options.points_per_tile = 300;
-        if (round % 3 == 1) work.options.rule = tf::weld_rule::chain;
+        if (round % 3 == 1) work.options.chain = true;
         if (round % 4 == 2) work.options.keep = tf::weld_keep::mean;
         if (round % 4 == 3) {
             work.options.order_by = "shade";

@@ -45,14 +45,14 @@ ids in_order(const std::vector<double>& values, bool lowest) {
 
 /// The survivor that each point belongs to, `linked` being of points as they are numbered.
 template <class Linked>
-ids survivors(const tf::mesh& cloud, const ids& order, tf::weld_rule rule, const Linked& linked) {
+ids survivors(const tf::mesh& cloud, const ids& order, bool chain, const Linked& linked) {
     std::vector<tf::point3> sorted;
     for (const std::uint32_t i : order) sorted.push_back(cloud.points[i]);
     const auto sorted_linked = [&](std::uint32_t i, std::uint32_t j) {
         return linked(order[i], order[j]);
     };
-    const ids first = rule == tf::weld_rule::first ? tf::test::brute_leaders(sorted, sorted_linked)
-                                                   : tf::test::brute_chains(sorted, sorted_linked);
+    const ids first = !chain ? tf::test::brute_leaders(sorted, sorted_linked)
+                             : tf::test::brute_chains(sorted, sorted_linked);
     ids survivor(order.size());
     for (std::size_t k = 0; k < order.size(); ++k) survivor[order[k]] = order[first[k]];
     return survivor;
@@ -123,11 +123,11 @@ TEST_CASE("weld: in any order the groups are those of the definition") {
         };
         for (const unsigned asked : {0U, 1U, 2U, 4U, 8U, 13U})
             for (const double tolerance : {0.0, 1.0, 1.5})
-                for (const auto rule : {tf::weld_rule::first, tf::weld_rule::chain})
+                for (const bool chain : {false, true})
                     for (const bool highest_first : {false, true}) {
                         CAPTURE(asked);
                         CAPTURE(tolerance);
-                        tf::weld_options options{.tolerance = tolerance, .rule = rule};
+                        tf::weld_options options{.tolerance = tolerance, .chain = chain};
                         options.order_by = "rank";
                         options.highest_first = highest_first;
                         if ((asked & 1U) != 0) options.label = label;
@@ -146,7 +146,7 @@ TEST_CASE("weld: in any order the groups are those of the definition") {
                         };
                         const auto sorted = in_order(rank, !highest_first);
                         check_survivors(tf::weld(cloud.points, properties, options),
-                                        survivors(cloud, sorted, rule, linked));
+                                        survivors(cloud, sorted, chain, linked));
                     }
     }
 }

@@ -207,12 +207,12 @@ TEST_CASE("weld_team: any number of processes write what one writes") {
     std::size_t turn = 0;
     for (const auto& points : families(500, random)) {
         folder.put(points, random);
-        for (const tf::weld_rule rule : {tf::weld_rule::first, tf::weld_rule::chain})
+        for (const bool chain : {false, true})
             for (const std::size_t c : {std::size_t{0}, 1 + turn % (choices.size() - 1)}) {
                 const std::string format = ++turn % 3 == 0 ? "csv" : "ply";
                 job work = folder.work(format);
                 work.options.tolerance = 0.02;
-                work.options.rule = rule;
+                work.options.chain = chain;
                 choices[c](work.options);
                 work.options.points_per_tile = 60 + 40 * (turn % 4);
                 CAPTURE(turn);
@@ -258,7 +258,7 @@ TEST_CASE("weld_team: killed at any step, another number of processes goes on to
         folder.put(all[random.below(all.size())], random);
         job work = folder.work("ply");
         work.options.tolerance = 0.03;
-        work.options.rule = random.below(2) == 0 ? tf::weld_rule::first : tf::weld_rule::chain;
+        work.options.chain = random.below(2) != 0;
         choices[static_cast<std::size_t>(round) % choices.size()](work.options);
         work.options.points_per_tile = 60;
         const auto one = weld_alone(work);
@@ -377,7 +377,7 @@ TEST_CASE("weld_team: maps and labels are those of one") {
             folder.put(all[turn % all.size()], random);
             job work = folder.work("ply");
             work.options.tolerance = 0.05;
-            work.options.rule = turn % 2 == 0 ? tf::weld_rule::first : tf::weld_rule::chain;
+            work.options.chain = turn % 2 != 0;
             choose(work.options);
             work.options.points_per_tile = 150;
             std::vector<std::uint64_t> map;

@@ -11,7 +11,7 @@ tf::weld_stream_options glue::read(const treeform_weld_stream_options& o) {
     tf::weld_stream_options how;
     how.tolerance = o.tolerance;
     how.relative = o.relative != 0;
-    how.rule = choice<tf::weld_rule>(o.rule, 2, "rule");
+    how.chain = o.chain != 0;
     how.same = conditions(o.same, o.same_count, "same");
 
     how.keep = choice<tf::weld_keep>(o.keep, 5, "keep");
@@ -37,7 +37,7 @@ void treeform_weld_stream_options_init(treeform_weld_stream_options* options, si
     const tf::weld_stream_options from;
     to.tolerance = from.tolerance;
     to.relative = from.relative;
-    to.rule = static_cast<treeform_weld_rule>(from.rule);
+    to.chain = from.chain;
     to.keep = static_cast<treeform_weld_keep>(from.keep);
     to.highest_first = from.highest_first;
     to.keep_seams = from.keep_seams;

@@ -6,8 +6,6 @@
 
 namespace tf = treeform;
 
-static_assert(TREEFORM_WELD_FIRST == static_cast<int>(tf::weld_rule::first));
-static_assert(TREEFORM_WELD_CHAIN == static_cast<int>(tf::weld_rule::chain));
 static_assert(TREEFORM_KEEP_FIRST == static_cast<int>(tf::weld_keep::first));
 static_assert(TREEFORM_KEEP_LAST == static_cast<int>(tf::weld_keep::last));
 static_assert(TREEFORM_KEEP_MEAN == static_cast<int>(tf::weld_keep::mean));
@@ -25,7 +23,7 @@ tf::weld_options glue::read(const treeform_weld_options* options) {
 tf::weld_options glue::read(const treeform_weld_options& o) {
     tf::weld_options how;
     how.tolerance = o.tolerance;
-    how.rule = choice<tf::weld_rule>(o.rule, 2, "rule");
+    how.chain = o.chain != 0;
     how.label = array(o.label, o.label_count, "label");
 
     if (o.may_merge)
@@ -53,7 +51,7 @@ void treeform_weld_options_init(treeform_weld_options* options, size_t size) {
     treeform_weld_options to{};
     const tf::weld_options from;
     to.tolerance = from.tolerance;
-    to.rule = static_cast<treeform_weld_rule>(from.rule);
+    to.chain = from.chain;
     to.keep_seams = from.keep_seams;
     to.keep = static_cast<treeform_weld_keep>(from.keep);
     to.highest_first = from.highest_first;

@@ -285,7 +285,7 @@ class StreamSearchOptions:
 class WeldOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
-    def __init__(self, *, tolerance: float = ..., rule: str = ..., same: Same = ...,
+    def __init__(self, *, tolerance: float = ..., chain: bool = ..., same: Same = ...,
                  keep_seams: bool = ..., across: list[str] = ..., keep: str = ...,
                  keep_by: str = ..., order_by: str = ..., highest_first: bool = ...,
                  only_borders: bool = ..., keep_manifold: bool = ...,
@@ -294,7 +294,7 @@ class WeldOptions:
 class WeldStreamOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
-    def __init__(self, *, tolerance: float = ..., relative: bool = ..., rule: str = ...,
+    def __init__(self, *, tolerance: float = ..., relative: bool = ..., chain: bool = ...,
                  same: Same = ..., keep: str = ..., keep_by: str = ..., order_by: str = ...,
                  highest_first: bool = ..., keep_seams: bool = ..., across: list[str] = ...,
                  keep_degenerate: bool = ..., as_las: bool = ..., memory: Optional[int] = ...,

@@ -97,7 +97,7 @@ class StreamWeld(InSteps[_core.WeldInSteps]):
     """
 
     def __init__(self, files: Path | Iterable[Path], tolerance: float = 0.0, *,
-                 relative: bool = False, rule: str = "first", keep: str = "first",
+                 relative: bool = False, chain: bool = False, keep: str = "first",
                  keep_by: str = "", order_by: str = "", highest_first: bool = False,
                  same: Mapping[str, float] | None = None, keep_seams: bool = False,
                  across: Iterable[str] = (),
@@ -124,7 +124,7 @@ class StreamWeld(InSteps[_core.WeldInSteps]):
 
 # made of headers:
 #   weld count_nearly_equal WeldStreamResult weld_stream
-def weld(mesh_or_points: Body, tolerance: float = 0.0, *, rule: str = "first",
+def weld(mesh_or_points: Body, tolerance: float = 0.0, *, chain: bool = False,
          same: Mapping[str, float] | None = None, keep_seams: bool = False,
          across: Iterable[str] = (), keep: str = "first", keep_by: str = "", order_by: str = "",
          highest_first: bool = False, only_borders: bool = False, keep_manifold: bool = False,
@@ -166,8 +166,8 @@ def weld(mesh_or_points: Body, tolerance: float = 0.0, *, rule: str = "first",
 
     mesh_or_points: a mesh, points (n, 3), or anything with `points` or `vertices` and no faces.
     tolerance: Euclidean, inclusive; 0: equal coordinates (-0 equals +0).
-    rule: 'first' drops a point when an earlier kept one is within the tolerance; 'chain' makes one
-        point of all that steps of at most the tolerance link.
+    chain: one point of all that steps of at most the tolerance link. By default a point is dropped
+        when an earlier kept one is within the tolerance.
     same: vertex properties that must agree, with the largest difference.
     keep_seams: normals, texture coordinates and colors must agree, except for those in `across`.
     across: properties that `keep_seams` does not look at.
@@ -243,7 +243,7 @@ class WeldStreamResult(Result):
 
 
 def weld_stream(files: Path | Iterable[Path], out: Path, tolerance: float = 0.0, *,
-                relative: bool = False, rule: str = "first",
+                relative: bool = False, chain: bool = False,
                 same: Mapping[str, float] | None = None, keep: str = "first", keep_by: str = "",
                 order_by: str = "", highest_first: bool = False, keep_seams: bool = False,
                 across: Iterable[str] = (), keep_degenerate: bool = False, as_las: bool = False,
@@ -255,15 +255,15 @@ def weld_stream(files: Path | Iterable[Path], out: Path, tolerance: float = 0.0,
     writes the outputs. Each output appears whole or not at all. One PLY or binary STL alone may be
     a mesh: as `weld` would, faces get their new corners, and those that collapse are left out. Each
     rank has a share of points and of faces. Meshes need `out` as PLY or OBJ; an STL no tolerance,
-    or 'chain'.
+    or `chain`.
 
     The bytes of the outputs are those of `weld` of the whole.
 
     files: one or several, as one cloud; or one mesh.
     tolerance: as for `weld`.
     relative: `tolerance` is a share of the diagonal of the cloud's box.
-    rule: 'first' drops a point when an earlier kept one is within the tolerance; 'chain' makes one
-        point of all that steps of at most the tolerance link.
+    chain: one point of all that steps of at most the tolerance link. By default a point is dropped
+        when an earlier kept one is within the tolerance.
     same: vertex properties that must agree, with the largest difference.
     keep: which point of a group stays: 'first', 'last', 'mean', 'lowest' or 'highest' of `keep_by`.
     keep_by: a property of vertices.

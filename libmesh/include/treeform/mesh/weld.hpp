@@ -170,7 +170,7 @@ struct file_weld_result {
 [[nodiscard]] TREEFORM_API std::optional<std::uint64_t> count_still_within(
     const mesh_file& welded, const weld_options& options, precision written_as);
 
-/// Only the groups, for callers who merge their own arrays. Of `options`, it uses tolerance, rule,
+/// Only the groups, for callers who merge their own arrays. Of `options`, it uses tolerance, chain,
 /// label, may_merge and progress.
 ///
 /// \throws std::invalid_argument as `weld`

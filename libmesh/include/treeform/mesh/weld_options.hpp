@@ -15,18 +15,6 @@
 
 namespace treeform {
 
-/// The rule that forms groups.
-enum class weld_rule : std::uint8_t {
-    /// Visits points in order, and drops a point if an earlier kept point is within the tolerance.
-    /// The dropped point joins the nearest of these kept points, and the earliest of equally near
-    /// ones. So no two kept points are within the tolerance, no point is further than the tolerance
-    /// from the kept point of its group, and welding the kept points again changes nothing.
-    first,
-    /// All points linked by steps of at most the tolerance are one group. Its earliest point is
-    /// kept. A point may be many tolerances away from that point.
-    chain
-};
-
 /// Which point of a group is kept, with its coordinates and properties.
 enum class weld_keep : std::uint8_t {
     first,   ///< the lowest-numbered; kept points do not move
@@ -50,7 +38,14 @@ struct weld_condition {
 /// How to weld. Most callers only set `tolerance`.
 struct weld_options {
     double tolerance = 0.0;  ///< Euclidean, inclusive; 0: equal coordinates (-0 equals +0)
-    weld_rule rule = weld_rule::first;
+    /// The rule that forms groups. By default, the rule `first`: visits points in order, and drops
+    /// a point if an earlier kept point is within the tolerance. The dropped point joins the nearest
+    /// of these kept points, and the earliest of equally near ones. So no two kept points are within
+    /// the tolerance, no point is further than the tolerance from the kept point of its group, and
+    /// welding the kept points again changes nothing. With `chain`, all points linked by steps of at
+    /// most the tolerance are one group. Its earliest point is kept. A point may be many tolerances
+    /// away from that point.
+    bool chain = false;
     /// [V] or empty: points with different labels are never merged.
     std::span<const std::uint32_t> label{};
     /// Empty, or a function that tells whether two points may be merged. Called for pairs within

@@ -37,7 +37,7 @@ namespace treeform {
 struct weld_stream_options {
     double tolerance = 0.0;  ///< as in `weld_options`
     bool relative = false;   ///< `tolerance` is a share of the diagonal of the cloud's box
-    weld_rule rule = weld_rule::first;
+    bool chain = false;      ///< as in `weld_options`
     std::vector<weld_condition> same{};  ///< as in `weld_options`, and so are the next four
     weld_keep keep = weld_keep::first;   ///< others need points without lists
     std::string keep_by{};
@@ -69,7 +69,7 @@ struct weld_stream_options {
                                                                    std::uint64_t points);
 
     /// The least `memory` with which `points` points can be welded in tiles. Where
-    /// points are crowded, and by `weld_rule::chain`, the limit may turn out higher
+    /// points are crowded, and with `chain`, the limit may turn out higher
     /// (`io_error::kind::memory`).
     [[nodiscard]] TREEFORM_API static std::uint64_t memory_to_stream(const mesh_file& header,
                                                                      std::uint64_t points);
@@ -141,7 +141,7 @@ struct weld_stream_result {
 /// writes the outputs. Each output appears whole or not at all. One PLY or binary STL alone may
 /// be a mesh: as `weld` would, faces get their new corners, and those that collapse are left out.
 /// Each rank has a share of points and of faces. Meshes need `welded` as PLY or OBJ; an STL no
-/// tolerance, or `weld_rule::chain`.
+/// tolerance, or `chain`.
 ///
 /// \throws io_error when an input cannot be read or an output cannot be written, or for the folder;
 ///         std::invalid_argument for a tolerance below 0 or not finite, and as `weld`

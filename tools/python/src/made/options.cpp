@@ -120,7 +120,7 @@ void each_field(tf::stream_search_options& how, const Visit& visit) {
 template <class Visit>
 void each_field(tf::weld_options& how, const Visit& visit) {
     visit("tolerance", how.tolerance);
-    visit("rule", how.rule);
+    visit("chain", how.chain);
     visit("same", how.same);
     visit("keep_seams", how.keep_seams);
     visit("across", how.across);
@@ -137,7 +137,7 @@ template <class Visit>
 void each_field(tf::weld_stream_options& how, const Visit& visit) {
     visit("tolerance", how.tolerance);
     visit("relative", how.relative);
-    visit("rule", how.rule);
+    visit("chain", how.chain);
     visit("same", how.same);
     visit("keep", how.keep);
     visit("keep_by", how.keep_by);

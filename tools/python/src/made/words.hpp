@@ -125,9 +125,5 @@ template <>
 struct words_of<tf::weld_keep> {
     static constexpr words<5> all{"first", "last", "mean", "lowest", "highest"};
 };
-template <>
-struct words_of<tf::weld_rule> {
-    static constexpr words<2> all{"first", "chain"};
-};
 
 }  // namespace binding

@@ -11,13 +11,14 @@ typedef struct treeform_weld_stream_options {
     size_t size;
     double tolerance;  ///< as in `treeform_weld_options`
     int32_t relative;  ///< `tolerance` is a share of the diagonal of the cloud's box
-    treeform_weld_rule rule;
+    int32_t chain;     ///< as in `treeform_weld_options`
     /// [same_count] as in `treeform_weld_options`, and so are the next four
     const treeform_weld_condition* same;
     size_t same_count;
     treeform_weld_keep keep;  ///< others need points without lists
     const char* keep_by;
     const char* order_by;
+    int32_t highest_first;
     /// Coordinates, and means of them, are rounded to the steps of the first file if it is LAS,
     /// else to those of `round_to_las`, before anything is decided of them.
     int32_t as_las;
@@ -46,7 +47,6 @@ typedef struct treeform_weld_stream_options {
     size_t column_count;
     /// join LAS of other reference systems or time types, which are then the first's
     int32_t mixed;
-    int32_t highest_first;
 } treeform_weld_stream_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_weld_stream_options_init(treeform_weld_stream_options* options,

@@ -5,22 +5,8 @@
 #include <treeform/c/files.h>
 
 // made of the headers of C++:
-//   weld_rule weld_keep weld_condition weld_options weld_result weld() weld_file()
-//   group_points() count_nearly_equal() count_still_within() withhold()
-/// The rule that forms groups.
-typedef int32_t treeform_weld_rule;
-enum {
-    /// Visits points in order, and drops a point if an earlier kept point is within the tolerance.
-    /// The dropped point joins the nearest of these kept points, and the earliest of equally near
-    /// ones. So no two kept points are within the tolerance, no point is further than the
-    /// tolerance from the kept point of its group, and welding the kept points again changes
-    /// nothing.
-    TREEFORM_WELD_FIRST = 0,
-    /// All points linked by steps of at most the tolerance are one group. Its earliest point is
-    /// kept. A point may be many tolerances away from that point.
-    TREEFORM_WELD_CHAIN = 1
-};
-
+//   weld_keep weld_condition weld_options weld_result weld() weld_file() group_points()
+//   count_nearly_equal() count_still_within() withhold()
 /// Which point of a group is kept, with its coordinates and properties.
 typedef int32_t treeform_weld_keep;
 enum {
@@ -51,7 +37,14 @@ typedef struct treeform_weld_condition {
 typedef struct treeform_weld_options {
     size_t size;
     double tolerance;  ///< Euclidean, inclusive; 0: equal coordinates (-0 equals +0)
-    treeform_weld_rule rule;
+    /// The rule that forms groups. By default, the rule `first`: visits points in order, and drops
+    /// a point if an earlier kept point is within the tolerance. The dropped point joins the
+    /// nearest of these kept points, and the earliest of equally near ones. So no two kept points
+    /// are within the tolerance, no point is further than the tolerance from the kept point of its
+    /// group, and welding the kept points again changes nothing. With `chain`, all points linked
+    /// by steps of at most the tolerance are one group. Its earliest point is kept. A point may be
+    /// many tolerances away from that point.
+    int32_t chain;
     /// [V] or empty: points with different labels are never merged; or null
     const uint32_t* label;
     size_t label_count;
@@ -74,13 +67,13 @@ typedef struct treeform_weld_options {
     /// order is kept. Needs `weld_keep::first`. Empty: by point number. Kept points stay in the
     /// order of their numbers.
     const char* order_by;
-    int32_t only_borders;  ///< merge only points on edges of exactly one face
+    int32_t highest_first;  ///< for `order_by`: the greatest value first
+    int32_t only_borders;   ///< merge only points on edges of exactly one face
     /// split groups that would make non-manifold edges or points
     int32_t keep_manifold;
     int32_t keep_degenerate;  ///< keep faces that repeat a corner
     treeform_progress progress;
     void* progress_data;
-    int32_t highest_first;  ///< for `order_by`: the greatest value first
 } treeform_weld_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_weld_options_init(treeform_weld_options* options, size_t size);
