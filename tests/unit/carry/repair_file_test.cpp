@@ -109,9 +109,8 @@ TEST_CASE("repair_file: a part that is no solid is named, with the numbers of th
     const tf::repaired_file cancelled =
         tf::repair_file({&file}, {.progress = [](double) { return false; }});
     CHECK(cancelled.certificate.status == tf::status::cancelled);
-    CHECK(tf::find_solid_defects({&file}, [](double) {
-              return false;
-          }).status == tf::status::cancelled);
+    CHECK(tf::find_solid_defects({&file}, [](double) { return false; }).status ==
+          tf::status::cancelled);
 }
 
 TEST_CASE("repair_file: coplanar faces are merged, but not where that would mix values") {
