@@ -207,8 +207,8 @@ FUNCTIONS = [
                             "touches in an edge or a vertex.",
                    "keep_cuts": "as in `boolean`; faces that fill holes are merged with each other "
                                 "alone.",
-                   "inside": "'nonzero', 'odd' or 'positive': what is solid. By default 'positive' where "
-                             "each shell looks outward, else 'nonzero', or labels."}),
+                   "inside": "'nonzero', 'odd' or 'positive': what is solid. By default 'positive' "
+                             "where each shell looks outward, else 'nonzero', or labels."}),
     Function("wrap(mesh: Mesh, size: float, options: offset_options) -> OffsetResult",
              "tf::wrap($mesh, size, options)", kind="long_work", check="mesh",
              leave="resolution"),

@@ -141,8 +141,8 @@ struct file_weld_result {
 ///         empty or nearly always true. Parallel, except rule `first` for points with several
 ///         others within the tolerance, if points come row by row or few are kept. Memory besides
 ///         the result: up to 36 bytes a point (50 for dense chains, 110 with `tree`), 40 more with
-///         `order_by`; 24 bytes a face, 100 with `keep_manifold`; 8 bytes a point for each property in
-///         a condition
+///         `order_by`; 24 bytes a face, 100 with `keep_manifold`; 8 bytes a point for each property
+///         in a condition
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API weld_result weld(const mesh_ref& mesh, const weld_options& options = {});
 

@@ -39,12 +39,12 @@ struct weld_condition {
 struct weld_options {
     double tolerance = 0.0;  ///< Euclidean, inclusive; 0: equal coordinates (-0 equals +0)
     /// The rule that forms groups. By default, the rule `first`: visits points in order, and drops
-    /// a point if an earlier kept point is within the tolerance. The dropped point joins the nearest
-    /// of these kept points, and the earliest of equally near ones. So no two kept points are within
-    /// the tolerance, no point is further than the tolerance from the kept point of its group, and
-    /// welding the kept points again changes nothing. With `chain`, all points linked by steps of at
-    /// most the tolerance are one group. Its earliest point is kept. A point may be many tolerances
-    /// away from that point.
+    /// a point if an earlier kept point is within the tolerance. The dropped point joins the
+    /// nearest of these kept points, and the earliest of equally near ones. So no two kept points
+    /// are within the tolerance, no point is further than the tolerance from the kept point of its
+    /// group, and welding the kept points again changes nothing. With `chain`, all points linked by
+    /// steps of at most the tolerance are one group. Its earliest point is kept. A point may be
+    /// many tolerances away from that point.
     bool chain = false;
     /// [V] or empty: points with different labels are never merged.
     std::span<const std::uint32_t> label{};
