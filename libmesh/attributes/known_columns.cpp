@@ -179,7 +179,7 @@ void look_at_ranges(const element& rows, std::vector<value_range>& seen) {
 
 translation::translation(const element& columns, std::string_view from, std::string_view to,
                          std::span<const value_range> ranges, std::span<const std::string> drop,
-                         std::span<const named_column> rename)
+                         std::span<const std::pair<std::string, std::string>> rename)
     : to_(family_of(to)),
       from_words_(dialect_of(from)),
       to_words_(dialect_of(to)),
@@ -213,12 +213,12 @@ void translation::choose(element& columns, std::span<const std::string> drop,
         for (const std::string& column : meant) done[find(column)] = true;
         if (meant.empty()) done[find(name)] = true;  // which says that it is not there
     }
-    for (const named_column& r : renamed_) {
-        const std::size_t at = find(r.source);
-        if (columns.find(r.name) != nullptr)
-            throw std::invalid_argument("treeform::write: there is a property '" + r.name +
+    for (const auto& [name, source] : renamed_) {
+        const std::size_t at = find(source);
+        if (columns.find(name) != nullptr)
+            throw std::invalid_argument("treeform::write: there is a property '" + name +
                                         "' already");
-        columns.columns[at].name = r.name;
+        columns.columns[at].name = name;
     }
     // What is dropped is no part of anything.
     for (std::size_t i = 0; i < done.size(); ++i)
@@ -231,8 +231,8 @@ void translation::say(std::string code, std::string text) {
 }
 
 const value_range* translation::range_of(std::string_view column) const {
-    for (const named_column& r : renamed_)
-        if (r.name == column) column = r.source;
+    for (const auto& [name, source] : renamed_)
+        if (name == column) column = source;
     const auto at = std::ranges::find(ranges_, column, &value_range::column);
     return at == ranges_.end() ? nullptr : &*at;
 }

@@ -15,6 +15,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace treeform::detail::attribute {
@@ -79,7 +80,7 @@ class translation {
     /// \throws std::invalid_argument naming one that is not there, or is there twice then
     translation(const element& columns, std::string_view from, std::string_view to,
                 std::span<const value_range> ranges, std::span<const std::string> drop,
-                std::span<const named_column> rename);
+                std::span<const std::pair<std::string, std::string>> rename);
 
     /// Whether anything is to be done.
     [[nodiscard]] bool changes() const { return changes_; }
@@ -116,7 +117,7 @@ class translation {
     dialect from_words_;
     dialect to_words_;
     std::span<const value_range> ranges_;
-    std::span<const named_column> renamed_;
+    std::span<const std::pair<std::string, std::string>> renamed_;
     bool is_same_;  ///< format
     bool changes_ = false;
     bool keeps_floats_ = false;  ///< of colors

@@ -122,11 +122,6 @@ class repair_of_parts {
     std::vector<std::uint32_t> vertex_source_{};
 };
 
-std::vector<solid_part> parts_of(const carry_source& input, repair_scope scope) {
-    return scope == repair_scope::each_part ? detail::carry::solid_parts(input)
-                                            : std::vector<solid_part>{};
-}
-
 /// Whether merging faces may mix values.
 class mixing {
   public:
@@ -166,9 +161,9 @@ class faces_done {
 
 }  // namespace
 
-repaired_file repair_file(const carry_source& input, const repair_options& options,
-                          repair_scope scope) {
-    const std::vector<solid_part> parts = parts_of(input, scope);
+repaired_file repair_file(const carry_source& input, const repair_options& options) {
+    std::vector<solid_part> parts;
+    if (!options.as_one) parts = detail::carry::solid_parts(input);
     repair_of_parts all(input);
     repair_options how = options;
     if (parts.empty()) {
@@ -191,9 +186,8 @@ repaired_file repair_file(const carry_source& input, const repair_options& optio
     return all.finish();
 }
 
-solid_defects find_solid_defects(const carry_source& input, repair_scope scope,
-                                 const progress_callback& progress) {
-    const std::vector<solid_part> parts = parts_of(input, scope);
+solid_defects find_solid_defects(const carry_source& input, const progress_callback& progress) {
+    const std::vector<solid_part> parts = detail::carry::solid_parts(input);
     if (parts.empty()) return find_solid_defects(input.file->mesh, progress);
     faces_done part_of(progress, input.file->mesh.faces.size());
     solid_defects all;

@@ -65,7 +65,7 @@ inline constexpr std::size_t sample_size = std::size_t{1} << 17;
 /// records. An STL has the faces of the part. Of a PLY the points of the part are put into what
 /// `make_store` gives for so many of them.
 ///
-/// \throws io_error; `needs_all()` for a PLY that `has_rows_to_look_at` is not true of
+/// \throws io_error; of `kind::blocks` for a PLY that `has_rows_to_look_at` is not true of
 [[nodiscard]] face_rows open_stl_faces(const source& in, const file_part& part = {});
 [[nodiscard]] face_rows open_ply_faces(
     const source& in, const std::function<std::unique_ptr<point_store>(std::size_t)>& make_store,

@@ -306,7 +306,7 @@ bool has_rows_to_look_at(const source& ply) {
         static_cast<void>(sort_elements(ply, header.elements, row_use::looked_at));
         return true;
     } catch (const io_error& error) {
-        if (!error.needs_all()) throw;
+        if (error.why() != io_error::kind::blocks) throw;
         return false;
     }
 }

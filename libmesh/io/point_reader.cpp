@@ -2,6 +2,7 @@
 #include <treeform/mesh/point_stream.hpp>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace treeform {
@@ -22,8 +23,12 @@ point_reader& point_reader::operator=(point_reader&&) noexcept = default;
 
 const mesh_file& point_reader::header() const { return state_->blocks.header(); }
 std::optional<std::uint64_t> point_reader::count() const { return state_->blocks.count(); }
-bool point_reader::read(point_block& block, std::size_t most) {
-    return state_->blocks.read(block, most);
+bool point_reader::read(std::vector<point3>& points, element& properties, std::size_t most) {
+    detail::io::point_block block{std::move(points), std::move(properties)};
+    const bool some = state_->blocks.read(block, most);
+    points = std::move(block.points);
+    properties = std::move(block.properties);
+    return some;
 }
 bool point_reader::read(detail::io::row_block& block, std::size_t most) {
     return state_->blocks.read(block, most);

@@ -17,6 +17,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace treeform::detail::io {
@@ -66,7 +67,7 @@ struct point_rows {
 /// ahead of the last mark of what is `known` of them, which must outlive what comes back. XYZ is
 /// read once if nothing is.
 ///
-/// \throws io_error; `needs_all()` also for a PLY that has rows which `use` has not, as
+/// \throws io_error; of `kind::blocks` also for a PLY that has rows which `use` has not, as
 ///         `point_reader`
 [[nodiscard]] point_rows open_ply_points(const source& in, std::uint64_t first = 0,
                                          row_use use = row_use::none,
@@ -81,10 +82,10 @@ struct point_rows {
                                          const record_index* known = nullptr,
                                          const byte_getter* unpacked = nullptr);
 [[nodiscard]] point_rows open_las_points(const source& in, std::uint64_t first = 0);
-[[nodiscard]] point_rows open_xyz_points(const source& in, std::string_view format,
-                                         std::uint64_t first = 0,
-                                         const record_index* known = nullptr,
-                                         std::span<const named_column> columns = {});
+[[nodiscard]] point_rows open_xyz_points(
+    const source& in, std::string_view format, std::uint64_t first = 0,
+    const record_index* known = nullptr,
+    std::span<const std::pair<std::string, std::string>> columns = {});
 
 /// Whether the points of a PLY are rows of bytes with lists, so that only who has read those ahead
 /// knows where one begins. \throws io_error
@@ -108,12 +109,13 @@ struct listed_points {
                                                    std::size_t most);
 [[nodiscard]] std::optional<record_index> scan_pcd(const source& in, const file_part& part,
                                                    std::size_t most);
-[[nodiscard]] record_index scan_xyz(const source& in, std::string_view format,
-                                    const file_part& part, std::size_t most, bool even = true,
-                                    std::span<const named_column> columns = {});
+[[nodiscard]] record_index scan_xyz(
+    const source& in, std::string_view format, const file_part& part, std::size_t most,
+    bool even = true, std::span<const std::pair<std::string, std::string>> columns = {});
 
 [[noreturn]] inline void fail_in_blocks(const source& in, std::string_view reason) {
-    throw io_error::of_blocks(std::string(in.name()) + ": " + std::string(reason));
+    throw io_error(io_error::kind::blocks, std::string(in.name()),
+                   std::string(in.name()) + ": " + std::string(reason));
 }
 
 }  // namespace treeform::detail::io

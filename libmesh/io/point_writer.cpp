@@ -106,17 +106,15 @@ struct point_writer::state {
         if (translation->changes()) *at = translation->apply(*given);
     }
 
-    void check(const point_block& block) const {
-        const element& properties = block.properties;
-        if (points_end || block.points.size() > count - written)
+    void check(points_view points, const element& properties) const {
+        if (points_end || points.size() > count - written)
             refuse_block("more points than were announced");
-        if (properties.rows != block.points.size())
+        if (properties.rows != points.size())
             refuse_block("another number of rows than there are points");
         if (!same_columns(properties, given ? &*given : nullptr))
             refuse_block("the columns are not those of the header");
         detail::io::check_columns(properties);
-        if (result.written_as == precision::float32 && !options.precision &&
-            !fits_single(block.points))
+        if (result.written_as == precision::float32 && !options.precision && !fits_single(points))
             refuse_block("a coordinate is not a float32 value, as the header declares");
     }
 
@@ -167,20 +165,19 @@ point_writer::~point_writer() = default;
 point_writer::point_writer(point_writer&&) noexcept = default;
 point_writer& point_writer::operator=(point_writer&&) noexcept = default;
 
-void point_writer::write(const point_block& block) {
+void point_writer::write(points_view points, const element& properties) {
     state& s = *state_;
-    s.check(block);
+    s.check(points, properties);
     if (s.result.written_as == precision::float32)
-        s.result.max_displacement =
-            std::max(s.result.max_displacement,
-                     detail::io::largest_move(block.points, s.written, s.file->name()));
+        s.result.max_displacement = std::max(
+            s.result.max_displacement, detail::io::largest_move(points, s.written, s.file->name()));
     if (s.given && s.translation->changes()) {
-        const element rows = s.translation->apply(block.properties);
-        s.rows.rows(block.points, &rows);
+        const element rows = s.translation->apply(properties);
+        s.rows.rows(points, &rows);
     } else {
-        s.rows.rows(block.points, s.given ? &block.properties : nullptr);
+        s.rows.rows(points, s.given ? &properties : nullptr);
     }
-    s.written += block.points.size();
+    s.written += points.size();
 }
 
 void point_writer::write(const detail::io::row_block& block) {

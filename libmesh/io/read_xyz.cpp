@@ -24,7 +24,8 @@ namespace {
 /// another order where a heading names the columns.
 class xyz_reader {
   public:
-    xyz_reader(const source& in, std::string_view format, std::span<const named_column> chosen)
+    xyz_reader(const source& in, std::string_view format,
+               std::span<const std::pair<std::string, std::string>> chosen)
         : text_(in), pts_(format == "pts"), chosen_(chosen) {
         skip_heading();
         if (done()) text_.file.fail("no point found");
@@ -354,7 +355,7 @@ class xyz_reader {
 
     text text_;
     bool pts_;
-    std::span<const named_column> chosen_;
+    std::span<const std::pair<std::string, std::string>> chosen_;
     std::optional<std::uint64_t> promised_{};  ///< number of points that the first line says
     std::string_view comment_{};
     std::string_view heading_{};
@@ -372,7 +373,7 @@ class xyz_reader {
 }  // namespace
 
 mesh_file read_xyz(const source& in, std::string_view format,
-                   std::span<const named_column> columns) {
+                   std::span<const std::pair<std::string, std::string>> columns) {
     xyz_reader reader(in, format, columns);
     mesh_file file;
     file.format = format == "pts" ? "xyz" : format;
@@ -410,12 +411,14 @@ mesh_file read_xyz(const source& in, std::string_view format,
 }
 
 record_index scan_xyz(const source& in, std::string_view format, const file_part& part,
-                      std::size_t most, bool even, std::span<const named_column> columns) {
+                      std::size_t most, bool even,
+                      std::span<const std::pair<std::string, std::string>> columns) {
     return xyz_reader(in, format, columns).scan(part, most, even);
 }
 
 point_rows open_xyz_points(const source& in, std::string_view format, std::uint64_t first,
-                           const record_index* known, std::span<const named_column> columns) {
+                           const record_index* known,
+                           std::span<const std::pair<std::string, std::string>> columns) {
     auto reader = std::make_shared<xyz_reader>(in, format, columns);
     const record_index found =
         known == nullptr ? reader->scan({}, most_marks, true) : record_index();

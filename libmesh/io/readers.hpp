@@ -7,7 +7,9 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
+#include <utility>
 
 namespace treeform::detail::io {
 
@@ -25,7 +27,7 @@ namespace treeform::detail::io {
 [[nodiscard]] mesh_file read_gltf(const source& in, const std::filesystem::path& path);
 /// `format` is "xyz" or "csv", which are read alike, or "pts", where a count may come first.
 [[nodiscard]] mesh_file read_xyz(const source& in, std::string_view format,
-                                 std::span<const named_column> columns = {});
+                                 std::span<const std::pair<std::string, std::string>> columns = {});
 
 /// True when the library behind `read_scene` knows files of this extension (no dot).
 [[nodiscard]] bool scene_format(std::string_view extension);

@@ -66,16 +66,16 @@ bool take_whole(const char* at, const char* end, text_cell& c, text_column& fact
     return true;
 }
 
-std::optional<std::array<std::size_t, 3>> choose_columns(const source& in,
-                                                         std::span<const named_column> chosen,
-                                                         std::vector<std::string>& names) {
+std::optional<std::array<std::size_t, 3>> choose_columns(
+    const source& in, std::span<const std::pair<std::string, std::string>> chosen,
+    std::vector<std::string>& names) {
     std::array<std::optional<std::size_t>, 3> axes{};
     const std::vector<std::string> before = names;
-    for (const named_column& c : chosen) {
-        const std::size_t at = find_source(in, before, c.source);
-        if (c.name == "x" || c.name == "y" || c.name == "z")
-            axes[static_cast<std::size_t>(c.name[0] - 'x')] = at;
-        names[at] = c.name;
+    for (const auto& [name, source] : chosen) {
+        const std::size_t at = find_source(in, before, source);
+        if (name == "x" || name == "y" || name == "z")
+            axes[static_cast<std::size_t>(name[0] - 'x')] = at;
+        names[at] = name;
     }
     if (!axes[0] && !axes[1] && !axes[2]) return std::nullopt;
     if (!axes[0] || !axes[1] || !axes[2])

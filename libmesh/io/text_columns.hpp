@@ -14,6 +14,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace treeform::detail::io {
@@ -32,7 +33,8 @@ struct text_cell {
 ///
 /// \throws io_error for one that is not there, and for some of the coordinates without the others
 [[nodiscard]] std::optional<std::array<std::size_t, 3>> choose_columns(
-    const source& in, std::span<const named_column> chosen, std::vector<std::string>& names);
+    const source& in, std::span<const std::pair<std::string, std::string>> chosen,
+    std::vector<std::string>& names);
 
 /// Types for columns of `declared` that are data, of which `facts` are in their order: integers of
 /// 64 bits where doubles would round, bytes or 16 bits of colors, else doubles.

@@ -26,8 +26,9 @@ constexpr int most_folders_up = 64;
 
 class urdf_reader {
   public:
-    urdf_reader(const std::filesystem::path& path, const urdf_options& options)
-        : path_(path), options_(options) {}
+    urdf_reader(const std::filesystem::path& path,
+                std::span<const std::filesystem::path> package_folders, bool visual)
+        : path_(path), package_folders_(package_folders), visual_(visual) {}
 
     [[nodiscard]] urdf_robot read() {
         std::ifstream in(path_, std::ios::binary);
@@ -111,7 +112,7 @@ class urdf_reader {
         const auto number = static_cast<std::uint32_t>(robot_.links.size());
         if (!numbers_.emplace(name, number).second) fail("two links have the name " + name);
         robot_.links.push_back(name);
-        for (const pugi::xml_node one : node.children(options_.visual ? "visual" : "collision"))
+        for (const pugi::xml_node one : node.children(visual_ ? "visual" : "collision"))
             read_shape(one, number, "link " + name);
     }
 
@@ -170,7 +171,7 @@ class urdf_reader {
         if (name.starts_with(package)) {
             const std::filesystem::path full = name.substr(package.size());
             const std::filesystem::path rest = full.lexically_relative(*full.begin());
-            for (const auto& in : options_.package_folders)
+            for (const auto& in : package_folders_)
                 tried.insert(tried.end(), {in / full, in / rest});
             std::filesystem::path up = folder;
             for (int i = 0; i < most_folders_up; ++i) {
@@ -263,7 +264,8 @@ class urdf_reader {
     }
 
     std::filesystem::path path_;
-    const urdf_options& options_;
+    std::span<const std::filesystem::path> package_folders_;
+    bool visual_;
     pugi::xml_document document_{};
     urdf_robot robot_{};
     links_by_name numbers_{}, joint_names_{};
@@ -304,8 +306,19 @@ std::vector<std::array<std::uint32_t, 2>> urdf_robot::adjacent() const {
     return pairs;
 }
 
-urdf_robot read_urdf(const std::filesystem::path& path, const urdf_options& options) {
-    return urdf_reader(path, options).read();
+std::vector<std::array<std::uint32_t, 2>> urdf_robot::adjacent(
+    std::span<const urdf_mesh> parts) const {
+    std::map<std::uint32_t, std::uint32_t> part_of;  // by link
+    for (std::uint32_t p = 0; p < parts.size(); ++p) part_of[parts[p].link] = p;
+    std::vector<std::array<std::uint32_t, 2>> pairs;
+    for (const auto& [a, b] : adjacent())
+        if (part_of.contains(a) && part_of.contains(b)) pairs.push_back({part_of[a], part_of[b]});
+    return pairs;
+}
+
+urdf_robot read_urdf(const std::filesystem::path& path,
+                     std::span<const std::filesystem::path> package_folders, bool visual) {
+    return urdf_reader(path, package_folders, visual).read();
 }
 
 std::vector<transform<3>> urdf_robot::link_transforms(
@@ -337,7 +350,7 @@ std::vector<transform<3>> urdf_robot::link_transforms(
     return at;
 }
 
-robot_parts urdf_robot::parts(
+std::vector<urdf_mesh> urdf_robot::parts(
     const std::function<mesh(const std::filesystem::path&)>& mesh_of_file) const {
     const urdf_robot& robot = *this;
     std::vector<mesh> of_link(robot.links.size());
@@ -351,18 +364,10 @@ robot_parts urdf_robot::parts(
             to.faces.push_back(
                 {first + f[0], first + f[turned ? 2 : 1], first + f[turned ? 1 : 2]});
     }
-    constexpr std::uint32_t none = 0xFFFFFFFFU;
-    robot_parts made;
-    std::vector<std::uint32_t> part_of(of_link.size(), none);
-    for (std::uint32_t link = 0; link < of_link.size(); ++link) {
-        if (of_link[link].faces.empty()) continue;
-        part_of[link] = static_cast<std::uint32_t>(made.parts.size());
-        made.links.push_back(link);
-        made.parts.push_back(std::move(of_link[link]));
-    }
-    for (const auto& [a, b] : robot.adjacent())
-        if (part_of[a] != none && part_of[b] != none)
-            made.adjacent.push_back({part_of[a], part_of[b]});
+    std::vector<urdf_mesh> made;
+    for (std::uint32_t link = 0; link < of_link.size(); ++link)
+        if (!of_link[link].faces.empty())
+            made.push_back({.link = link, .shape = std::move(of_link[link])});
     return made;
 }
 

@@ -86,7 +86,7 @@ class repairer {
     [[nodiscard]] bool is_in_doubt(const repair_result& made) const {
         const bool is_complete = options_.join && options_.orient && options_.fill &&
                                  options_.resolve && !options_.sheet;
-        if (!is_complete || options_.inside != repair_rule::automatic) return false;
+        if (!is_complete || options_.inside) return false;
         progress_callback progress;
         if (options_.progress) progress = [this](double) { return options_.progress(1.0); };
         const double most = is_hopeless_ ? 0.1 : 2.0;  // pairs of each face
@@ -283,16 +283,7 @@ class repairer {
     }
 
     [[nodiscard]] fill_rule rule() const {
-        switch (options_.inside) {
-            case repair_rule::nonzero:
-                return fill_rule::nonzero;
-            case repair_rule::odd:
-                return fill_rule::odd;
-            case repair_rule::positive:
-                return fill_rule::positive;
-            case repair_rule::automatic:
-                break;
-        }
+        if (options_.inside) return *options_.inside;
         return closed_->is_outward() ? fill_rule::positive : fill_rule::nonzero;
     }
 

@@ -57,7 +57,7 @@ class TREEFORM_API edge_files {
         writers_[static_cast<std::size_t>((mixed(edge) >> 32) * writers_.size() >> 32)].put(edge);
     }
     /// How many edges more than two faces have, of those of all ranks. Call it once, after all
-    /// were put. Collective: every rank must call this. \throws stream_error, cancelled
+    /// were put. Collective: every rank must call this. \throws io_error, cancelled
     [[nodiscard]] std::uint64_t count_nonmanifold(cancellable_progress& pace);
 
   private:

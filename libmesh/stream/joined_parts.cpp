@@ -46,7 +46,7 @@ void text_out::write(std::string_view text) {
 void text_out::flush() {
     try {
         append_to(path_, std::as_bytes(std::span(held_)));
-    } catch (const stream_error& error) {
+    } catch (const io_error& error) {
         throw io_error(target_.string() + std::string(error.what()).substr(path_.string().size()));
     }
     written_ += held_.size();

@@ -11,7 +11,7 @@
 
 namespace treeform::detail::stream {
 
-/// Copies bytes from one file into another, which is there. \throws stream_error
+/// Copies bytes from one file into another, which is there. \throws io_error
 void copy_bytes(const std::filesystem::path& from, std::uint64_t first,
                 const std::filesystem::path& to, std::uint64_t at, std::uint64_t count);
 

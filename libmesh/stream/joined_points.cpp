@@ -15,7 +15,7 @@ namespace treeform::detail::stream {
 namespace {
 
 /// `points` as a file like `header`.
-mesh_file file_of(const mesh_file& header, point_block points) {
+mesh_file file_of(const mesh_file& header, io::point_block points) {
     mesh_file file = header;
     file.warnings.clear();
     file.mesh.points = std::move(points.points);
@@ -71,8 +71,8 @@ joined_points::joined_points(const cloud_inputs& inputs, bool as_las, const comm
 }
 
 /// Of a file that is not unpacked yet, zeros in its place: what it is does not matter.
-point_block joined_points::read_first(std::uint64_t count) {
-    point_block first;
+io::point_block joined_points::read_first(std::uint64_t count) {
+    io::point_block first;
     const element* const vertices = reader_->header().attributes.find("vertex");
     if (vertices == nullptr || formats_.back() != io::name_of(io::pcd_encoding::compressed)) {
         reader_->read(first, 1);
@@ -111,7 +111,7 @@ void joined_points::rewind(const share& some) {
     open(file, first);
 }
 
-bool joined_points::read_some(point_block& block, std::size_t most) {
+bool joined_points::read_some(io::point_block& block, std::size_t most) {
     while (!reader_->read(block, most)) {
         take_warnings();
         if (file_ + 1 == inputs_.paths.size()) return false;
@@ -120,7 +120,7 @@ bool joined_points::read_some(point_block& block, std::size_t most) {
     return true;
 }
 
-bool joined_points::read(point_block& block, std::size_t most) {
+bool joined_points::read(io::point_block& block, std::size_t most) {
     if (ended_) return false;
     // What comes after the share shows whether that is the end of a file, which has warnings.
     const std::uint64_t some = left_ == 0 ? 1 : std::min<std::uint64_t>(most, left_);
@@ -139,7 +139,7 @@ void joined_points::take_warnings() {
         warnings_.insert(warnings_.end(), of_join_.begin(), of_join_.end());
 }
 
-void joined_points::fit(point_block& block) {
+void joined_points::fit(io::point_block& block) {
     if (!fits_) {
         std::vector<mesh_file> both{head_, file_of(reader_->header(), std::move(block))};
         const std::vector<std::string> names(2);

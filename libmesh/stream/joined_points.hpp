@@ -44,12 +44,12 @@ class joined_points {
     /// points is known.
     void rewind(const share& some = {});
     /// The next points, of one file; false when none are left.
-    bool read(point_block& block, std::size_t most);
+    bool read(io::point_block& block, std::size_t most);
     /// The file that the last block came from, and its header.
     [[nodiscard]] std::size_t file() const { return file_; }
     [[nodiscard]] const mesh_file& file_header() const { return reader_->header(); }
     /// Whether float32 held the last block as it was in the file.
-    [[nodiscard]] bool is_single(const point_block& block) const {
+    [[nodiscard]] bool is_single(const io::point_block& block) const {
         return is_rounded() ? single_ : fits_single(block.points);
     }
 
@@ -70,10 +70,10 @@ class joined_points {
   private:
     [[nodiscard]] io::reading how() const { return {inputs_.format, {.columns = inputs_.columns}}; }
     void open(std::size_t file, std::uint64_t first = 0);
-    [[nodiscard]] point_block read_first(std::uint64_t count);
-    [[nodiscard]] bool read_some(point_block& block, std::size_t most);
+    [[nodiscard]] io::point_block read_first(std::uint64_t count);
+    [[nodiscard]] bool read_some(io::point_block& block, std::size_t most);
     void take_warnings();
-    void fit(point_block& block);
+    void fit(io::point_block& block);
     [[nodiscard]] bool is_rounded() const { return as_las_ && head_.las; }
 
     const cloud_inputs& inputs_;

@@ -84,7 +84,7 @@ packed_points::packed_points(const mesh_file& header) {
     width_ = (bytes + 7) / 8;
 }
 
-void packed_points::pack(const point_block& block, std::size_t point,
+void packed_points::pack(const io::point_block& block, std::size_t point,
                          std::vector<std::uint64_t>& to) const {
     const std::size_t begin = to.size();
     to.resize(begin + width_, 0);
@@ -98,7 +98,7 @@ void packed_points::pack(const point_block& block, std::size_t point,
     }
 }
 
-void packed_points::unpack(numbers from, point_block& block, std::size_t point) const {
+void packed_points::unpack(numbers from, io::point_block& block, std::size_t point) const {
     block.points[point] = place_of(from);
     const auto* const bytes = reinterpret_cast<const std::byte*>(from.data());
     for (const field& f : fields_) {
@@ -130,7 +130,7 @@ void kept_rows::gather(cancellable_progress& pace, tile_steps& steps, const tile
     tile_steps::leaders leaders(steps, all_, w);
     joined_points& source = steps.source();
     source.rewind(w.points);
-    point_block block;
+    io::point_block block;
     std::vector<std::uint64_t> keys;
     std::vector<std::uint64_t> member;
     std::uint64_t id = w.points.first;
@@ -239,7 +239,7 @@ void kept_rows::rewind() {
     next_.emplace(std::move(readers), 1);
 }
 
-void kept_rows::replace(point_block& block, std::size_t point) {
+void kept_rows::replace(io::point_block& block, std::size_t point) {
     if (next_->empty()) throw std::logic_error("a group without what is kept of it");
     packed_.unpack(next_->front().subspan(1), block, point);
     next_->pop();

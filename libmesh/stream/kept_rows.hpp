@@ -19,8 +19,9 @@ class packed_points {
     explicit packed_points(const mesh_file& header);
 
     [[nodiscard]] std::size_t width() const { return width_; }
-    void pack(const point_block& block, std::size_t point, std::vector<std::uint64_t>& to) const;
-    void unpack(numbers from, point_block& block, std::size_t point) const;
+    void pack(const io::point_block& block, std::size_t point,
+              std::vector<std::uint64_t>& to) const;
+    void unpack(numbers from, io::point_block& block, std::size_t point) const;
 
     struct field {
         std::size_t column;
@@ -56,7 +57,7 @@ class kept_rows {
     /// From the first row again.
     void rewind();
     /// Puts the next row in the place of a point of `block`.
-    void replace(point_block& block, std::size_t point);
+    void replace(io::point_block& block, std::size_t point);
 
   private:
     void gather(cancellable_progress& pace, tile_steps& steps, const tiles_welded& w);

@@ -61,7 +61,7 @@ las_header las_grid_of(const pass_of_points& each, const communicator& all,
 las_header las_grid_of(joined_points& points, const communicator& all, const share& mine,
                        cancellable_progress& pace, const io::las_grid_wish& wish) {
     const auto each = [&](const std::function<void(points_view)>& take) {
-        point_block block;
+        io::point_block block;
         points.rewind(mine);
         while (points.read(block, points_a_block)) {
             take(block.points);

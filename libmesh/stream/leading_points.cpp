@@ -11,8 +11,8 @@ namespace {
 constexpr std::uint64_t held_bytes = std::uint64_t{1} << 22;
 
 /// Points that are to be filled in.
-point_block block_like(const mesh_file& header, std::size_t points) {
-    point_block block;
+io::point_block block_like(const mesh_file& header, std::size_t points) {
+    io::point_block block;
     block.points.resize(points);
     if (const element* const vertices = header.attributes.find("vertex"))
         block.properties = *vertices;
@@ -41,7 +41,7 @@ leading_points::leading_points(const work_folder& folder, const communicator& al
                                    parts.begin() - 1);
 }
 
-void leading_points::take_off(point_block& block) {
+void leading_points::take_off(io::point_block& block) {
     const auto some =
         static_cast<std::uint32_t>(std::min<std::uint64_t>(left_, block.points.size()));
     if (some == 0) return;
@@ -57,7 +57,7 @@ void leading_points::take_off(point_block& block) {
     block.properties = block.properties.gathered(rest);
 }
 
-void leading_points::give(const std::function<void(const point_block&)>& write) {
+void leading_points::give(const std::function<void(const io::point_block&)>& write) {
     exchanged_.send();
     for (row_reader& from : exchanged_.received())
         while (!from.empty()) {
@@ -65,7 +65,7 @@ void leading_points::give(const std::function<void(const point_block&)>& write) 
             const std::size_t most = points_a_block * packed_.width();
             for (; !from.empty() && rows.size() < most; from.pop())
                 rows.insert(rows.end(), from.front().begin(), from.front().end());
-            point_block block = block_like(header_, rows.size() / packed_.width());
+            io::point_block block = block_like(header_, rows.size() / packed_.width());
             for (std::size_t i = 0; i < block.points.size(); ++i)
                 packed_.unpack(numbers(rows).subspan(i * packed_.width(), packed_.width()), block,
                                i);

@@ -22,9 +22,9 @@ class leading_points {
                    const mesh_file& header, std::uint64_t mine, std::uint64_t together);
 
     /// Takes those of an earlier part off the front of the next points.
-    void take_off(point_block& block);
+    void take_off(io::point_block& block);
     /// Gives those of later processes that make up the part. Collective: every rank must call this.
-    void give(const std::function<void(const point_block&)>& write);
+    void give(const std::function<void(const io::point_block&)>& write);
 
   private:
     const mesh_file& header_;

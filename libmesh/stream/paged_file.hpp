@@ -29,7 +29,7 @@ class paged_file {
     }
 
     /// \pre    `i` is less than the count
-    /// \throws stream_error
+    /// \throws io_error
     [[nodiscard]] const Record& at(std::uint64_t i) {
         const std::uint64_t p = i / page;
         const std::size_t slot = static_cast<std::size_t>(p % slots_);
@@ -39,7 +39,7 @@ class paged_file {
     /// Those of the numbers `of`, fewer than 2^32. Where the last ones were all over the file, they
     /// are looked up in ascending order, so that each page is read once.
     ///
-    /// \throws stream_error
+    /// \throws io_error
     template <class To>
     void look_up(std::span<const std::uint32_t> of, std::vector<To>& found) {
         constexpr std::uint64_t numbers_a_load = 16;

@@ -24,7 +24,7 @@ class passing_files {
     }
 
     /// Makes an empty one, in the place of what a killed run has left. Others see it when they have
-    /// received it. \throws stream_error
+    /// received it. \throws io_error
     void add(std::filesystem::path file) {
         if (!all_.is_root()) return;
         std::filesystem::remove(file);

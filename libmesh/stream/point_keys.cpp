@@ -11,7 +11,7 @@ namespace {
 
 /// Calls `look` with the properties of `block` as attributes.
 template <class Look>
-void with_properties(point_block& block, const Look& look) {
+void with_properties(io::point_block& block, const Look& look) {
     attributes all;
     all.elements.push_back(std::move(block.properties));
     look(all);
@@ -42,8 +42,8 @@ point_keys::point_keys(const mesh_file& header, const weld_stream_options& o) {
                              .across = o.across,
                              .keep = o.keep,
                              .keep_by = o.keep_by,
-                             .order = o.order,
-                             .order_by = o.order_by};
+                             .order_by = o.order_by,
+                             .highest_first = o.highest_first};
     const element* const faces = header.attributes.find("face");
     conditions_ = asked.conditions(header.attributes, faces != nullptr && faces->rows > 0);
     std::vector<weld::agreement::condition> all;
@@ -54,18 +54,17 @@ point_keys::point_keys(const mesh_file& header, const weld_stream_options& o) {
         all.push_back({is_whole(header.attributes, c.property), c.tolerance});
     }
     agree_ = weld::agreement(std::move(all));
-    if (o.order != weld_order::given) {
+    if (!o.order_by.empty()) {
         if (o.keep != weld_keep::first)
             throw std::invalid_argument("treeform::weld_stream: an order needs weld_keep::first");
-        order_ = {weld::column_to_order_by(header.attributes, asked),
-                  o.order == weld_order::lowest};
+        order_ = {weld::column_to_order_by(header.attributes, asked), !o.highest_first};
     }
     if (o.keep == weld_keep::lowest || o.keep == weld_keep::highest)
         choice_ = {weld::column_to_keep_by(header.attributes, asked), o.keep == weld_keep::lowest};
     if (o.keep != weld_keep::first) refuse_lists(header);
 }
 
-void point_keys::values_of(point_block& block, std::vector<std::uint64_t>& to) const {
+void point_keys::values_of(io::point_block& block, std::vector<std::uint64_t>& to) const {
     const std::size_t width = conditions_.size();
     to.resize(block.points.size() * width);
     if (width == 0) return;
@@ -78,15 +77,15 @@ void point_keys::values_of(point_block& block, std::vector<std::uint64_t>& to) c
     });
 }
 
-void point_keys::order_of(point_block& block, std::vector<std::uint64_t>& to) const {
+void point_keys::order_of(io::point_block& block, std::vector<std::uint64_t>& to) const {
     take(block, order_, to);
 }
 
-void point_keys::choice_of(point_block& block, std::vector<std::uint64_t>& to) const {
+void point_keys::choice_of(io::point_block& block, std::vector<std::uint64_t>& to) const {
     take(block, choice_, to);
 }
 
-void point_keys::take(point_block& block, const key_column& p, std::vector<std::uint64_t>& to) {
+void point_keys::take(io::point_block& block, const key_column& p, std::vector<std::uint64_t>& to) {
     to.assign(block.points.size(), 0);
     if (p.property.empty()) return;
     with_properties(block, [&](const attributes& properties) {

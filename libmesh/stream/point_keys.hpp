@@ -24,18 +24,18 @@ class point_keys {
     [[nodiscard]] const std::vector<weld_condition>& conditions() const { return conditions_; }
 
     /// Those of all points, one point after the other, in the place of what is in `to`.
-    void values_of(point_block& block, std::vector<std::uint64_t>& to) const;
+    void values_of(io::point_block& block, std::vector<std::uint64_t>& to) const;
     /// One a point: less for what comes first in the order, or is rather kept; 0 without a
     /// property.
-    void order_of(point_block& block, std::vector<std::uint64_t>& to) const;
-    void choice_of(point_block& block, std::vector<std::uint64_t>& to) const;
+    void order_of(io::point_block& block, std::vector<std::uint64_t>& to) const;
+    void choice_of(io::point_block& block, std::vector<std::uint64_t>& to) const;
 
   private:
     struct key_column {
         std::string property{};
         bool lowest = true;
     };
-    static void take(point_block& block, const key_column& p, std::vector<std::uint64_t>& to);
+    static void take(io::point_block& block, const key_column& p, std::vector<std::uint64_t>& to);
 
     std::vector<weld_condition> conditions_{};
     weld::agreement agree_{};

@@ -3,6 +3,7 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/words.hpp>
 #include <libmesh/stream/point_survey.hpp>
+#include <libmesh/stream/record_file.hpp>
 #include <libmesh/weld/near_cells.hpp>
 
 #include <algorithm>
@@ -99,6 +100,21 @@ class sampler {
     std::vector<std::uint64_t> lately_ = std::vector<std::uint64_t>(4096, 0);  ///< most are known
 };
 
+mesh_file source_of(std::string format) {
+    mesh_file source{.stored_as = precision::float32, .format = std::move(format)};
+    source.attributes.obtain("vertex", 0);
+    return source;
+}
+
+bool is_single(const mesh_file& source) { return source.stored_as == precision::float32; }
+
+std::uint64_t points_of(const mesh_file& source) { return source.attributes.find("vertex")->rows; }
+
+void count_points(mesh_file& source, std::uint64_t points, bool single) {
+    source.attributes.obtain("vertex", 0).rows += static_cast<std::size_t>(points);
+    if (!single) source.stored_as = precision::float64;
+}
+
 void add_survey(cloud_survey& sum, const cloud_survey& one) {
     sum.points += one.points;
     sum.non_finite += one.non_finite;
@@ -106,10 +122,9 @@ void add_survey(cloud_survey& sum, const cloud_survey& one) {
     sum.las_moved = std::max(sum.las_moved, one.las_moved);
     sum.sources.resize(one.sources.size());
     for (std::size_t i = 0; i < one.sources.size(); ++i) {
-        cloud_survey::source& of = sum.sources[i];
-        of.points += one.sources[i].points;
-        of.single = of.single && one.sources[i].single;
-        of.format = one.sources[i].format;
+        const bool is_first = sum.sources[i].format.empty();
+        if (is_first) sum.sources[i] = source_of(one.sources[i].format);
+        count_points(sum.sources[i], points_of(one.sources[i]), is_single(one.sources[i]));
     }
     for (const value_range& r : one.ranges) {
         const auto at = std::ranges::find(sum.ranges, r.column, &value_range::column);
@@ -165,15 +180,15 @@ point_survey survey(joined_points& points, const communicator& all, const share&
     cloud_survey& s = result.cloud;
     sampler chosen(std::max(most / all.size(), std::size_t{1} << 12));
     sampler places(std::max(most / all.size(), std::size_t{1} << 12));
-    point_block block;
+    io::point_block block;
     for (std::size_t i = 0; i < points.files(); ++i)
-        s.sources.push_back({.format = points.format(i)});
+        s.sources.push_back(source_of(points.format(i)));
     std::string failure;
     const auto read = [&] {
         try {
             return points.read(block, points_a_block);
         } catch (const io_error& error) {
-            if (all.is_alone()) throw;
+            if (all.is_alone() || is_of_tiles(error)) throw;
             failure = error.what();
             return false;
         }
@@ -182,9 +197,8 @@ point_survey survey(joined_points& points, const communicator& all, const share&
     while (read()) {
         base::add_to_box(s.box, bounding_box(block.points));
         attribute::look_at_ranges(block.properties, s.ranges);
-        cloud_survey::source& from = s.sources[points.file()];
-        from.points += block.points.size();
-        from.single = from.single && !points.file_header().las && points.is_single(block);
+        count_points(s.sources[points.file()], block.points.size(),
+                     !points.file_header().las && points.is_single(block));
         for (const point3& p : block.points) {
             const std::uint64_t id = mine.first + s.points++;
             if (!base::is_finite(p)) {
@@ -204,7 +218,7 @@ point_survey survey(joined_points& points, const communicator& all, const share&
         s.warnings.push_back(
             {"las-grid", "coordinates are rounded to the steps of the LAS file, by at most " +
                              base::brief(s.las_moved)});
-    for (const cloud_survey::source& one : s.sources) s.single = s.single && one.single;
+    s.single = s.single && std::ranges::all_of(s.sources, is_single);
     result.sample = chosen.part();
     if (tolerance) result.places = places.part();
     return result;
@@ -220,9 +234,9 @@ void store(const point_survey& survey, state_writer& state) {
     state.number(s.single ? 1 : 0);
     state.real(s.las_moved);
     state.number(s.sources.size());
-    for (const cloud_survey::source& one : s.sources) {
-        state.number(one.points);
-        state.number(one.single ? 1 : 0);
+    for (const mesh_file& one : s.sources) {
+        state.number(points_of(one));
+        state.number(is_single(one) ? 1 : 0);
         state.text(one.format);
     }
     state.number(s.ranges.size());
@@ -251,10 +265,9 @@ point_survey load_survey(state_reader& state) {
     s.single = state.number() != 0;
     s.las_moved = state.real();
     for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left) {
-        cloud_survey::source one{.points = state.number()};
-        one.single = state.number() != 0;
-        one.format = state.text();
-        s.sources.push_back(std::move(one));
+        const std::uint64_t points = state.number();
+        const bool single = state.number() != 0;
+        count_points(s.sources.emplace_back(source_of(state.text())), points, single);
     }
     for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left) {
         value_range r{.column = state.text()};

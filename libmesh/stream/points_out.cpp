@@ -23,20 +23,20 @@ write_options points_out::options_of(const output_path& to) {
     return options;
 }
 
-void points_out::write(const point_block& block, const std::vector<std::uint32_t>& rows) {
+void points_out::write(const io::point_block& block, const std::vector<std::uint32_t>& rows) {
     if (rows.empty()) return;
     some_.points.clear();
     for (const std::uint32_t row : rows) some_.points.push_back(block.points[row]);
     some_.properties = block.properties.gathered(rows);
     if (leading_) leading_->take_off(some_);
-    writer_.write(some_);
+    write_to_file(some_);
 }
 
-void points_out::write(const point_block& block) {
-    if (!leading_) return writer_.write(block);
+void points_out::write(const io::point_block& block) {
+    if (!leading_) return write_to_file(block);
     some_ = block;
     leading_->take_off(some_);
-    writer_.write(some_);
+    write_to_file(some_);
 }
 
 void points_out::start_part(const work_folder& folder, const mesh_file& header,
@@ -73,7 +73,7 @@ void points_out::write(tile_faces& faces, bool all) {
 
 write_result points_out::commit() {
     if (all_ == nullptr) return writer_.commit();
-    if (leading_) leading_->give([&](const point_block& block) { writer_.write(block); });
+    if (leading_) leading_->give([&](const io::point_block& block) { write_to_file(block); });
     state_writer chunks;
     chunks.text(writer_.tell_part());
     std::vector<std::string> parts;

@@ -31,8 +31,8 @@ class points_out {
 
     [[nodiscard]] static write_options options_of(const output_path& to);
 
-    void write(const point_block& block, const std::vector<std::uint32_t>& rows);
-    void write(const point_block& block);
+    void write(const io::point_block& block, const std::vector<std::uint32_t>& rows);
+    void write(const io::point_block& block);
     /// The process has `mine` of the points. Collective: every rank must call this.
     void start_part(const work_folder& folder, const mesh_file& header, const std::string& name,
                     std::uint64_t mine);
@@ -40,6 +40,9 @@ class points_out {
     write_result commit();
 
   private:
+    void write_to_file(const io::point_block& block) {
+        writer_.write(block.points, block.properties);
+    }
     void share_values(const std::filesystem::path& file, std::uint64_t mine);
     [[nodiscard]] std::string head_of_part(const detail::io::written_part& part) const;
 
@@ -49,7 +52,7 @@ class points_out {
     point_writer writer_;
     std::optional<leading_points> leading_{};
     std::optional<passing_files> values_{};  ///< of all parts, where they share them
-    point_block some_{};
+    io::point_block some_{};
 };
 
 }  // namespace treeform::detail::stream

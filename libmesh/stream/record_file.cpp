@@ -27,11 +27,11 @@ class descriptor {
     int fd_;
 };
 
-using reason = stream_error::reason;
+using kind = io_error::kind;
 
-[[noreturn]] void fail(reason why, const std::filesystem::path& path) {
-    const char* const what = why == reason::write ? "written" : "read";
-    throw stream_error(
+[[noreturn]] void fail(kind why, const std::filesystem::path& path) {
+    const char* const what = why == kind::tile_write ? "written" : "read";
+    throw io_error(
         why, path,
         path.string() + ": cannot be " + what + ": " + std::generic_category().message(errno));
 }
@@ -58,11 +58,11 @@ record_count load_count(state_reader& state) {
 
 void append_to(const std::filesystem::path& path, std::span<const std::byte> bytes) {
     const descriptor file(path, O_WRONLY | O_CREAT | O_APPEND);
-    if (file.get() < 0) fail(reason::write, path);
+    if (file.get() < 0) fail(kind::tile_write, path);
     while (!bytes.empty()) {
         const ssize_t count = ::write(file.get(), bytes.data(), bytes.size());
         if (count < 0 && errno == EINTR) continue;
-        if (count < 0) fail(reason::write, path);
+        if (count < 0) fail(kind::tile_write, path);
         bytes = bytes.subspan(static_cast<std::size_t>(count));
     }
 }
@@ -70,12 +70,12 @@ void append_to(const std::filesystem::path& path, std::span<const std::byte> byt
 void write_to(const std::filesystem::path& path, std::uint64_t at,
               std::span<const std::byte> bytes) {
     const descriptor file(path, O_WRONLY);
-    if (file.get() < 0) fail(reason::write, path);
+    if (file.get() < 0) fail(kind::tile_write, path);
     while (!bytes.empty()) {
         const ssize_t count =
             ::pwrite(file.get(), bytes.data(), bytes.size(), static_cast<off_t>(at));
         if (count < 0 && errno == EINTR) continue;
-        if (count < 0) fail(reason::write, path);
+        if (count < 0) fail(kind::tile_write, path);
         at += static_cast<std::uint64_t>(count);
         bytes = bytes.subspan(static_cast<std::size_t>(count));
     }
@@ -83,12 +83,12 @@ void write_to(const std::filesystem::path& path, std::uint64_t at,
 
 void sync_file(const std::filesystem::path& path) {
     const descriptor file(path, O_WRONLY);
-    if (file.get() < 0 || ::fdatasync(file.get()) != 0) fail(reason::write, path);
+    if (file.get() < 0 || ::fdatasync(file.get()) != 0) fail(kind::tile_write, path);
 }
 
 open_file::open_file(std::filesystem::path path)
     : path_(std::move(path)), fd_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC)) {
-    if (fd_ < 0) fail(reason::read, path_);
+    if (fd_ < 0) fail(kind::tile_read, path_);
 }
 
 open_file::~open_file() { ::close(fd_); }
@@ -99,7 +99,7 @@ std::size_t open_file::read(std::uint64_t at, std::span<std::byte> bytes) const 
         const ssize_t count =
             ::pread(fd_, bytes.data() + read, bytes.size() - read, static_cast<off_t>(at + read));
         if (count < 0 && errno == EINTR) continue;
-        if (count < 0) fail(reason::read, path_);
+        if (count < 0) fail(kind::tile_read, path_);
         if (count == 0) break;
         read += static_cast<std::size_t>(count);
     }
@@ -118,9 +118,8 @@ std::optional<std::uint64_t> size_of(const std::filesystem::path& path) {
 }
 
 void fail_damaged(const std::filesystem::path& path) {
-    throw stream_error(
-        reason::damaged, path,
-        path.string() + ": is not what was written; remove the folder and start again");
+    throw io_error(kind::tile_damaged, path,
+                   path.string() + ": is not what was written; remove the folder and start again");
 }
 
 }  // namespace treeform::detail::stream

@@ -38,20 +38,25 @@ struct record_count {
 void store_count(const record_count& c, state_writer& state);
 [[nodiscard]] record_count load_count(state_reader& state);
 
-/// Appends bytes to a file, which is opened for it. \throws stream_error
+/// Whether it is of the folder, its files or the memory, not of what is read or written.
+[[nodiscard]] inline bool is_of_tiles(const io_error& error) {
+    return error.why() != io_error::kind::file && error.why() != io_error::kind::blocks;
+}
+
+/// Appends bytes to a file, which is opened for it. \throws io_error
 TREEFORM_API void append_to(const std::filesystem::path& path, std::span<const std::byte> bytes);
-/// Writes bytes into a file, from byte `at` on. \throws stream_error
+/// Writes bytes into a file, from byte `at` on. \throws io_error
 TREEFORM_API void write_to(const std::filesystem::path& path, std::uint64_t at,
                            std::span<const std::byte> bytes);
-/// Puts what was written on the disk. \throws stream_error
+/// Puts what was written on the disk. \throws io_error
 TREEFORM_API void sync_file(const std::filesystem::path& path);
-/// Reads from byte `at` on, as many as there are. \throws stream_error
+/// Reads from byte `at` on, as many as there are. \throws io_error
 [[nodiscard]] TREEFORM_API std::size_t read_from(const std::filesystem::path& path,
                                                  std::uint64_t at, std::span<std::byte> bytes);
 /// A file that is open to be read, for many short looks.
 class TREEFORM_API open_file {
   public:
-    /// \throws stream_error
+    /// \throws io_error
     explicit open_file(std::filesystem::path path);
     ~open_file();
     open_file(const open_file&) = delete;
@@ -89,7 +94,7 @@ requires(std::is_trivially_copyable_v<Record> && sizeof(Record) % 8 == 0) class 
         held_.insert(held_.end(), records.begin(), records.end());
         if (held_.size() >= most_) flush();
     }
-    /// Writes out the rest. \throws stream_error
+    /// Writes out the rest. \throws io_error
     record_count finish() {
         const record_count all = finish_unsynced();
         sync_file(path_);
@@ -135,7 +140,7 @@ class record_reader {
     }
 
     /// The next records, no longer valid at the next call; none at the end.
-    /// \throws stream_error when the file is not what was written
+    /// \throws io_error when the file is not what was written
     [[nodiscard]] std::span<const Record> next() {
         const std::uint64_t left = expected_.records - read_;
         held_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(left, most_)));
@@ -167,7 +172,7 @@ template <class Record>
     try {
         while (!reader.next().empty()) {
         }
-    } catch (const stream_error&) {
+    } catch (const io_error&) {
         return false;
     }
     return true;

@@ -1,3 +1,4 @@
+#include <libmesh/stream/record_file.hpp>
 #include <libmesh/stream/rows_in_turn.hpp>
 
 #include <algorithm>
@@ -42,6 +43,7 @@ class turns {
         try {
             read = read_share(first, take_block, done);
         } catch (const io_error& error) {
+            if (is_of_tiles(error)) throw;
             failure = error.what();
         }
         mine.text(failure);

@@ -126,7 +126,7 @@ tiles_welded tile_steps::weld_borders() {
     tiles_welded w(tolerance_, keys_.agree());
     longest_move longest;
     pace_.show("borders", 0.0);
-    if (rule() == weld_rule::first)
+    if (!by_chain())
         w.drops = weld_borders_in_runs(longest);
     else
         w.drops = chain_borders(*this, w.border).drops();

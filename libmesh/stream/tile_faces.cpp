@@ -92,10 +92,10 @@ tile_faces::~tile_faces() {
         std::filesystem::remove(folder_.file(name), ignored);
 }
 
-stream_error tile_faces::changed() const {
+io_error tile_faces::changed() const {
     const std::filesystem::path& input = task_.inputs.paths.front();
-    return stream_error(stream_error::reason::input_changed, input,
-                        input.string() + ": the file changed while it was read");
+    return io_error(io_error::kind::input_changed, input,
+                    input.string() + ": the file changed while it was read");
 }
 
 template <class Take>
@@ -132,7 +132,7 @@ void tile_faces::number_points(tiles_welded& welded, kept_rows* rows, bool has_m
     if (has_moves) before.emplace(folder_, all, places_before_name);
     if (has_moves) after.emplace(folder_, all, places_after_name);
     std::uint64_t point = mine.first;
-    for (point_block block; source.read(block, points_a_block); pace_.check()) {
+    for (io::point_block block; source.read(block, points_a_block); pace_.check()) {
         if (is_soup_) look_at_corners(block, point);
         for (std::size_t i = 0; i < block.points.size() && point < mine.last; ++i, ++point) {
             if (before) before->put(block.points[i]);
@@ -154,7 +154,7 @@ void tile_faces::open_numbers() {
 }
 
 /// Of a soup, as of what `weld` looks at: equal corners are one. The block begins with `point`.
-void tile_faces::look_at_corners(const point_block& block, std::uint64_t point) {
+void tile_faces::look_at_corners(const io::point_block& block, std::uint64_t point) {
     std::vector<point3>& held = corners_of_soup_;
     for (const point3& p : block.points) {
         const bool begins = point++ % 3 == 0;
@@ -165,7 +165,7 @@ void tile_faces::look_at_corners(const point_block& block, std::uint64_t point) 
             return held[i] == held[j] && base::is_finite(held[i]);
         };
         if (equal(0, 1) || equal(1, 2) || equal(2, 0)) {
-            ++counts_.degenerate;
+            ++made_.statistics.degenerate;
         } else {
             // No other face has a corner that is not finite.
             for (std::size_t k = 0; k < 3; ++k)
@@ -177,8 +177,8 @@ void tile_faces::look_at_corners(const point_block& block, std::uint64_t point) 
     }
 }
 
-void tile_faces::weld(tiles_welded& welded, kept_rows* rows, weld_stream_counts& counts) {
-    counts_ = counts;
+void tile_faces::weld(tiles_welded& welded, kept_rows* rows, weld_stream_result& made) {
+    made_ = made;
     const std::uint64_t uses = 3 * steps_.survey().triangles;
     const std::uint64_t memory = task_.options.memory / 8;
     const communicator& all = steps_.all();
@@ -186,18 +186,18 @@ void tile_faces::weld(tiles_welded& welded, kept_rows* rows, weld_stream_counts&
         edges_of_soup_.emplace(folder_, all, "edges_before", uses, memory);
     else
         edges_before_.emplace(folder_, all, "edges_before", uses, memory);
-    number_points(welded, rows, counts.max_displacement > 0.0);
+    number_points(welded, rows, made.statistics.max_displacement > 0.0);
     steps_.step_done();
     edges_after_.emplace(folder_, all, "edges_after", uses, memory);
     carry_all();
     share_counts();
-    counts = counts_;
+    made = made_;
     steps_.step_done();
 }
 
 void tile_faces::carry_all() {
     open_numbers();
-    if (counts_.max_displacement > 0.0) {
+    if (made_.statistics.max_displacement > 0.0) {
         const std::uint64_t memory = task_.options.memory / 8;
         before_.emplace(folder_.file(places_before_name), steps_.survey().points, memory);
         after_.emplace(folder_.file(places_after_name), kept_places_, memory);
@@ -207,7 +207,7 @@ void tile_faces::carry_all() {
     each_block(false, [&](const io::row_block& block) {
         if (block.rows.name != "face") return;
         carry(block, carried);
-        counts_.faces += carried.rows.rows;
+        made_.faces += carried.rows.rows;
         most_kept_corners_ = std::max(most_kept_corners_, longest_face(carried));
     });
     counts_now_ = false;
@@ -215,18 +215,18 @@ void tile_faces::carry_all() {
     after_.reset();
     places_before_ = {};
     places_after_ = {};
-    counts_.nonmanifold_before = is_soup_ ? edges_of_soup_->count_nonmanifold(pace_)
-                                          : edges_before_->count_nonmanifold(pace_);
+    made_.statistics.nonmanifold_before = is_soup_ ? edges_of_soup_->count_nonmanifold(pace_)
+                                                   : edges_before_->count_nonmanifold(pace_);
     edges_of_soup_.reset();
     edges_before_.reset();
-    counts_.nonmanifold_after = edges_after_->count_nonmanifold(pace_);
+    made_.statistics.nonmanifold_after = edges_after_->count_nonmanifold(pace_);
     edges_after_.reset();
 }
 
 /// Sums up what all have counted, of which edges are of all already.
 void tile_faces::share_counts() {
-    const std::array counted{&counts_.faces, &counts_.triangles, &counts_.collapsed,
-                             &counts_.degenerate, &counts_.flipped};
+    const std::array counted{&made_.faces, &made_.triangles, &made_.statistics.collapsed,
+                             &made_.statistics.degenerate, &made_.statistics.flipped};
     state_writer mine;
     for (std::uint64_t* n : counted) mine.number(std::exchange(*n, 0));
     mine.number(most_kept_corners_);
@@ -234,7 +234,7 @@ void tile_faces::share_counts() {
         for (std::uint64_t* n : counted) *n += one.number();
         most_kept_corners_ = std::max(most_kept_corners_, static_cast<std::size_t>(one.number()));
     }
-    if (is_soup_) counts_.collapsed -= counts_.degenerate;  // those collapse, too
+    if (is_soup_) made_.statistics.collapsed -= made_.statistics.degenerate;  // those collapse, too
 }
 
 /// As `weld` and `rejoin_polygons` do in memory: of the fans of polygons, triangles that collapse
@@ -291,15 +291,15 @@ bool tile_faces::is_kept(const face& before, const face& after, const corners_of
     const bool is_whole = base::has_three_corners(after);
     const bool kept = is_whole || task_.options.keep_degenerate;
     if (!counts_now_) return kept;
-    if (!is_whole) ++(was_whole ? counts_.collapsed : counts_.degenerate);
+    if (!is_whole) ++(was_whole ? made_.statistics.collapsed : made_.statistics.degenerate);
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t next = k == 2 ? 0 : k + 1;
         if (was_whole && edges_before_) edges_before_->put(edge_between(before[k], before[next]));
         if (is_whole) edges_after_->put(edge_between(after[k], after[next]));
     }
     if (!kept) return false;
-    ++counts_.triangles;
-    if (before_ && is_flipped(at)) ++counts_.flipped;
+    ++made_.triangles;
+    if (before_ && is_flipped(at)) ++made_.statistics.flipped;
     return true;
 }
 
@@ -321,7 +321,7 @@ void tile_faces::renumber(io::row_block& block) {
 void tile_faces::describe(mesh_file& head, bool all) const {
     for (element& e : head.attributes.elements) {
         if (e.name != "face" || e.rows == 0) continue;
-        e.rows = static_cast<std::size_t>(all ? steps_.survey().faces : counts_.faces);
+        e.rows = static_cast<std::size_t>(all ? steps_.survey().faces : made_.faces);
         drop_blank(e);
     }
     if (is_blank_)
@@ -351,7 +351,7 @@ void tile_faces::give(point_writer& to, bool all, bool whole) {
         renumber(block);
         to.write(block);
     });
-    if (!whole && !all && steps_.all().sum(faces) != counts_.faces) throw changed();
+    if (!whole && !all && steps_.all().sum(faces) != made_.faces) throw changed();
 }
 
 }  // namespace treeform::detail::stream

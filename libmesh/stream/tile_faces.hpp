@@ -56,8 +56,8 @@ class tile_faces {
     /// \throws io_error for what is not as it should be, the first of it in the file; cancelled
     void take_survey(cloud_survey& survey);
     /// Reads the points and the rows once, each rank its share. `rows` as for `give_back`.
-    /// \throws stream_error, cancelled
-    void weld(tiles_welded& welded, kept_rows* rows, weld_stream_counts& counts);
+    /// \throws io_error, cancelled
+    void weld(tiles_welded& welded, kept_rows* rows, weld_stream_result& made);
     /// How many rows `give` will write. With `all`, faces stay as they are.
     void describe(mesh_file& head, bool all) const;
     [[nodiscard]] std::size_t most_corners(bool all) const {
@@ -72,7 +72,7 @@ class tile_faces {
 
     [[nodiscard]] file_of_rows file() const;
     [[nodiscard]] io::point_blocks open() const;
-    [[nodiscard]] stream_error changed() const;
+    [[nodiscard]] io_error changed() const;
     /// Calls `take` with the rows of the share, or of the whole file.
     template <class Take>
     void each_block(bool whole, const Take& take);
@@ -88,7 +88,7 @@ class tile_faces {
     void open_numbers();
     void carry_all();
     void share_counts();
-    void look_at_corners(const point_block& block, std::uint64_t point);
+    void look_at_corners(const io::point_block& block, std::uint64_t point);
     void drop_blank(element& faces) const;
     void carry(const io::row_block& from, io::row_block& to);
     void look_up(std::span<const std::uint32_t> corners);
@@ -110,7 +110,7 @@ class tile_faces {
     std::uint64_t left_out_ = 0;  ///< faces of fewer than three corners
     std::size_t most_corners_ = 0;
     std::size_t most_kept_corners_ = 0;
-    weld_stream_counts counts_{};
+    weld_stream_result made_{};                           ///< what is counted of it
     std::uint64_t kept_places_ = 0;                       ///< records of `after_`
     bool counts_now_ = false;                             ///< in the pass that counts
     bool is_blank_ = false;                               ///< a soup that has nothing but corners

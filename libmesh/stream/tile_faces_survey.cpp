@@ -86,7 +86,8 @@ bool tile_faces::survey_part(cloud_survey& survey) {
         }
         end_survey(reader, survey);
         return left == 0;
-    } catch (const io_error&) {
+    } catch (const io_error& error) {
+        if (is_of_tiles(error)) throw;
         return false;
     }
 }

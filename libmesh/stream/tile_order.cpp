@@ -67,7 +67,7 @@ void tile_steps::rank_points() {
                                      row_sorter::shape{2, 2}, sorting_memory());
     std::vector<keyed> sample;
     source_.rewind(mine);
-    point_block block;
+    io::point_block block;
     std::vector<std::uint64_t> keys;
     std::uint64_t id = mine.first;
     while (source_.read(block, points_a_block)) {

@@ -41,13 +41,13 @@ class output_survey {
     /// Whether more points can tell more of the types.
     [[nodiscard]] bool asks() const { return axes_ != outgrown_; }
 
-    void write(const point_block& block, const std::vector<std::uint32_t>& rows) {
-        point_block some;
+    void write(const io::point_block& block, const std::vector<std::uint32_t>& rows) {
+        io::point_block some;
         for (const std::uint32_t row : rows) some.points.push_back(block.points[row]);
         some.properties = block.properties.gathered(rows);
         write(some);
     }
-    void write(const point_block& block) {
+    void write(const io::point_block& block) {
         if (take_) take_(block.points);
         if (asks()) {
             const auto outgrown = io::outgrown_axes(vertices_, block.points);
@@ -101,7 +101,7 @@ class giving_back {
   public:
     giving_back(cancellable_progress& pace, const tile_task& task, const weld_stream_outputs& asked,
                 tile_steps& steps, tiles_welded& welded, kept_rows* rows, tile_faces* faces,
-                const work_folder& work)
+                const work_folder& work, weld_stream_result& made)
         : pace_(pace),
           task_(task),
           work_(work),
@@ -112,7 +112,8 @@ class giving_back {
           welded_(welded),
           rows_(rows),
           faces_(faces),
-          head_(steps.source().header()) {
+          head_(steps.source().header()),
+          made_(made) {
         head_.stored_as = survey_.single ? precision::float32 : precision::float64;
         head_.ranges = survey_.ranges;
         is_divided_ = may_divide();
@@ -121,15 +122,14 @@ class giving_back {
         if (rows != nullptr) rows->gather_first(welded);
     }
 
-    [[nodiscard]] weld_stream_written run() {
+    void run() {
         const bool asked = asked_.welded || asked_.removed || wants_map();
-        if (!asked || (!is_divided_ && !all_.is_root())) return {};
+        if (!asked || (!is_divided_ && !all_.is_root())) return;
         add_columns();
         survey_outputs();
         if (asked_.removed && !removed_head_.las && is_las(*asked_.removed)) survey_removed();
         open_files();
         give_all();
-        return std::move(written_);
     }
 
   private:
@@ -187,8 +187,8 @@ class giving_back {
         if (faces_ != nullptr) faces_->describe(head_, drops_nothing());
         if (has_means() && !rows_->single()) head_.stored_as = precision::float64;
         if (!asked_.label.empty())
-            written_.label_replaced = head_.attributes.obtain("vertex", 0)
-                                          .set({.name = asked_.label, .type = scalar_type::uint32});
+            made_.label_replaced = head_.attributes.obtain("vertex", 0)
+                                       .set({.name = asked_.label, .type = scalar_type::uint32});
         if (asked_.withhold)
             head_.attributes.obtain("vertex", 0)
                 .set({.name = "withheld", .type = scalar_type::uint8});
@@ -218,15 +218,15 @@ class giving_back {
             numbers_.emplace(pace_, work_, is_divided_ ? all_ : lone_, steps_, welded_);
         first_ = mine.first;
         given_ = 0;
-        point_block block;
+        io::point_block block;
         while (source.read(block, points_a_block)) {
             if (!take(block)) return;
             first_ += block.points.size();
         }
         const fs::path& input = task_.inputs.paths.front();
         if (first_ != mine.last)
-            throw stream_error(stream_error::reason::input_changed, input,
-                               input.string() + ": the file changed while it was read");
+            throw io_error(io_error::kind::input_changed, input,
+                           input.string() + ": the file changed while it was read");
         if (given_ != mine.size() - welded_.kept.dropped())
             throw std::logic_error("points in are not points kept and points removed");
     }
@@ -237,7 +237,7 @@ class giving_back {
         output_survey welded(head_, axes_asked(asked_.welded, head_, has_means()));
         output_survey removed(removed_head_, axes_asked(asked_.removed, removed_head_, false));
         if (!of_las && !welded.asks() && !removed.asks()) return;
-        each_block([&](point_block& block) {
+        each_block([&](io::point_block& block) {
             give(block, asked_.welded ? &welded : nullptr, asked_.removed ? &removed : nullptr);
             pace_.check();
             return of_las || welded.asks() || removed.asks();
@@ -297,7 +297,7 @@ class giving_back {
         output_survey seen;
         const auto each = [&](const std::function<void(points_view)>& take) {
             seen = output_survey(take);
-            each_block([&](point_block& block) {
+            each_block([&](io::point_block& block) {
                 give(block, static_cast<output_survey*>(nullptr), &seen);
                 pace_.check();
                 return true;
@@ -311,7 +311,7 @@ class giving_back {
 
     void give_all() {
         const share& mine = welded_.points;
-        each_block([&](point_block& block) {
+        each_block([&](io::point_block& block) {
             give(block, result_ ? &*result_ : nullptr, removed_ ? &*removed_ : nullptr);
             if (asked_.map) asked_.map(groups_);
             if (map_) map_->write(asked_.map_text(first_, groups_));
@@ -321,16 +321,16 @@ class giving_back {
         });
         steps_.step_done();
         if (result_ && faces_ != nullptr) result_->write(*faces_, drops_nothing());
-        if (removed_) written_.removed = removed_->commit();
-        if (result_) written_.welded = result_->commit();
-        if (welded_as_) written_.welded->written_as = *welded_as_;
-        if (removed_as_) written_.removed->written_as = *removed_as_;
+        if (removed_) made_.removed = removed_->commit();
+        if (result_) made_.welded = result_->commit();
+        if (welded_as_) made_.welded->written_as = *welded_as_;
+        if (removed_as_) made_.removed->written_as = *removed_as_;
         if (map_) map_->commit();
-        if (is_divided_) written_.las_moved = all_.most(written_.las_moved);
+        if (is_divided_) made_.las_moved = all_.most(made_.las_moved);
     }
 
     template <class Out>
-    void give(point_block& block, Out* welded, Out* removed) {
+    void give(io::point_block& block, Out* welded, Out* removed) {
         if (numbers_) number(block.points.size());
         kept_.clear();
         gone_.clear();
@@ -354,19 +354,19 @@ class giving_back {
         return rows_ != nullptr ? rows_->gives(point) : welded_.kept.keeps(point);
     }
 
-    void put_rows(point_block& block) {
+    void put_rows(io::point_block& block) {
         for (const std::uint32_t row : kept_)
             if (!welded_.followed->keeps(first_ + row)) rows_->replace(block, row);
         if (!has_means() || !task_.options.as_las || !head_.las) return;
         mesh_file file;
         file.las = las_header{.scale = head_.las->scale, .offset = head_.las->offset};
         file.mesh.points = std::move(block.points);
-        written_.las_moved = std::max(written_.las_moved, round_to_las(file));
+        made_.las_moved = std::max(made_.las_moved, round_to_las(file));
         block.points = std::move(file.mesh.points);
     }
 
     /// Labels, and flags as `treeform::withhold` sets them.
-    void mark(point_block& block) {
+    void mark(io::point_block& block) {
         block.properties.rows = block.points.size();
         if (!asked_.label.empty()) {
             const std::vector<std::uint32_t> groups(groups_.begin(), groups_.end());
@@ -399,7 +399,7 @@ class giving_back {
     tile_faces* faces_;
     mesh_file head_;
     mesh_file removed_head_{};
-    weld_stream_written written_{};
+    weld_stream_result& made_;
     std::optional<precision> welded_as_{};  ///< to be reported of the file, where types were chosen
     std::optional<precision> removed_as_{};
     std::optional<points_out> removed_{};
@@ -426,15 +426,15 @@ void remove_leftovers(const work_folder& folder) {
     }
 }
 
-weld_stream_written give_back(cancellable_progress& pace, const tile_task& task,
-                              const weld_stream_outputs& outputs, tile_steps& steps,
-                              tiles_welded& welded, kept_rows* rows, tile_faces* faces,
-                              const work_folder& folder) {
+void give_back(cancellable_progress& pace, const tile_task& task,
+               const weld_stream_outputs& outputs, tile_steps& steps, tiles_welded& welded,
+               kept_rows* rows, tile_faces* faces, const work_folder& folder,
+               weld_stream_result& made) {
     state_writer state;
     state.number(outputs.unfinished.size());
     for (const fs::path& path : outputs.unfinished) state.text(fs::absolute(path).string());
     if (steps.all().is_root()) folder.store(leftovers, state);
-    return giving_back(pace, task, outputs, steps, welded, rows, faces, folder).run();
+    giving_back(pace, task, outputs, steps, welded, rows, faces, folder, made).run();
 }
 
 }  // namespace treeform::detail::stream

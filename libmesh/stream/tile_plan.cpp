@@ -32,13 +32,13 @@ struct tile_steps::planned {
 
 tile_steps::cut_sizes tile_steps::sizes_of(const tile_cuts& cuts) const {
     std::vector<std::uint32_t> halos;
-    const bool by_chain = rule() == weld_rule::chain;  // equal points take room
+    const bool chained = by_chain();  // equal points take room
     const auto count = [&](const point_survey::part& sample, double& largest, double& several) {
         std::vector<double> size(cuts.size(), 0.0);
         double sum = 0.0;
         for (std::size_t i = 0; i < sample.points.size(); ++i) {
             const double each =
-                (by_chain && !sample.counts.empty() ? sample.counts[i] : 1) / sample.share;
+                (chained && !sample.counts.empty() ? sample.counts[i] : 1) / sample.share;
             size[cuts.find(sample.points[i], halos)] += each;
             for (const std::uint32_t t : halos) size[t] += each;
             if (!halos.empty()) several += each;
@@ -51,7 +51,7 @@ tile_steps::cut_sizes tile_steps::sizes_of(const tile_cuts& cuts) const {
     double ignored = 0.0;
     sizes.points = count(survey_.sample, sizes.largest, ignored);
     static_cast<void>(count(places(), sizes.held, sizes.border));
-    if (!by_chain) sizes.border = 0.0;  // in runs that fit
+    if (!chained) sizes.border = 0.0;  // in runs that fit
     return sizes;
 }
 
@@ -69,9 +69,9 @@ void tile_steps::plan() {
         weld_stream_options::memory_to_stream(source_.header(), survey_.cloud.points);
     std::optional<planned> best;
     if (least <= task_.memory || task_.options.points_per_tile > 0) {
-        if (crowded && rule() == weld_rule::first) best = plan_by(true);
+        if (crowded && !by_chain()) best = plan_by(true);
         if (!best) best = plan_by(false);
-        if (!best && (rule() == weld_rule::first || values() == 0)) best = plan_by(true);
+        if (!best && (!by_chain() || values() == 0)) best = plan_by(true);
     }
     if (!best) best = plan_for_least_memory();
     const std::uint64_t needed = std::max(best->needs.tiles, best->needs.borders);
@@ -87,7 +87,7 @@ void tile_steps::plan() {
 tile_steps::memory_needs tile_steps::needs_of(const cut_sizes& sizes) const {
     const auto each = static_cast<double>(bytes_per_point());
     double held = sizes.held * each;
-    if (rule() == weld_rule::chain)  // or cube by cube, which conditions rule out
+    if (by_chain())  // or cube by cube, which conditions rule out
         held = values() > 0 ? sizes.largest * each
                             : std::min(sizes.largest * each, sizes.held * bytes_of_cube);
     const auto memory = [](double bytes) {
@@ -149,7 +149,7 @@ std::optional<tile_steps::planned> tile_steps::plan_by(bool by_places) const {
 /// By chain, it depends on what lies along the borders; with tiles of a given size, on their halos.
 bool tile_steps::needs_survey() const {
     const weld_stream_options& o = task_.options;
-    return o.points_per_tile > 0 || rule() == weld_rule::chain;
+    return o.points_per_tile > 0 || by_chain();
 }
 
 /// As many tiles as hold least at a time.
@@ -206,10 +206,10 @@ void tile_steps::check_before_borders() const {
 }
 
 void tile_steps::fail_for_memory(std::uint64_t needed, const std::string& more) const {
-    throw stream_error(stream_error::reason::memory, folder_.path(),
-                       "--memory " + in_megabytes(task_.memory) + " is too little; " +
-                           in_megabytes(needed) + " would be enough" + more,
-                       needed);
+    throw io_error(io_error::kind::memory, folder_.path(),
+                   "--memory " + in_megabytes(task_.memory) + " is too little; " +
+                       in_megabytes(needed) + " would be enough" + more,
+                   needed);
 }
 
 /// Of the points of a cube whose diagonal is the tolerance, one.

@@ -44,7 +44,7 @@ std::unique_ptr<io::point_store> place_for(std::size_t points, const io::source&
                                           in.name(), folder.path()),
             memory);
     } catch (const io_error& error) {  // not of the input
-        throw stream_error(stream_error::reason::write, folder.path(), error.what());
+        throw io_error(io_error::kind::tile_write, folder.path(), error.what());
     }
 }
 
@@ -223,7 +223,7 @@ bool tile_search::give_tiles(bool in_turn) {
         else
             give_all<double>(rows);
     } catch (const io_error& error) {
-        if (all_.is_alone()) throw;
+        if (all_.is_alone() || is_of_tiles(error)) throw;
         failure = error.what();
     }
     if (rows.left_out) survey_.stored_faces -= rows.left_out();
@@ -325,11 +325,11 @@ void tile_search::check_memory() const {
     }
     const std::uint64_t needed = base_bytes + most * bytes_a_face;
     if (most * bytes_a_face <= memory_) return;
-    throw stream_error(stream_error::reason::memory, folder_.path(),
-                       "--memory is too little: " + std::to_string(most) +
-                           " faces reach into one tile; " + std::to_string((needed >> 20) + 1) +
-                           "M would be enough",
-                       needed);
+    throw io_error(io_error::kind::memory, folder_.path(),
+                   "--memory is too little: " + std::to_string(most) +
+                       " faces reach into one tile; " + std::to_string((needed >> 20) + 1) +
+                       "M would be enough",
+                   needed);
 }
 
 template <class Real>

@@ -60,7 +60,7 @@ class tile_search {
 
     /// Gives each tile its faces, or knows from an earlier run that they have them. Of several
     /// ranks, each gives those of its part of the file.
-    /// \throws io_error, stream_error, cancelled
+    /// \throws io_error, cancelled
     void scatter();
     /// Whether `scatter` has been done, here or elsewhere.
     [[nodiscard]] bool is_known() { return tiles() > 0 || take_over(); }
@@ -69,11 +69,11 @@ class tile_search {
     [[nodiscard]] std::size_t tiles() const { return faces_.size(); }
     [[nodiscard]] std::vector<std::size_t> unfinished() const;
     /// Searches it, unless it is finished. What two processes do at the same time is the same.
-    /// `part` and `of` are for the progress. \throws std::out_of_range, stream_error, cancelled
+    /// `part` and `of` are for the progress. \throws std::out_of_range, io_error, cancelled
     void search(std::size_t tile, std::size_t part, std::size_t of);
     /// The faces of a finished tile are needed no more.
     void drop_faces(std::size_t tile) const;
-    /// Puts together what was found. \throws stream_error naming the tiles that are not finished
+    /// Puts together what was found. \throws io_error naming the tiles that are not finished
     [[nodiscard]] stream_search_result finish();
 
   private:

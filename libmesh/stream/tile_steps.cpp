@@ -86,15 +86,14 @@ std::filesystem::path tile_steps::file(std::size_t t, const char* what) const {
     return folder_.file(std::to_string(t) + what);
 }
 
-weld_rule tile_steps::rule() const {
+bool tile_steps::by_chain() const {
     const bool chains_of_equal_points = !keys_.agree().is_transitive();
-    return task_.options.tolerance > 0.0 || chains_of_equal_points ? task_.options.rule
-                                                                   : weld_rule::first;
+    return task_.options.chain && (task_.options.tolerance > 0.0 || chains_of_equal_points);
 }
 
 std::uint64_t tile_steps::bytes_per_point() const {
     const std::uint64_t of_values = values() > 0 ? 8 * values() + 12 : 0;
-    return (rule() == weld_rule::first ? 104 : 110) + of_values;
+    return (!by_chain() ? 104 : 110) + of_values;
 }
 
 std::size_t tile_steps::bytes_per_reader() const {
@@ -190,7 +189,7 @@ void tile_steps::give_points() {
     const share mine = read_by(communicator_.rank());
     std::optional<row_reader> ranks;
     if (has_order()) ranks.emplace(ranks_file(), ranks_, 1, piece);
-    point_block block;
+    io::point_block block;
     std::vector<std::uint64_t> of_block;
     std::vector<std::uint32_t> halos;
     std::uint64_t id = mine.first;
@@ -244,8 +243,8 @@ void tile_steps::share_counts(std::uint64_t read, const std::vector<record_count
     for (const tile& t : tiles_) own += t.own;
     if (all == survey_.cloud.points && own == survey_.cloud.points) return;
     const std::filesystem::path& input = task_.inputs.paths.front();
-    throw stream_error(stream_error::reason::input_changed, input,
-                       input.string() + ": the file changed while it was read");
+    throw io_error(io_error::kind::input_changed, input,
+                   input.string() + ": the file changed while it was read");
 }
 
 std::uint64_t tile_steps::most_points() const {
@@ -410,7 +409,7 @@ void tile_steps::weld_tile(std::size_t t) {
     if (has_order()) sort_points(t, files);
     // More than is planned for: the plan knows samples only.
     const std::uint64_t room = task_.options.memory / 10 * 8 / bytes_per_point();
-    const bool held = rule() == weld_rule::first || points_of(mine) <= room;
+    const bool held = !by_chain() || points_of(mine) <= room;
     if (!held && values() > 0) fail_for_memory(needs_of_one_tile(most_points()).tiles);
     if (!held)
         weld_crowded(t, files);
@@ -429,13 +428,12 @@ void tile_steps::weld_tile(std::size_t t) {
 }
 
 void tile_steps::weld_held(std::size_t t, tile_files& files) {
-    weld::tile_weld weld(rule(), tolerance_, keys_.agree(), slices());
+    weld::tile_weld weld(by_chain(), tolerance_, keys_.agree(), slices());
     // With the rule first few are held; or all, which doubles memory twice, up to
     // `bytes_per_point`. Of a crowded tile it is few, however many points it has.
     constexpr std::uint64_t most = std::uint64_t{1} << 17;
     const std::uint64_t all = points_of(tiles_[t]);
-    weld.reserve(
-        static_cast<std::size_t>(rule() == weld_rule::first ? std::min(all / 4, most) : all));
+    weld.reserve(static_cast<std::size_t>(!by_chain() ? std::min(all / 4, most) : all));
     each_point_of(t, files, [&](std::span<const tile_point> points, numbers values) {
         weld.add(points, files.result, values);
         files.write();

@@ -101,9 +101,9 @@ class tile_steps {
     void weld_tiles();
     /// Welds one, unless it is finished. What two processes do at the same time is the same.
     void weld_one(std::size_t tile);
-    /// \throws stream_error naming the tiles that are not finished
+    /// \throws io_error naming the tiles that are not finished
     void check_finished();
-    /// \throws stream_error with what would be enough, where memory is not
+    /// \throws io_error with what would be enough, where memory is not
     void check_before_borders() const;
     [[nodiscard]] tiles_welded weld_borders();
     /// Whether each rank reads its points, and is assigned them.
@@ -150,15 +150,15 @@ class tile_steps {
     };
     struct tile_files;
 
-    [[nodiscard]] bool has_order() const { return task_.options.order != weld_order::given; }
+    [[nodiscard]] bool has_order() const { return !task_.options.order_by.empty(); }
     /// The rule first where it comes to the same: it holds fewer points.
-    [[nodiscard]] weld_rule rule() const;
+    [[nodiscard]] bool by_chain() const;
     [[nodiscard]] std::filesystem::path file(std::size_t t, const char* what) const;
     [[nodiscard]] std::size_t values() const { return keys_.agree().size(); }
     /// Numbers in a row of a tile's points, and of its border.
     [[nodiscard]] std::size_t point_width() const { return 4 + values(); }
     [[nodiscard]] std::size_t border_width() const {
-        return border_numbers + (rule() == weld_rule::first ? values() : 0);
+        return border_numbers + (!by_chain() ? values() : 0);
     }
     [[nodiscard]] weld::number_slices slices() const {
         return weld::number_slices(survey_.cloud.points);
@@ -175,7 +175,7 @@ class tile_steps {
     /// Whether a survey of the points says more of the memory that is needed than their number.
     [[nodiscard]] bool needs_survey() const;
     /// Decides where to cut.
-    /// \throws stream_error with what would be enough, where memory is not
+    /// \throws io_error with what would be enough, where memory is not
     void plan();
     struct planned;
     [[nodiscard]] std::optional<planned> plan_by(bool by_places) const;
@@ -188,7 +188,7 @@ class tile_steps {
     [[nodiscard]] memory_needs needs_of(const cut_sizes& sizes) const;
     [[nodiscard]] memory_needs needs_of_one_tile(std::uint64_t points) const;
     [[nodiscard]] std::uint64_t needs_of_rest() const;
-    /// Each throws stream_error with what would be enough, where memory is not.
+    /// Each throws io_error with what would be enough, where memory is not.
     void check_before_survey();
     void check_before_tile() const;
     [[noreturn]] void fail_for_memory(std::uint64_t needed, const std::string& more = {}) const;

@@ -19,8 +19,7 @@ namespace treeform::detail::stream {
 /// read and made, and sends the next one how far it has come. Collective: every rank must call
 /// this. Returns how many bytes it became.
 ///
-/// \throws io_error, all of them the same where the packed bytes are damaged; stream_error,
-///         cancelled
+/// \throws io_error, all of them the same where the packed bytes are damaged; cancelled
 std::uint64_t unpack_in_turn(const std::filesystem::path& pcd, const std::filesystem::path& to,
                              const communicator& all, cancellable_progress& pace);
 

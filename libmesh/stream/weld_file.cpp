@@ -141,7 +141,7 @@ std::optional<std::uint64_t> count_still_within(const mesh_file& welded,
     again.keep_seams = false;
     attributes properties;
     if (const element* vertices = welded.attributes.find("vertex"))
-        if (!again.same.empty() || again.order != weld_order::given)
+        if (!again.same.empty() || !again.order_by.empty())
             properties.elements.push_back(*vertices);
     const weld_result twice = weld(points, properties, again);
     if (twice.status == status::cancelled) return std::nullopt;

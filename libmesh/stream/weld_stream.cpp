@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using detail::stream::work_folder;
 
 /// Changes whenever the files in the folder do.
-constexpr std::uint64_t layout_of_folder = 5;
+constexpr std::uint64_t layout_of_folder = 6;
 
 std::string identity_of(const cloud_inputs& inputs, const weld_stream_options& o) {
     detail::stream::state_writer state;
@@ -37,20 +37,20 @@ std::string identity_of(const cloud_inputs& inputs, const weld_stream_options& o
             static_cast<std::uint64_t>(fs::last_write_time(input).time_since_epoch().count()));
     }
     state.text(inputs.format);
-    for (const named_column& c : inputs.columns) {
-        state.text(c.name);
-        state.text(c.source);
+    for (const auto& [name, source] : inputs.columns) {
+        state.text(name);
+        state.text(source);
     }
     state.number(inputs.mixed ? 1 : 0);
-    state.number(static_cast<std::uint64_t>(o.rule));
+    state.number(o.chain ? 1 : 0);
     state.real(o.tolerance);
     for (const weld_condition& c : o.same) {
         state.text(c.property);
         state.real(c.tolerance);
     }
-    state.number(static_cast<std::uint64_t>(o.order));
     state.text(o.order_by);
-    for (const bool one : {o.relative, o.as_las, o.keep_seams}) state.number(one ? 1 : 0);
+    for (const bool one : {o.highest_first, o.relative, o.as_las, o.keep_seams})
+        state.number(one ? 1 : 0);
     for (const std::string& name : o.across) state.text(name);
     for (const auto* grid : {&o.las_scale, &o.las_offset})
         for (const double x : grid->value_or(std::array<double, 3>{})) state.real(x);
@@ -83,10 +83,10 @@ detail::stream::tile_task task_of(cloud_inputs inputs, weld_stream_options optio
 /// difference, tiles do not do it.
 void check_soup(const mesh_file& header, const weld_stream_options& o) {
     if (header.indexed) return;
-    if (o.keep != weld_keep::first || (o.tolerance > 0.0 && o.rule == weld_rule::first))
+    if (o.keep != weld_keep::first || (o.tolerance > 0.0 && !o.chain))
         throw std::invalid_argument(
             "treeform::weld_stream: an STL is welded in tiles with weld_keep::first, and without a "
-            "tolerance or by weld_rule::chain; a PLY made of it is with all options");
+            "tolerance or by chains; a PLY made of it is with all options");
 }
 
 /// Whether files with these headers have the same values of what conditions look at. Coordinates
@@ -112,13 +112,12 @@ work_folder::use use_of(const weld_stream_options& o, const detail::stream::comm
 
 }  // namespace
 
-stream_error::stream_error(reason why, fs::path path, const std::string& text, std::uint64_t needed)
-    : std::runtime_error(text), why_(why), path_(std::move(path)), needed_(needed) {}
-
-cloud_outline cloud_inputs::outline(const treeform::communicator& ranks) const {
+mesh_file cloud_inputs::outline(const treeform::communicator& ranks) const {
     const cloud_inputs all = named(*this);
     const detail::stream::joined_points points(all, false, detail::stream::communicator(ranks));
-    return {points.header(), points.count(), detail::stream::has_rows_behind(points.header())};
+    mesh_file header = points.header();
+    header.attributes.obtain("vertex", 0).rows = static_cast<std::size_t>(points.count().value());
+    return header;
 }
 
 struct stream_weld::state {
@@ -138,7 +137,7 @@ struct stream_weld::state {
         faces.emplace(pace, folder, task, steps);
     }
 
-    /// \throws stream_error where there are none
+    /// \throws io_error where there are none
     void check_tiles() {
         if (!steps.has_tiles()) folder.fail_without_tiles();
     }
@@ -151,11 +150,11 @@ struct stream_weld::state {
 
     /// Where the work is cancelled, says so.
     template <class Work>
-    [[nodiscard]] static treeform::status until_cancelled(const Work& work) {
+    [[nodiscard]] treeform::status until_cancelled(const Work& work) {
         try {
             work();
         } catch (const detail::stream::cancelled&) {
-            return status::cancelled;
+            return made.status = status::cancelled;
         }
         return status::ok;
     }
@@ -163,10 +162,10 @@ struct stream_weld::state {
     /// Of what was written, which is another cloud where points are not as they were.
     void count_still_within(const weld_stream_outputs& outputs) {
         if (!outputs.welded || outputs.withhold || !outputs.label.empty()) return;
-        written.still_within = 0;
+        made.still_within = 0;
         const weld_stream_options& o = task.options;
         detail::stream::state_writer mine;
-        mine.real(written.welded ? written.welded->max_displacement : 0.0);
+        mine.real(made.welded ? made.welded->max_displacement : 0.0);
         mine.text(outputs.welded->first.string());
         detail::stream::state_reader first = all.exchange(mine).front();
         const bool rounded = first.real() > 0.0;
@@ -186,12 +185,13 @@ struct stream_weld::state {
         cloud_inputs input{.paths = {path}, .format = outputs.welded->second.format};
         const fs::path whole = folder.file("whole.ply");
         if (!again.same.empty() &&
-            !have_same_values(source.header(), input.outline(o.communicator).header, again.same)) {
+            !have_same_values(source.header(), input.outline(o.communicator), again.same)) {
             weld_stream_outputs as_read{.unfinished = outputs.unfinished};
             as_read.welded = {whole,
                               {.precision = outputs.welded->second.precision, .keep_names = true}};
-            static_cast<void>(detail::stream::give_back(pace, task, as_read, steps, *welded,
-                                                        rows ? &*rows : nullptr, nullptr, folder));
+            weld_stream_result of_whole;
+            detail::stream::give_back(pace, task, as_read, steps, *welded, rows ? &*rows : nullptr,
+                                      nullptr, folder, of_whole);
             input = {.paths = {whole}};
         }
         // What has been enough so far is so for fewer points, be their rows somewhat longer.
@@ -200,22 +200,18 @@ struct stream_weld::state {
         twice.state_->faces.reset();
         const weld_stream_result result = run(twice, {});
         if (result.status == status::cancelled) throw detail::stream::cancelled{};
-        written.still_within = result.survey.points - result.counts.kept;
+        made.still_within = result.survey.points - result.kept;
         if (all.is_root()) fs::remove(whole);
     }
 
     [[nodiscard]] static weld_stream_result run(stream_weld& work,
                                                 const weld_stream_outputs& outputs) {
-        weld_stream_result result;
-        result.status = work.take_survey();
-        if (result.status == status::ok) result.status = work.scatter();
-        if (result.status == status::ok) result.status = work.weld();
-        if (result.status == status::ok) result.status = work.write(outputs);
-        if (result.status == status::ok) work.remove_folder();
-        result.survey = work.survey();
-        result.counts = work.counts();
-        result.written = work.written();
-        return result;
+        treeform::status ended = work.take_survey();
+        if (ended == status::ok) ended = work.scatter();
+        if (ended == status::ok) ended = work.weld();
+        if (ended == status::ok) ended = work.write(outputs);
+        if (ended == status::ok) work.remove_folder();
+        return work.result();
     }
 
     detail::stream::tile_task task;
@@ -231,8 +227,7 @@ struct stream_weld::state {
     std::optional<detail::stream::tile_faces> faces{};  ///< of a mesh
     std::optional<detail::stream::tiles_welded> welded{};
     std::optional<detail::stream::kept_rows> rows{};
-    weld_stream_counts counts{};
-    weld_stream_written written{};
+    weld_stream_result made{};  ///< but for the survey
 };
 
 stream_weld::stream_weld(cloud_inputs inputs, weld_stream_options options)
@@ -246,7 +241,7 @@ stream_weld& stream_weld::operator=(stream_weld&&) noexcept = default;
 
 status stream_weld::take_survey() {
     state& s = *state_;
-    return state::until_cancelled([&] {
+    return state_->until_cancelled([&] {
         if (s.task.options.shared && !s.steps.has_tiles()) {
             s.hold_alone();
             if (!s.steps.has_tiles() && s.steps.has_plan())  // else another process was quicker
@@ -260,7 +255,7 @@ status stream_weld::take_survey() {
 const cloud_survey& stream_weld::survey() const { return state_->steps.survey(); }
 
 status stream_weld::scatter() {
-    const status ended = state::until_cancelled([&] { state_->steps.scatter(); });
+    const status ended = state_->until_cancelled([&] { state_->steps.scatter(); });
     state_->alone.reset();
     return ended;
 }
@@ -269,11 +264,11 @@ void stream_weld::check_tiles() { state_->check_tiles(); }
 
 status stream_weld::weld_tile(std::size_t tile) {
     state_->check_tiles();
-    return state::until_cancelled([&] { state_->steps.weld_one(tile); });
+    return state_->until_cancelled([&] { state_->steps.weld_one(tile); });
 }
 
 status stream_weld::weld() {
-    return state::until_cancelled([&] {
+    return state_->until_cancelled([&] {
         state& s = *state_;
         if (s.task.options.shared) {
             s.check_tiles();
@@ -289,25 +284,29 @@ status stream_weld::weld() {
         if (s.task.options.keep != weld_keep::first && (is_divided || s.all.is_root()))
             s.rows.emplace(s.pace, s.folder, is_divided ? s.all : s.lone, s.task, s.steps,
                            *s.welded);
-        s.counts = {survey().points - s.welded->dropped, s.welded->groups,
-                    s.welded->max_displacement};
-        if (s.faces) s.faces->weld(*s.welded, s.rows ? &*s.rows : nullptr, s.counts);
+        s.made.kept = survey().points - s.welded->dropped;
+        s.made.statistics.groups = s.welded->groups;
+        s.made.statistics.non_finite = survey().non_finite;
+        s.made.statistics.max_displacement = s.welded->max_displacement;
+        if (s.faces) s.faces->weld(*s.welded, s.rows ? &*s.rows : nullptr, s.made);
     });
 }
 
-const weld_stream_counts& stream_weld::counts() const { return state_->counts; }
-
 status stream_weld::write(const weld_stream_outputs& outputs) {
-    return state::until_cancelled([&] {
+    return state_->until_cancelled([&] {
         state& s = *state_;
-        s.written = detail::stream::give_back(s.pace, s.task, outputs, s.steps, *s.welded,
-                                              s.rows ? &*s.rows : nullptr,
-                                              s.faces ? &*s.faces : nullptr, s.folder);
+        detail::stream::give_back(s.pace, s.task, outputs, s.steps, *s.welded,
+                                  s.rows ? &*s.rows : nullptr, s.faces ? &*s.faces : nullptr,
+                                  s.folder, s.made);
         s.count_still_within(outputs);
     });
 }
 
-const weld_stream_written& stream_weld::written() const { return state_->written; }
+weld_stream_result stream_weld::result() const {
+    weld_stream_result known = state_->made;
+    known.survey = survey();
+    return known;
+}
 
 void stream_weld::remove_folder() {
     state_->all.barrier();

@@ -25,10 +25,10 @@ namespace fs = std::filesystem;
 
 const char* const lock_name = "lock";
 
-using reason = stream_error::reason;
+using kind = io_error::kind;
 
-[[noreturn]] void refuse(reason why, const fs::path& path, const std::string& text) {
-    throw stream_error(why, path, path.string() + ": " + text);
+[[noreturn]] void refuse(kind why, const fs::path& path, const std::string& text) {
+    throw io_error(why, path, path.string() + ": " + text);
 }
 
 }  // namespace
@@ -37,22 +37,22 @@ work_folder::work_folder(fs::path path, const std::string& job, use how)
     : path_(std::move(path)), how_(how) {
     std::error_code error;
     fs::create_directory(path_, error);
-    if (error) refuse(reason::folder, path_, "cannot be made: " + error.message());
+    if (error) refuse(kind::folder, path_, "cannot be made: " + error.message());
     const fs::path lock = path_ / lock_name;
     if (!fs::exists(lock) && !fs::is_empty(path_))
-        refuse(reason::folder_foreign, path_, "holds files of others");
+        refuse(kind::folder_foreign, path_, "holds files of others");
     lock_ = ::open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (lock_ < 0)
-        refuse(reason::folder, path_,
+        refuse(kind::folder, path_,
                std::string("cannot be written to: ") + std::generic_category().message(errno));
     try {
         hold(how);
         std::array<char, 32> was{};
         const ssize_t size = ::pread(lock_, was.data(), was.size(), 0);
         if (size > 0 && job != std::string_view(was.data(), static_cast<std::size_t>(size)))
-            refuse(reason::folder_foreign, path_, "holds the files of another job");
+            refuse(kind::folder_foreign, path_, "holds the files of another job");
         if (size <= 0 && ::pwrite(lock_, job.data(), job.size(), 0) < 0)
-            refuse(reason::folder, path_,
+            refuse(kind::folder, path_,
                    std::string("cannot be written to: ") + std::generic_category().message(errno));
     } catch (...) {
         ::close(lock_);
@@ -66,7 +66,7 @@ bool work_folder::try_to(use how) const {
 
 void work_folder::hold(use how) {
     if (how != use::member && !try_to(how))
-        refuse(reason::folder_in_use, path_, "is in use by another process");
+        refuse(kind::folder_in_use, path_, "is in use by another process");
 }
 
 /// Several that wait hold nothing meanwhile, so that one of them gets it.
@@ -74,7 +74,7 @@ void work_folder::hold_alone(cancellable_progress& pace) {
     constexpr auto pause = std::chrono::milliseconds(20);
     for (int left = 100; !try_to(use::alone); --left) {
         hold(use::shared);
-        if (left == 0) refuse(reason::folder_in_use, path_, "is in use by another process");
+        if (left == 0) refuse(kind::folder_in_use, path_, "is in use by another process");
         ::flock(lock_, LOCK_UN);
         std::this_thread::sleep_for(pause);
         pace.check();
@@ -84,7 +84,7 @@ void work_folder::hold_alone(cancellable_progress& pace) {
 held_alone::~held_alone() {
     try {
         folder_.hold(work_folder::use::shared);
-    } catch (const stream_error&) {  // another process has it now; what is next will say so
+    } catch (const io_error&) {  // another process has it now; what is next will say so
     }
 }
 
@@ -99,7 +99,7 @@ std::string work_folder::own_name(const std::string& name) {
 void work_folder::rename(const std::string& from, const std::string& to) const {
     std::error_code error;
     fs::rename(file(from), file(to), error);
-    if (error) refuse(reason::folder, file(to), "cannot be written: " + error.message());
+    if (error) refuse(kind::folder, file(to), "cannot be written: " + error.message());
 }
 
 work_folder::~work_folder() {
@@ -150,11 +150,11 @@ void work_folder::remove_unused() noexcept {
 }
 
 void work_folder::fail_without_tiles() const {
-    refuse(reason::read, path_, "holds no tiles of this input with these options");
+    refuse(kind::tile_read, path_, "holds no tiles of this input with these options");
 }
 
 void work_folder::fail_with_other_tiles() const {
-    refuse(reason::folder, path_,
+    refuse(kind::folder, path_,
            "holds tiles of another input or of other options, or damaged ones; remove it first");
 }
 
@@ -164,7 +164,7 @@ void work_folder::fail_unfinished(const std::vector<std::size_t>& tiles) const {
     for (std::size_t i = 0; i < std::min(most, tiles.size()); ++i)
         text += (i > 0 ? ", " : "") + std::to_string(tiles[i]);
     if (tiles.size() > most) text += " and " + std::to_string(tiles.size() - most) + " more";
-    refuse(reason::read, path_,
+    refuse(kind::tile_read, path_,
            text + (tiles.size() == 1 ? " is" : " are") + " not finished, or not as written");
 }
 

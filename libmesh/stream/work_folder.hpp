@@ -25,13 +25,13 @@ class TREEFORM_API work_folder {
 
     /// Makes the folder, or takes over what an earlier run has left. `job` is one word for what is
     /// done there.
-    /// \throws stream_error when it cannot be made, holds other files, is in use, or is for another
+    /// \throws io_error when it cannot be made, holds other files, is in use, or is for another
     ///         job
     work_folder(std::filesystem::path path, const std::string& job, use how = use::alone);
-    /// Holds it this way from now on. \throws stream_error when it is in use; then it is not held
+    /// Holds it this way from now on. \throws io_error when it is in use; then it is not held
     void hold(use how);
     /// The same alone, for who shares it: waits a little for others that are about to end.
-    /// \throws stream_error when it is in use; cancelled
+    /// \throws io_error when it is in use; cancelled
     void hold_alone(cancellable_progress& pace);
     ~work_folder();
     work_folder(const work_folder&) = delete;
@@ -44,9 +44,9 @@ class TREEFORM_API work_folder {
     [[nodiscard]] std::optional<state_reader> load(const std::string& name) const;
     /// A name that nobody else uses, on any machine.
     [[nodiscard]] static std::string own_name(const std::string& name);
-    /// Gives the file `from` the name `to`, which it may have already. \throws stream_error
+    /// Gives the file `from` the name `to`, which it may have already. \throws io_error
     void rename(const std::string& from, const std::string& to) const;
-    /// Stores it: whole, or not at all. \throws stream_error
+    /// Stores it: whole, or not at all. \throws io_error
     void store(const std::string& name, const state_writer& state) const;
 
     /// Removes all files but the lock.
@@ -54,7 +54,7 @@ class TREEFORM_API work_folder {
     /// Removes the folder.
     void remove();
 
-    /// What those say who share a folder. \throws stream_error
+    /// What those say who share a folder. \throws io_error
     [[noreturn]] void fail_without_tiles() const;
     [[noreturn]] void fail_with_other_tiles() const;
     /// Names the first hundred. \pre one at least

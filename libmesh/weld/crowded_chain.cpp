@@ -159,7 +159,7 @@ struct crowded_chain::state {
 
     void join_kept() {
         const point_groups groups =
-            group_points(kept, {.tolerance = within.distance(), .rule = weld_rule::chain});
+            group_points(kept, {.tolerance = within.distance(), .chain = true});
         for (std::size_t i = 0; i < kept.size(); ++i)
             sets->join(crowd_of_kept[i],
                        crowd_of_kept[groups.first_of_group[groups.group_of_point[i]]]);

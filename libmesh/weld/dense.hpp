@@ -10,7 +10,7 @@
 
 namespace treeform::detail::weld {
 
-/// The kept point that each point belongs to by `weld_rule::first`; empty when progress stopped it.
+/// The kept point that each point belongs to by the rule `first`; empty when progress stopped it.
 ///
 /// \cost O(V) expected, as long as `may_merge` is nearly always true: at most some 40 points
 ///       further apart than the tolerance fit a cube twice as wide

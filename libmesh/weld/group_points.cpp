@@ -71,7 +71,7 @@ void split_by_agreement(const weld_options& options, numbers& first_of) {
         std::size_t end = begin;
         for (; end < placed.size() && placed[end].first == members[0]; ++end)
             members.push_back(placed[end].second);
-        if (options.rule == weld_rule::first)
+        if (!options.chain)
             split_kept(members, options, first_of);
         else
             split_chains(members, options, first_of);
@@ -119,7 +119,7 @@ point_groups detail::weld::find_groups(const char* called, points_view points,
 
     point_groups result;
     numbers& first_of = result.group_of_point;
-    const bool by_first = options.rule == weld_rule::first;
+    const bool by_first = !options.chain;
     if (!go_on(0.0)) return {{}, {}, status::cancelled};
     if (options.tolerance == 0.0) {
         first_of = by_equality(points, options);

@@ -9,7 +9,7 @@
 
 namespace treeform::detail::weld {
 
-/// The nearest of the points met, the lowest of equally near ones: how `weld_rule::first` decides,
+/// The nearest of the points met, the lowest of equally near ones: how the rule `first` decides,
 /// wherever it does (over lists of pairs, over cubes, in tiles and along their borders).
 class nearest_kept {
   public:

@@ -40,17 +40,16 @@ template <class T, class Values>
 
 std::vector<std::uint32_t> points_in_order(points_view points, const attributes& properties,
                                            const weld_options& options) {
-    if (options.order == weld_order::given) return {};
+    if (options.order_by.empty()) return {};
     if (options.keep != weld_keep::first)
         throw std::invalid_argument("treeform::weld: an order needs weld_keep::first");
     const vertex_values values(points, properties, column_to_order_by(properties, options));
-    const bool lowest = options.order == weld_order::lowest;
     if (points.size() > std::numeric_limits<std::uint32_t>::max())
         throw std::invalid_argument("treeform::weld: more than 2^32 - 2 points");
     buffer<keyed_point> keyed(points.size());
     for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i)
-            keyed[i] = {lowest ? values.ascending_key(i) : values.descending_key(i),
+            keyed[i] = {options.highest_first ? values.descending_key(i) : values.ascending_key(i),
                         static_cast<std::uint32_t>(i)};
     });
     // No two compare equal, so the order is the only one there is.

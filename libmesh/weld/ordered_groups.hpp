@@ -10,7 +10,7 @@
 
 namespace treeform::detail::weld {
 
-/// [V] the points in the order that `options` asks for, or empty for `weld_order::given`.
+/// [V] the points in the order that `options` asks for, or empty for that of their numbers.
 ///
 /// \throws std::invalid_argument as `weld`
 [[nodiscard]] std::vector<std::uint32_t> points_in_order(points_view points,

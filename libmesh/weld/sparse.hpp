@@ -10,7 +10,7 @@
 
 namespace treeform::detail::weld {
 
-/// The kept point that each point belongs to by `weld_rule::first`; empty where there are too many
+/// The kept point that each point belongs to by the rule `first`; empty where there are too many
 /// pairs for the search, or progress stopped it.
 ///
 /// \pre  options.tolerance > 0

@@ -52,7 +52,7 @@ class chain_in_tile {
 
   private:
     void group() {
-        weld_options options{.tolerance = tolerance_, .rule = weld_rule::chain};
+        weld_options options{.tolerance = tolerance_, .chain = true};
         const std::vector<std::uint32_t> labels = agree_.labels(values_);
         options.label = labels;
         if (!agree_.is_transitive())
@@ -150,11 +150,11 @@ struct tile_weld::state {
     std::optional<chain_in_tile> chain{};
 };
 
-tile_weld::tile_weld(weld_rule rule, double tolerance, agreement agree, const number_slices& slices)
+tile_weld::tile_weld(bool chain, double tolerance, agreement agree, const number_slices& slices)
     : state_(std::make_unique<state>()) {
     check_tolerance("tile_weld", tolerance);
     state_->agree = std::move(agree);
-    if (rule == weld_rule::first)
+    if (!chain)
         state_->first.emplace(tolerance, state_->agree, slices);
     else
         state_->chain.emplace(tolerance, state_->agree);

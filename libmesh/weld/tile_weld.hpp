@@ -166,8 +166,7 @@ struct tile_result {
 class TREEFORM_API tile_weld {
   public:
     /// \throws std::invalid_argument for a tolerance that is negative or not finite
-    tile_weld(weld_rule rule, double tolerance, agreement agree = {},
-              const number_slices& slices = {});
+    tile_weld(bool chain, double tolerance, agreement agree = {}, const number_slices& slices = {});
     ~tile_weld();
     tile_weld(tile_weld&&) noexcept;
     tile_weld& operator=(tile_weld&&) noexcept;

@@ -101,7 +101,8 @@ welded_tile weld_tile(points_view points, const tiled_points& tiled, std::size_t
                       double tolerance, std::size_t largest_border,
                       std::vector<std::uint32_t>& leader_of) {
     constexpr std::size_t block = 1024;
-    tile_weld weld(weld_rule::first, tolerance);
+    constexpr bool chain = false;
+    tile_weld weld(chain, tolerance);
     tile_result found;
     welded_tile result;
     std::vector<tile_point> some;
@@ -127,8 +128,8 @@ welded_tile weld_tile(points_view points, const tiled_points& tiled, std::size_t
 bool can_be_tiled(points_view points, const weld_options& options) {
     constexpr std::size_t least = std::size_t{1} << 18;
     constexpr double largest = 0x1p990;  // beyond, tiles have one cube (near_cells.hpp)
-    return options.tolerance < largest && options.rule == weld_rule::first &&
-           options.label.empty() && !options.may_merge && points.size() >= least;
+    return options.tolerance < largest && !options.chain && options.label.empty() &&
+           !options.may_merge && points.size() >= least;
 }
 
 bool is_window_wide(points_view points, double tolerance) {

@@ -32,7 +32,7 @@ contest contest_of(std::size_t points, double tolerance) {
     };
     add("treeform", [=](const cloud& c) { return weld_by_treeform(c, {.tolerance = tolerance}); });
     add("treeform chain", [=](const cloud& c) {
-        return weld_by_treeform(c, {.tolerance = tolerance, .rule = weld_rule::chain});
+        return weld_by_treeform(c, {.tolerance = tolerance, .chain = true});
     });
     add(nanoflann_name(), [=](const cloud& c) { return nanoflann_weld(c, tolerance); });
     // Finer grids move less and join less: the same method at several settings.

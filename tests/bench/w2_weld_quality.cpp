@@ -29,7 +29,7 @@ contest contest_of(std::size_t points, double tolerance) {
     using cloud = std::vector<point3>;
     add("treeform", [=](const cloud& c) { return weld_by_treeform(c, {.tolerance = tolerance}); });
     add(chain_name, [=](const cloud& c) {
-        return weld_by_treeform(c, {.tolerance = tolerance, .rule = weld_rule::chain});
+        return weld_by_treeform(c, {.tolerance = tolerance, .chain = true});
     });
     add(nanoflann_name(), [=](const cloud& c) { return nanoflann_weld(c, tolerance); });
     add(rounding_name, [=](const cloud& c) { return weld_by_rounding(c, tolerance); });

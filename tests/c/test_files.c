@@ -231,20 +231,12 @@ static void test_parts(void) {
     treeform_free(parts);
     INVALID("no files", treeform_join_files(both, names, 0, &joined));
     CHECK(joined == NULL);
+    CHECK(treeform_reads_scenes() == 0 || treeform_reads_scenes() == 1);
     treeform_free(scene);
     treeform_free(boxed);
     treeform_free(box_mesh);
     treeform_free(file);
     treeform_free(sphere);
-}
-
-static void test_folders(void) {
-    const char* const paths[2] = {"data", "-"};
-    treeform_strings* files = NULL;
-    OK(treeform_files_of(paths, 2, TREEFORM_MESHES, &files));
-    CHECK(files->count > 8 && is(files->values[files->count - 1], "-"));
-    treeform_free(files);
-    CHECK(treeform_reads_scenes() == 0 || treeform_reads_scenes() == 1);
 }
 
 static void test_robots(void) {
@@ -259,7 +251,6 @@ static void test_robots(void) {
     double places[24];
     treeform_mesh* mesh = cube(0, 0, 0, 1);
     treeform_robot* robot = NULL;
-    treeform_robot_options options;
     treeform_robot_view* view = NULL;
     treeform_robot_parts* parts = NULL;
     treeform_box bounds;
@@ -267,8 +258,7 @@ static void test_robots(void) {
     CHECK(out != NULL && fwrite(urdf, 1, sizeof urdf - 1, out) == sizeof urdf - 1);
     fclose(out);
     OK(treeform_write_mesh(path_in_work("hand.stl"), mesh, NULL, NULL));
-    treeform_robot_options_init(&options, sizeof options);
-    OK(treeform_read_urdf(path_in_work("arm.urdf"), &options, &robot));
+    OK(treeform_read_urdf(path_in_work("arm.urdf"), NULL, 0, 0, &robot));
     OK(treeform_robot_look(robot, &view));
     CHECK(is(view->name, "arm") && view->link_count == 2 && is(view->links[1], "hand"));
     CHECK(view->joint_count == 1 && view->joints[0].kind == 1 && view->joints[0].upper == 2.0);
@@ -288,7 +278,7 @@ static void test_robots(void) {
     treeform_free(parts);
     INVALID("robot is null", treeform_robot_parts_of(NULL, &parts));
     treeform_free(robot);
-    ENDS(TREEFORM_FILE, "", treeform_read_urdf("data/cube.stl", NULL, &robot));
+    ENDS(TREEFORM_FILE, "", treeform_read_urdf("data/cube.stl", NULL, 0, 0, &robot));
     CHECK(robot == NULL);
     treeform_free(mesh);
 }
@@ -299,6 +289,5 @@ void test_files(void) {
     test_write();
     test_columns();
     test_parts();
-    test_folders();
     test_robots();
 }

@@ -166,7 +166,7 @@ static void test_repair(void) {
     OK(treeform_find_solid_defects(mesh, NULL, NULL, &defects));
     CHECK(defects->any == 1 && defects->open_edges > 0 && defects->message[0] != 0);
     treeform_free(defects);
-    OK(treeform_find_solid_defects_of_file(file, TREEFORM_EACH_PART, NULL, NULL, &defects));
+    OK(treeform_find_solid_defects_of_file(file, NULL, NULL, &defects));
     CHECK(defects->any == 1);
     CHECK(defects->nonfinite_vertices == 0 && defects->unusable_faces == 0);
     treeform_free(defects);
@@ -182,7 +182,9 @@ static void test_repair(void) {
     CHECK(result->mesh.face_count == 1280 && result->statistics->flipped == 40);
     CHECK(result->statistics->holes == 2 && result->file == NULL && result->vertex_source);
     treeform_free(result);
-    OK(treeform_repair_file(file, TREEFORM_WHOLE_FILE, NULL, &result));
+    treeform_repair_options_init(&options, sizeof options);
+    options.as_one = 1;
+    OK(treeform_repair_file(file, &options, &result));
     CHECK(result->mesh.face_count == 1280 && result->statistics->hole_edges == 9);
     OK(treeform_file_look(result->file, &view));
     CHECK(view->mesh.points == result->mesh.points);
@@ -191,7 +193,9 @@ static void test_repair(void) {
     treeform_repair_options_init(&options, sizeof options);
     options.gap = -1.0;
     INVALID("", treeform_repair(mesh, &options, &result));
-    INVALID("scope is 2", treeform_repair_file(file, 2, NULL, &result));
+    treeform_repair_options_init(&options, sizeof options);
+    options.inside = 3;
+    INVALID("inside is 3", treeform_repair(mesh, &options, &result));
     treeform_repair_options_init(&options, sizeof options);
     options.fill = 0;
     ENDS(TREEFORM_NOT_CERTIFIED, "", treeform_repair(mesh, &options, &result));

@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using tf::fuzz::require;
     tf::fuzz::bytes in(data, size);
     tf::weld_options options;
-    options.rule = static_cast<tf::weld_rule>(in.below(2));
+    options.chain = in.below(2) != 0;
     const auto search = static_cast<tf::detail::weld::neighbor_search>(in.below(4));
     options.tolerance = std::abs(in.coordinate());
     std::vector<tf::point3> points;
@@ -23,9 +23,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto linked = [&](std::uint32_t i, std::uint32_t k) {
         return tf::test::brute_within(points[i], points[k], options.tolerance);
     };
-    const auto expected = options.rule == tf::weld_rule::first
-                              ? tf::test::brute_leaders(points, linked)
-                              : tf::test::brute_chains(points, linked);
+    const auto expected = !options.chain ? tf::test::brute_leaders(points, linked)
+                                         : tf::test::brute_chains(points, linked);
     const tf::point_groups found =
         tf::detail::weld::find_groups("group_points", points, options, search);
     require(found.group_of_point.size() == points.size(), "a group for each point");

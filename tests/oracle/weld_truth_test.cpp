@@ -72,8 +72,7 @@ TEST_CASE("truth: chains are as many as an exact kernel found, by every search")
                 const double tolerance =
                     column.tolerance == nullptr ? 0.0 : row.real(column.tolerance);
                 const tf::point_groups groups = tf::detail::weld::find_groups(
-                    "group_points", points, {.tolerance = tolerance, .rule = tf::weld_rule::chain},
-                    search);
+                    "group_points", points, {.tolerance = tolerance, .chain = true}, search);
                 CHECK(static_cast<std::int64_t>(groups.first_of_group.size()) ==
                       row.number(column.groups));
                 if (std::string(column.groups) == "weld_1e-3")

@@ -164,7 +164,7 @@ def test_what_progress_raises_comes_through():
 
 @pytest.mark.parametrize("verb", [
     "tf.union(*crowd)", "tf.self_intersections(soup)", "tf.wrap(crowd[0], 0.002)",
-    "tf.repair(soup, max_loss=1, check=False)", "tf.weld(cloud, 0.05, rule='chain')",
+    "tf.repair(soup, max_loss=1, check=False)", "tf.weld(cloud, 0.05, chain=True)",
     "tf.PointTree(cloud).query_pairs(0.05, output_type='ndarray')",
     "tf.closest_point(crowd[0], far)", "boxes.pairs()", "boxes.pairs(boxes)",
     "boxes.query([[0] * 3] * 3000, [[1] * 3] * 3000)", "same.query_ball([0] * 3, 1)",

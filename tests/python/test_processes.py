@@ -177,8 +177,8 @@ def test_many_processes_weld_a_cloud(tmp_path, cloud):
     assert not (tmp_path / "tiles").exists()
     with pytest.raises(tf.Cancelled):
         tf.StreamWeld(cloud, 0.1, **options).scatter(progress=lambda share: False)
-    with pytest.raises(ValueError, match="rule"):
-        tf.StreamWeld(cloud, 0.1, rule="last")
+    with pytest.raises(ValueError, match="keep"):
+        tf.StreamWeld(cloud, 0.1, keep="mid")
     with pytest.raises(ValueError, match="files"):
         tf.StreamWeld([], 0.1)
     with pytest.raises(tf.FileError, match="none"):

@@ -19,7 +19,7 @@ def test_bytes_are_those_of_the_tool(tmp_path):
 def test_bytes_of_clouds_are_those_of_the_tool(tmp_path, rule):
     path = model("cloud/terrain_samp11_38k.ply")
     run_tool("tf-weld", path, "-t", "1", "--rule", rule, "-o", tmp_path / "tool.ply")
-    tf.write(tmp_path / "own.ply", tf.weld(tf.read(path), 1.0, rule=rule))
+    tf.write(tmp_path / "own.ply", tf.weld(tf.read(path), 1.0, chain=rule == "chain"))
     assert (tmp_path / "tool.ply").read_bytes() == (tmp_path / "own.ply").read_bytes()
 
 
@@ -53,7 +53,7 @@ def test_the_forms_that_points_come_in():
     points = [[0, 0, 0], [0, 0, 0.5], [0, 0, 1]]
     for cloud in (points, np.array(points), tuple(map(tuple, points)), (points, [])):
         assert len(tf.weld(cloud, 0.6).points) == 2
-    assert len(tf.weld(points, 0.6, rule="chain").points) == 1
+    assert len(tf.weld(points, 0.6, chain=True).points) == 1
     assert tf.weld(points, 1.0, keep="mean").points.tolist() == [[0, 0, 0.5]]
 
 

@@ -22,7 +22,6 @@
 namespace {
 
 using tf::point3;
-using tf::weld_rule;
 using tf::detail::weld::neighbor_search;
 using cloud = std::vector<point3>;
 
@@ -53,8 +52,7 @@ void check(const std::function<point3(std::size_t)>& make, std::vector<double> t
         for (const neighbor_search search : searches) {
             CAPTURE(static_cast<int>(search));
             CHECK(leaders(points, {.tolerance = tolerance}, search) == first);
-            CHECK(leaders(points, {.tolerance = tolerance, .rule = weld_rule::chain}, search) ==
-                  chain);
+            CHECK(leaders(points, {.tolerance = tolerance, .chain = true}, search) == chain);
         }
     }
 }

@@ -26,7 +26,7 @@
 namespace test {
 
 using tf::point3;
-using tf::weld_rule;
+constexpr bool by_first = false, by_chain = true;  // `weld_options::chain`
 using tf::detail::weld::asked_point;
 using tf::detail::weld::border_point;
 using tf::detail::weld::border_weld;
@@ -99,10 +99,10 @@ struct values_of_points {
     }
 };
 
-inline tile_result weld_tile(const std::vector<tile_point>& points, weld_rule rule,
-                             double tolerance, test::random& random,
-                             const values_of_points& more = {}, const number_slices& slices = {}) {
-    tf::detail::weld::tile_weld tile(rule, tolerance, more.agree, slices);
+inline tile_result weld_tile(const std::vector<tile_point>& points, bool chain, double tolerance,
+                             test::random& random, const values_of_points& more = {},
+                             const number_slices& slices = {}) {
+    tf::detail::weld::tile_weld tile(chain, tolerance, more.agree, slices);
     tile_result result;
     in_blocks(points, random, [&](auto block) { tile.add(block, result, more.of(block)); });
     while (tile.finish(result)) {
@@ -158,7 +158,7 @@ struct left_to_borders {
 /// What tiles [first, last) leave to others: by one pass, or by one over what two passes leave,
 /// each over a half of them, and so on; each of them a run of slices of the numbers at a time.
 struct passes {
-    weld_rule rule;
+    bool chain;
     double tolerance;
     const tile_cuts& cuts;
     const std::vector<tile_result>& tiles;
@@ -272,7 +272,7 @@ struct passes {
             out.dropped.push_back({link.id(), link.leader});
             joined.join(link);
         }
-        if (rule != weld_rule::chain) return;
+        if (!chain) return;
         for (const border_point& p : border)
             if (is_outer(p.at, first, last)) out.border.push_back(pass.handed_on(p));
     }
@@ -288,7 +288,7 @@ inline constexpr std::array<border_way, 6> border_ways{
     {{false, 0}, {false, 1}, {false, 7, 0}, {true, 0}, {true, 1}, {true, 3, 0}}};
 
 /// The leader of each point by `count` tiles, done in an order of `random`, in blocks of any size.
-inline tiled weld_in_tiles(const cloud& points, weld_rule rule, double tolerance, std::size_t count,
+inline tiled weld_in_tiles(const cloud& points, bool chain, double tolerance, std::size_t count,
                            test::random& random, const values_of_points& more = {},
                            const border_way& way = {}) {
     cloud sample;
@@ -296,7 +296,7 @@ inline tiled weld_in_tiles(const cloud& points, weld_rule rule, double tolerance
     const tile_cuts planned(sample, tolerance, count);
     const tile_cuts slabs({planned.nodes().begin(), planned.nodes().end()}, tolerance);
     const auto tiles = scatter(points, slabs);
-    const bool in_runs = way.slices_a_run > 0 && rule == weld_rule::first;
+    const bool in_runs = way.slices_a_run > 0 && !chain;
     const number_slices slices =
         in_runs ? number_slices(points.size(), way.least_bits) : number_slices();
     std::vector<std::size_t> order(tiles.size());
@@ -312,11 +312,11 @@ inline tiled weld_in_tiles(const cloud& points, weld_rule rule, double tolerance
     std::vector<tile_result> results(tiles.size());
     for (const std::size_t t : order) {
         const tile_result& result = results[t] =
-            weld_tile(tiles[t], rule, tolerance, random, more, slices);
-        if (rule == weld_rule::first)
+            weld_tile(tiles[t], chain, tolerance, random, more, slices);
+        if (!chain)
             REQUIRE(result.border_values.size() == result.border.size() * more.agree.size());
         REQUIRE(result.asked_values.size() == result.asked.size() * more.agree.size());
-        if (rule == weld_rule::chain && tiles.size() <= 3 && more.agree.size() == 0)
+        if (chain && tiles.size() <= 3 && more.agree.size() == 0)
             check_equal(result, weld_crowded(tiles[t], tolerance, random));
         const auto by_id = [](const auto& a, const auto& b) { return a < b; };
         REQUIRE(std::is_sorted(result.dropped.begin(), result.dropped.end(),
@@ -330,7 +330,7 @@ inline tiled weld_in_tiles(const cloud& points, weld_rule rule, double tolerance
     }
 
     passes pass{
-        rule,          tolerance,    slabs, results, more, slices, in_runs ? way.slices_a_run : 1,
+        chain,         tolerance,    slabs, results, more, slices, in_runs ? way.slices_a_run : 1,
         way.by_halves, points.size()};
     const left_to_borders left = pass.over(0, tiles.size());
     REQUIRE(left.points.empty());

@@ -17,6 +17,8 @@ PARAMETERS = {
     "const mesh_refs&": ("const treeform_mesh* const* {n}, size_t {c}",
                          'glue::refs({n}, {c}, "{n}")'),
     "span<const string>": ("const char* const* {n}, size_t {c}", 'glue::texts({n}, {c}, "{n}")'),
+    "span<const filesystem::path>": ("const char* const* {n}, size_t {c}",
+                                     'glue::paths({n}, {c}, "{n}")'),
     "span<const point3>": ("const double* {n}, size_t {c}", 'glue::points({n}, {c}, "{n}")'),
     "span<const double> heights": ("const double* {n}, size_t {c}", "glue::heights({n}, {c})"),
     "span<const pair<point3,double>>": ("const double* {n}, size_t {c}",

@@ -202,11 +202,12 @@ class Language:
             return [Member(f"const uint32_t* {name}", f"[{count}][2] {doc.rstrip('.')}; or null", "",
                            f'{how} = rows_of<tf::part_pair>({o}, o.{count}, "{name}");'),
                     Member(f"size_t {count}")]
-        if found := re.fullmatch(r"vector<(string|filesystem::path|named_column|weld_condition)>",
-                                 type):
-            c = {"named_column": "treeform_named_column",
+        if found := re.fullmatch(r"vector<(string|filesystem::path|pair<string,string>|"
+                                 r"weld_condition)>", type):
+            c = {"pair<string,string>": "treeform_named_column",
                  "weld_condition": "treeform_weld_condition"}.get(found.group(1), "char* const")
-            reader = {"string": "texts", "filesystem::path": "paths", "named_column": "columns_of",
+            reader = {"string": "texts", "filesystem::path": "paths",
+                      "pair<string,string>": "columns_of",
                       "weld_condition": "conditions"}[found.group(1)]
             count = of.counts.get(one.name, f"{singular(name)}_count")
             return [Member(f"const {c}* {name}", f"[{count}] {doc}", "",

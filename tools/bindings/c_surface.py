@@ -12,8 +12,6 @@ ENUMS = {
     "status": ("treeform_status", "STATUS_"),
     "fill_rule": ("treeform_fill_rule", ""),
     "resolve_mode": ("treeform_resolve_mode", "RESOLVE_"),
-    "repair_rule": ("treeform_repair_rule", "REPAIR_"),
-    "repair_scope": ("treeform_repair_scope", ""),
     "pair_kind": ("treeform_pair_kind", ""),
     "location": ("treeform_location", ""),
     "mesh_relation": ("treeform_mesh_relation", {"touching": "MEETING",
@@ -28,10 +26,7 @@ ENUMS = {
                                          "doubtful": "ALIGN_DOUBTFUL",
                                          "nothing_to_align": "ALIGN_NOTHING"}),
     "thickness_by": ("treeform_thickness_by", "THICKNESS_BY_"),
-    "weld_rule": ("treeform_weld_rule", "WELD_"),
     "weld_keep": ("treeform_weld_keep", "KEEP_"),
-    "weld_order": ("treeform_weld_order", "ORDER_"),
-    "file_content": ("treeform_file_content", ""),
     "scalar_type": ("treeform_scalar", {"float32": "SCALAR_FLOAT32", "float64": "SCALAR_FLOAT64"}),
 }
 
@@ -158,23 +153,22 @@ BOUND = [
         Member("size_t column_count"),
         Member("int32_t mixed", "join LAS of other reference systems or time types, which are then "
                "the first's")]}),
-    Bound("weld_stream_result", custom={
+    Bound("weld_stream_result", leave="left_alone removed label_replaced las_moved", custom={
         "survey": [Member(f"{type} {name}", doc, f"to.{name} = from.survey.{name};")
                    for type, name, doc in (
                        ("uint64_t", "points", ""),
-                       ("uint64_t", "non_finite", "points left as they are"),
                        ("double", "tolerance", "as a length"), ("uint64_t", "tiles", ""),
                        ("uint64_t", "finished_tiles", "by an earlier run"))],
         "max_displacement": [Member(
             "double max_displacement", "the furthest that a point moved",
-            "to.max_displacement = from.counts.max_displacement + from.survey.las_moved;")],
-        "written": [
-            Member("const char* format", "of the output",
-                   'to.format = from.written.welded ? from.written.welded->format.c_str() : "";'),
+            "to.max_displacement = from.statistics.max_displacement + from.survey.las_moved;")],
+        "welded": [Member("const char* format", "of the output",
+                          'to.format = from.welded ? from.welded->format.c_str() : "";')],
+        "still_within": [
             Member("uint64_t still_within", "points that would be merged if the output were welded",
-                   "to.still_within = from.written.still_within.value_or(0);"),
+                   "to.still_within = from.still_within.value_or(0);"),
             Member("int32_t still_within_known", "",
-                   "to.still_within_known = from.written.still_within.has_value();")]}),
+                   "to.still_within_known = from.still_within.has_value();")]}),
     # placement.h
     Bound("placement_options", "place_options"),
     Bound("placement_contact", "contact", "part", custom={"fixed": [
@@ -212,7 +206,6 @@ BOUND = [
     Bound("clash_result", "clashes", counts={"pairs": "count"}),
     Bound("pose_clash", kind="same"),
     # files.h
-    Bound("named_column", kind="part"),
     Bound("io_warning", "warning", "part"),
     Bound("column", kind="part", leave="role", custom={
         "list_length": [
@@ -254,7 +247,6 @@ BOUND = [
         "component": [Member("const uint32_t* component",
                              "[F] with `details`: the component; else null",
                              "to.component = or_null(from.component);")]}),
-    Bound("urdf_options", "robot_options"),
     Bound("urdf_joint", "robot_joint", "part", leave="origin axis mimics mimic_line", custom={
         "limits": [Member("double lower", "the limits; NaN for none",
                           "to.lower = from.limits ? (*from.limits)[0] : not_known;"),

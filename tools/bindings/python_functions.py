@@ -11,9 +11,9 @@ from python_language import ARGUMENTS, Function, Language, call_text, camel, wra
 
 #: What exceptions of C++ are in Python.
 _ERRORS = {r"std::(invalid_argument|length_error)": "ValueError",
-           r"\b(io|stream)_error": "FileError", "std::overflow_error": "OverflowError"}
+           r"\bio_error": "FileError", "std::overflow_error": "OverflowError"}
 #: Types of options in Python, where the default of C++ is none of Python's.
-_OPTIONAL = {"vector<named_column>": "Columns | None",
+_OPTIONAL = {"vector<pair<string,string>>": "Columns | None",
              "optional<array<double,3>>": "Sequence[float] | None",
              "optional<point3>": "ArrayLike | None", "transform<3>": "ArrayLike | None",
              "pair_kinds": "Iterable[str] | None",

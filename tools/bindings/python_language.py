@@ -30,7 +30,7 @@ CONTEXTS = {"": "", "attributes": ", const carrying& attributes",
             "moving": ", const held_mesh& moving", "data": ", const file_data* data",
             "parts": ", const held_meshes& parts", "whole": ", const tf::section_result& whole",
             "robot": ", const tf::urdf_robot& robot",
-            "robot_parts": ", tf::robot_parts& parts"}
+            "robot_parts": ", std::vector<tf::urdf_mesh>& parts"}
 
 
 @dataclass
@@ -332,7 +332,7 @@ class Language:
             type = {"pair_kinds": "Optional[list[str]]", "filesystem::path": "str",
                     "vector<string>": "list[str]", "vector<weld_condition>": "Same",
                     "vector<filesystem::path>": "list[str]",
-                    "vector<named_column>": "Optional[Mapping[str, str | int]]",
+                    "vector<pair<string,string>>": "Optional[Mapping[str, str | int]]",
                     "optional<array<double,3>>": "Optional[Sequence[float]]",
                     "optional<array<double,2>>": "Optional[Sequence[float]]"}.get(one.type)
             type = type or self.annotation(one.type)

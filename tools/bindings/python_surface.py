@@ -224,14 +224,14 @@ RESULTS = [
                                     "as_python(std::vector(from.joints), from)")],
                "meshes": [
                    Attribute("parts", "list[Mesh]", "The meshes of a link as one, in the frame of "
-                             "the link.", "meshes_of(std::move(parts.parts))"),
+                             "the link.", "meshes_of(std::move(parts))"),
                    Attribute("link_of_part", "Ids", "(N,) the link of each part.",
-                             "as_array(std::vector(parts.links))"),
+                             "column(parts, &tf::urdf_mesh::link)"),
                    Attribute("adjacent", "Ids", "(n, 2) parts that a joint connects, the lower "
                              "number first: they always touch.",
-                             "column(parts.adjacent, std::identity{})")],
+                             "column(from.adjacent(parts), std::identity{})")],
                "+": [Attribute("_data", "_core.RobotData", "",
-                               "py::cast(robot_data{from, parts.links})")]}),
+                               "py::cast(robot_data(from, parts))")]}),
     # _weld
     Result("weld_result", "WeldResult", "_weld", "MeshResult", context="data",
            doc="A welded mesh or cloud.", leave="attributes",
@@ -245,10 +245,7 @@ RESULTS = [
                                       "faces.", "mesh_object(std::move(from.mesh), py::none(), "
                                       "with_attributes(data, std::move(from.attributes)))")]}),
     Result("weld_stream_result", "WeldStreamResult", "_weld", doc="What `weld_stream` has done.",
-           leave="written max_displacement points faces triangles tolerance non_finite box single "
-                 "sources ranges warnings las_moved conditions finished_tiles unfinished "
-                 "started_anew damaged disk_bytes disk_bytes_free collapsed degenerate "
-                 "nonmanifold_before nonmanifold_after flipped",
+           leave="welded removed label_replaced las_moved still_within",
            custom={"survey": [
                Attribute("points", "int", "Points of the inputs.", "py::cast(from.survey.points)"),
                Attribute("tolerance", "float", "As a length.", "py::cast(from.survey.tolerance)"),
@@ -263,15 +260,12 @@ RESULTS = [
                    Attribute("max_displacement", "float", "The furthest that a point moved, at "
                                                           "most; "
                              "also to a step of LAS.",
-                             "py::cast(from.counts.max_displacement + from.survey.las_moved)"),
-                   Attribute("faces", "int", "Of a mesh, faces that are left.",
-                             "py::cast(from.counts.faces)"),
-                   Attribute("statistics", "dict[str, int]", "Of a mesh, what became of its "
-                                                             "faces, as "
-                             "in `WeldResult.statistics`.", "counters(from.counts)"),
+                             "py::cast(from.statistics.max_displacement + from.survey.las_moved)"),
                    Attribute("warnings", "list[str]", "What a person should know.",
                              "warnings_of(from)")]},
-           docs={"kept": "Points that are left.", "groups": "Groups of two points or more."}),
+           docs={"kept": "Points that are left.", "faces": "Of a mesh, faces that are left.",
+                 "triangles": "Of these, cut into triangles.",
+                 "statistics": "Counts of what was done, as in `WeldResult`."}),
     # _nearness
     Result("deviation_result", "Deviation", "_nearness", leave="winding_numbers",
            doc="How far points are from a surface.",
@@ -408,8 +402,7 @@ RESULTS = [
 
 #: Counters as dictionaries, and what is not among them.
 COUNTERS = {"boolean_statistics": "", "repair_statistics": "",
-            "weld_statistics": "",
-            "weld_stream_counts": "kept groups max_displacement faces"}
+            "weld_statistics": ""}
 
 #: Structs as bytes, for pickle, and the fields that are left out.
 STATES = {"io_warning": "", "column": "", "element": "", "part": "", "corner_values": "",
@@ -420,7 +413,7 @@ STATES = {"io_warning": "", "column": "", "element": "", "part": "", "corner_val
 OPTIONS = {
     "cloud_inputs": "format names", "read_options": "", "write_options": "keep_names",
     "boolean_options": "face_groups", "cut_options": "keep_cuts",
-    "resolve_options": "removal_rounds", "repair_options": "",
+    "resolve_options": "removal_rounds", "repair_options": "as_one",
     "offset_options": "", "simplify_options": "face_groups corner_groups",
     "feature_options": "", "intersection_options": "component_of_face between within",
     "stream_search_options": "box communicator",

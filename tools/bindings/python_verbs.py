@@ -26,14 +26,14 @@ _WELD = {
     "same": "vertex properties that must agree, with the largest difference.",
     "keep_seams": "normals, texture coordinates and colors must agree, except for those in "
                   "`across`.",
-    "rule": "'first' drops a point when an earlier kept one is within the tolerance; 'chain' makes "
-            "one point of all that steps of at most the tolerance link.",
+    "chain": "one point of all that steps of at most the tolerance link. By default a point is "
+             "dropped when an earlier kept one is within the tolerance.",
     "keep": "which point of a group stays: 'first', 'last', 'mean', 'lowest' or 'highest' of "
             "`keep_by`.",
     "keep_by": "a property of vertices.",
-    "order": "in which 'first' goes through the points: 'given', 'lowest' or 'highest' of "
-             "`order_by`. Needs `keep` 'first'.",
-    "order_by": "a property of vertices.",
+    "order_by": "a property of vertices: points are visited by its values, the least first; needs "
+                "`keep` 'first'. '': by number.",
+    "highest_first": "the greatest value of `order_by` first.",
     "across": "properties that `keep_seams` does not look at."}
 _FIXED = "a fixed body, or a list of them."
 
@@ -207,7 +207,8 @@ FUNCTIONS = [
                             "touches in an edge or a vertex.",
                    "keep_cuts": "as in `boolean`; faces that fill holes are merged with each other "
                                 "alone.",
-                   "inside": "'automatic', 'nonzero', 'odd' or 'positive': what is solid."}),
+                   "inside": "'nonzero', 'odd' or 'positive': what is solid. By default 'positive' "
+                             "where each shell looks outward, else 'nonzero', or labels."}),
     Function("wrap(mesh: Mesh, size: float, options: offset_options) -> OffsetResult",
              "tf::wrap($mesh, size, options)", kind="long_work", check="mesh",
              leave="resolution shift"),

@@ -268,12 +268,17 @@ inline answer_of<treeform_robot_parts> robot_parts_of(const tf::urdf_robot& robo
     auto& from = made->keep(robot.parts(
         [](const std::filesystem::path& file) { return tf::as_mesh(tf::read(file)).mesh; }));
     auto& shapes = made->keep(std::vector<tf::prepared_mesh>());
-    for (tf::mesh& part : from.parts) shapes.emplace_back(std::move(part));
+    auto& links = made->keep(std::vector<std::uint32_t>());
+    for (tf::urdf_mesh& part : from) {
+        shapes.emplace_back(std::move(part.shape));
+        links.push_back(part.link);
+    }
+    const auto& adjacent = made->keep(robot.adjacent(from));
     made->value.meshes = handles(*made, shapes);
-    made->value.links = from.links.data();
-    made->value.count = from.links.size();
-    made->value.adjacent = flat(from.adjacent);
-    made->value.adjacent_count = from.adjacent.size();
+    made->value.links = links.data();
+    made->value.count = links.size();
+    made->value.adjacent = flat(adjacent);
+    made->value.adjacent_count = adjacent.size();
     return made;
 }
 

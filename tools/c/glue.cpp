@@ -42,8 +42,6 @@ treeform_code code_of_exception() noexcept {
         return said("out of memory", TREEFORM_MEMORY);
     } catch (const tf::io_error& e) {
         return said(e.what(), TREEFORM_FILE);
-    } catch (const tf::stream_error& e) {
-        return said(e.what(), TREEFORM_FILE);
     } catch (const std::filesystem::filesystem_error& e) {
         return said(e.what(), TREEFORM_FILE);
     } catch (const std::invalid_argument& e) {
@@ -92,11 +90,10 @@ tf::transform<3> finite_matrix(const double* data) {
     return by;
 }
 
-std::vector<tf::named_column> columns_of(const treeform_named_column* columns, std::size_t count,
-                                         const char* what) {
-    std::vector<tf::named_column> all;
+name_pairs columns_of(const treeform_named_column* columns, std::size_t count, const char* what) {
+    name_pairs all;
     for (const treeform_named_column& one : array(columns, count, what))
-        all.push_back({&need(one.name, what), &need(one.source, what)});
+        all.emplace_back(&need(one.name, what), &need(one.source, what));
     return all;
 }
 

@@ -218,9 +218,10 @@ template <class Row, class T>
     return {all.begin(), all.end()};
 }
 [[nodiscard]] tf::pair_kinds kinds(std::uint32_t bits);
+using name_pairs = std::vector<std::pair<std::string, std::string>>;
 /// Null, and null among them, is an error that says `what`.
-[[nodiscard]] std::vector<tf::named_column> columns_of(const treeform_named_column* columns,
-                                                       std::size_t count, const char* what);
+[[nodiscard]] name_pairs columns_of(const treeform_named_column* columns, std::size_t count,
+                                    const char* what);
 [[nodiscard]] std::vector<tf::weld_condition> conditions(const treeform_weld_condition* same,
                                                          std::size_t count, const char* what);
 

@@ -52,19 +52,17 @@ inline treeform_code give(tf::repaired_file&& repaired, treeform_repair_result**
     return code;
 }
 
-/// The same of a file, or each of its parts, with its attributes. The mesh of the file is taken as
+/// The same of each part of a file, or of all as one, with its attributes. The mesh of the file is taken as
 /// it is read.
-inline tf::repaired_file repair_file(const tf::mesh_file& file, tf::repair_scope scope,
-                                     const tf::repair_options& options) {
-    return tf::repair_file(usable_input(file).source(), options, scope);
+inline tf::repaired_file repair_file(const tf::mesh_file& file, const tf::repair_options& options) {
+    return tf::repair_file(usable_input(file).source(), options);
 }
 
-/// The same for `treeform_repair_file`.
+/// The same of all parts of a file together.
 inline tf::solid_defects find_solid_defects_of_file(const tf::mesh_file& file,
-                                                    tf::repair_scope scope,
                                                     const tf::progress_callback& progress) {
     const usable_input input(file);
-    tf::solid_defects found = tf::find_solid_defects(input.source(), scope, progress);
+    tf::solid_defects found = tf::find_solid_defects(input.source(), progress);
     found.unusable_faces += input.dropped();
     return found;
 }

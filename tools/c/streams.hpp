@@ -106,7 +106,7 @@ inline tf::weld_stream_result shared_weld_finish(shared_weld& weld, const std::s
     tf::stream_weld& steps = weld.with_survey();
     check(steps.weld());
     check(steps.write(to));
-    return {steps.survey(), steps.counts(), steps.written()};
+    return steps.result();
 }
 
 /// Removes the folder.
@@ -142,13 +142,11 @@ inline void point_reader_header(const tf::point_reader& reader, treeform_file** 
 /// are left.
 inline std::optional<tf::mesh_file> point_reader_next(tf::point_reader& reader, std::size_t most) {
     if (most == 0) throw std::invalid_argument("most is 0: no points would be read");
-    tf::point_block points;
-    if (!reader.read(points, most)) return std::nullopt;
     tf::mesh_file block;
+    tf::element& properties = block.attributes.obtain("vertex", 0);
+    if (!reader.read(block.mesh.points, properties, most)) return std::nullopt;
     block.format = reader.header().format;
     block.stored_as = reader.header().stored_as;
-    block.mesh.points = std::move(points.points);
-    block.attributes.elements.push_back(std::move(points.properties));
     return block;
 }
 
@@ -161,12 +159,10 @@ inline tf::point_writer point_writer_create(const std::filesystem::path& path,
 
 /// Writes the points of a block.
 inline void point_writer_write(tf::point_writer& writer, const tf::mesh_file& block) {
-    tf::point_block points;
-    points.points = block.mesh.points;
-    if (const tf::element* const found = block.attributes.find("vertex"))
-        points.properties = *found;
-    points.properties.rows = points.points.size();
-    writer.write(points);
+    tf::element properties{.name = "vertex"};
+    if (const tf::element* const found = block.attributes.find("vertex")) properties = *found;
+    properties.rows = block.mesh.points.size();
+    writer.write(block.mesh.points, properties);
 }
 
 /// Finishes the file; without this call, none stays. `written` may be null.

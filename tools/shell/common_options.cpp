@@ -3,6 +3,7 @@
 #include "tools/manual/manual.hpp"
 #include "tools/shell/exit_status.hpp"
 #include "tools/shell/file_names.hpp"
+#include "tools/shell/folder_files.hpp"
 #include "tools/shell/parse_value.hpp"
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tf.hpp>
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <initializer_list>
 #include <span>
 
 namespace tools {
@@ -135,14 +135,12 @@ void add_run_options(command_line& line, common_options& o) {
     line.mention({.names = "--version", .text = "version and build"});
 }
 
-/// For completion; any of them may be read also when others are meant.
-std::vector<std::string> extensions_of(tf::file_content content) {
+/// Of files in folders, and for completion; any of them may be read also when others are meant.
+std::vector<std::string> extensions_of(const common_options& o) {
     std::vector<std::string> all{"stl", "obj", "ply", "off", "3mf", "glb", "gltf"};
-    const auto add = [&all](std::initializer_list<const char*> more) {
-        all.insert(all.end(), more.begin(), more.end());
-    };
-    if (content == tf::file_content::meshes_and_points)
-        add({"pcd", "las", "laz", "xyz", "csv", "pts", "asc"});
+    if (o.takes_points)
+        for (const char* const more : {"pcd", "las", "laz", "xyz", "csv", "pts", "asc"})
+            all.emplace_back(more);
     return all;
 }
 
@@ -218,7 +216,7 @@ void add_common_options(command_line& line, common_options& target,
     line.output(o.report, {"-r, --report", "FILE", "JSON report; \"-\" = stdout"});
     if (features.page) add_picture_options(line, o);
     add_run_options(line, o);
-    const std::vector<std::string> read = extensions_of(o.content);
+    const std::vector<std::string> read = extensions_of(o);
     line.offer_inputs(read);
     line.offer("--format", read);
     line.offer("--fixed", read);
@@ -236,7 +234,7 @@ void add_common_options(command_line& line, common_options& target,
 void list_folders(common_options& o) {
     const auto first = o.inputs.begin();
     const bool word = std::count(o.words.begin(), o.words.end(), *first) > 0;
-    const auto files = tf::files_of({first + (word ? 1 : 0), o.inputs.end()}, o.content);
+    const auto files = files_of({first + (word ? 1 : 0), o.inputs.end()}, extensions_of(o));
     o.inputs.resize(word ? 1 : 0);
     o.inputs.insert(o.inputs.end(), files.begin(), files.end());
 }

@@ -24,9 +24,12 @@ struct table_column {
     bool summed = true;  ///< whether a total makes sense
 };
 
+/// Names of columns, and what they are called in a file.
+using name_pairs = std::vector<std::pair<std::string, std::string>>;
+
 struct common_options {
     std::vector<std::string> inputs;
-    tf::file_content content = tf::file_content::meshes;  ///< of a folder among the inputs
+    bool takes_points = false;           ///< of a folder among the inputs, files of points, too
     std::vector<std::string> words;      ///< one of which may stand ahead of the inputs
     std::vector<std::string> also_read;  ///< files that are read beside the inputs, of any kind
     std::filesystem::path output;
@@ -36,11 +39,11 @@ struct common_options {
     bool joined = false;    ///< all inputs are one set, and give one result
     bool force = false;
     bool dry_run = false;
-    std::string format;                     ///< of the inputs; empty: by content
-    std::vector<tf::named_column> columns;  ///< of tables of text
+    std::string format;  ///< of the inputs; empty: by content
+    name_pairs columns;  ///< of tables of text
     bool drop_nan = false;
-    std::vector<std::string> drop;         ///< columns of points that are not written
-    std::vector<tf::named_column> rename;  ///< of points that are written
+    std::vector<std::string> drop;  ///< columns of points that are not written
+    name_pairs rename;              ///< of points that are written
     std::optional<std::array<double, 3>> las_scale;
     std::optional<std::array<double, 3>> las_offset;
     std::string output_format;  ///< empty: by extension

@@ -119,9 +119,9 @@ std::string remark_on_folder(const tile_options& tiles) {
                                 : "enough memory to work without tiles: --work is not used";
 }
 
-failure failure_of(const job& work, const tf::stream_error& error) {
-    using enum tf::stream_error::reason;
-    const std::string where = error.path().string() + ": ";
+failure failure_of(const job& work, const tf::io_error& error) {
+    using enum tf::io_error::kind;
+    const std::string where = error.path() + ": ";
     switch (error.why()) {
         case folder:
             return {bad_output, "work-folder", error.what()};
@@ -129,11 +129,13 @@ failure failure_of(const job& work, const tf::stream_error& error) {
             return {bad_output, "work-folder", where + "is in use by another process"};
         case folder_foreign:
             return {bad_output, "work-folder", where + "holds files that are not of this tool"};
-        case write:
+        case tile_write:
             return {bad_output, "output", error.what()};
-        case read:
+        case file:
+        case blocks:
+        case tile_read:
             return {bad_input, "read", error.what()};
-        case damaged:
+        case tile_damaged:
             return {bad_input, "damaged", error.what()};
         case memory:
             return {stopped, "memory", work.name + ": " + error.what()};

@@ -86,6 +86,6 @@ void say_tiles(job& work);
 [[nodiscard]] std::string remark_on_folder(const tile_options& tiles);
 
 /// What the library says of its files, for the person and the shell.
-[[nodiscard]] failure failure_of(const job& work, const tf::stream_error& error);
+[[nodiscard]] failure failure_of(const job& work, const tf::io_error& error);
 
 }  // namespace tools

@@ -53,9 +53,9 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
 
 void mend(job& work, const boolean_settings& settings, solid& s, json& about) {
     const std::string name = name_of(s);
-    const tf::repair_options options{.keep_cuts = settings.keep_cuts,
-                                     .progress = work.progress("repair")};
-    tf::repaired_file made = tf::repair_file(s.source(), options, tf::repair_scope::whole_file);
+    const tf::repair_options options{
+        .as_one = true, .keep_cuts = settings.keep_cuts, .progress = work.progress("repair")};
+    tf::repaired_file made = tf::repair_file(s.source(), options);
     work.call_ended(made.certificate.status == tf::status::cancelled);
     about["repair"] = steps_entry(made.statistics, options);
     if (!made.certificate) {

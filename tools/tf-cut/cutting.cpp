@@ -232,8 +232,7 @@ void say_pieces(job& work, const cut_settings& s, const usable_input& input,
 void say_info(job& work, const cut_settings& s, const usable_input& input) {
     const tf::mesh& mesh = input.file.mesh;
     const auto timing = work.time("check");
-    tf::solid_defects defects =
-        tf::find_solid_defects(input.source(), tf::repair_scope::each_part, work.progress("check"));
+    tf::solid_defects defects = tf::find_solid_defects(input.source(), work.progress("check"));
     work.call_ended(defects.status == tf::status::cancelled);
     defects.unusable_faces += input.left_out;
     const auto box = tf::bounding_box(mesh.points);

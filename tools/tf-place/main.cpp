@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
                 "meshes: STL OBJ PLY OFF GLB/glTF 3MF; points: PLY\n"
                 "PCD XYZ CSV; or folders of them; \"-\" = stdin",
                 "MOVING");
-    options.content = tf::file_content::meshes_and_points;
+    options.takes_points = true;
     line.group("Modes");
     line.describe(tools::help_text);
     line.mode({.names = "clash", .text = "all pairs of parts of assemblies: see clash --help"},

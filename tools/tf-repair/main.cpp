@@ -43,9 +43,6 @@ constexpr std::array<step, 5> steps{
       &tf::repair_options::resolve},
      {"detach", "separate parts that touch in an edge or a point", &tf::repair_options::detach}}};
 
-/// By `repair_rule`.
-constexpr std::array<const char*, 4> rules{"auto", "nonzero", "odd", "positive"};
-
 struct request {
     repair_settings settings{};
     std::array<bool, steps.size()> left_out{};
@@ -66,9 +63,17 @@ void add_options(command_line& line, repair_settings& s) {
     line.option(
         {"--strays", "SHARE", "drop loose open pieces below this share of the area", "0.1%"},
         [&s](std::string_view text) { s.steps.strays = tools::parse_share("--strays", text); });
-    line.option(s.steps.inside,
-                {"--inside", "RULE", "what is solid: auto | nonzero | odd | positive", "auto"},
-                rules);
+    line.option({.names = "--inside",
+                 .value = "RULE",
+                 .text = "what is solid: auto | nonzero | odd | positive",
+                 .fallback = "auto",
+                 .offered = {"auto", "nonzero", "odd", "positive"}},
+                [&s](std::string_view text) {
+                    const std::array<const char*, 4> rules{"auto", "nonzero", "odd", "positive"};
+                    const std::size_t chosen = tools::parse_choice("--inside", text, rules);
+                    s.steps.inside.reset();
+                    if (chosen > 0) s.steps.inside = static_cast<tf::fill_rule>(chosen - 1);
+                });
     line.flag(s.steps.sheet, {"--sheet", "", "the input is an open surface: keep its border"});
     line.flag(s.steps.keep_cuts, {"--keep-cuts", "",
                                   "do not merge coplanar faces that were cut, or\n"
@@ -131,8 +136,7 @@ tools::dirty_mesh read_mesh(tools::job& work) {
 
 exit_status check_only(tools::job& work, const tools::dirty_mesh& input) {
     const auto timing = work.time("check");
-    tf::solid_defects found =
-        tf::find_solid_defects(input.source(), tf::repair_scope::each_part, work.progress("check"));
+    tf::solid_defects found = tf::find_solid_defects(input.source(), work.progress("check"));
     found.unusable_faces += input.left_out;
     work.call_ended(found.status == tf::status::cancelled);
     tools::say_defects(work, input, found);
@@ -141,22 +145,21 @@ exit_status check_only(tools::job& work, const tools::dirty_mesh& input) {
 }
 
 /// Where the output has no objects, overlapping ones become one solid.
-tf::repair_scope scope_for(const common_options& options, const std::filesystem::path& output) {
+bool becomes_one(const common_options& options, const std::filesystem::path& output) {
     const std::string format = tools::mesh_format(options, output);
-    return format == "3mf" || format == "obj" ? tf::repair_scope::each_part
-                                              : tf::repair_scope::whole_file;
+    return format != "3mf" && format != "obj";
 }
 
 tf::repaired_file mend(tools::job& work, const tools::dirty_mesh& input,
-                       const repair_settings& settings, tf::precision precision,
-                       tf::repair_scope scope) {
+                       const repair_settings& settings, tf::precision precision, bool as_one) {
     const auto timing = work.time("repair");
     tf::repair_options options = settings.steps;
     if (settings.gap) options.gap = settings.gap->used(input.diagonal);
     options.precision = precision;
+    options.as_one = as_one;
     options.max_displacement = settings.limits.max_move.used(input.diagonal);
     options.progress = work.progress("repair");
-    tf::repaired_file made = tf::repair_file(input.source(), options, scope);
+    tf::repaired_file made = tf::repair_file(input.source(), options);
     work.call_ended(made.certificate.status == tf::status::cancelled);
     return made;
 }
@@ -174,11 +177,11 @@ exit_status look_at(tools::job& work, const repair_settings& s) {
     if (output) form = tools::form_of(work, input.file, *output);
     const tf::mesh_file* const inputs = &input.file;
     const tf::precision precision = tools::written_precision(o, form, {&inputs, 1});
-    const auto scope = output ? scope_for(o, *output) : tf::repair_scope::each_part;
-    tf::repaired_file made = mend(work, input, s, precision, scope);
+    const bool as_one = output && becomes_one(o, *output);
+    tf::repaired_file made = mend(work, input, s, precision, as_one);
     tools::enter_repair(work, input, s, made);
     const auto works = [&](const repair_settings& tried) {
-        const tf::certificate known = mend(work, input, tried, precision, scope).certificate;
+        const tf::certificate known = mend(work, input, tried, precision, as_one).certificate;
         return static_cast<bool>(known) || known.status == tf::status::sheet;
     };
     std::string why = tools::objection(s, made, works);

@@ -121,7 +121,7 @@ void warn_of_surprises(job& work, const repair_settings& settings, const tf::rep
                                     " vanished, for they bound nothing");
     if (did.dropped_shells > 0) {
         const bool is_one = did.dropped_shells == 1;
-        const bool is_odd = settings.steps.inside == tf::repair_rule::odd;
+        const bool is_odd = settings.steps.inside == tf::fill_rule::odd;
         work.warn("dropped-shells", counted(did.dropped_shells, "shell", "shells") +
                                         " within another " + (is_one ? "was" : "were") +
                                         " dropped, for what is within a solid is solid" +

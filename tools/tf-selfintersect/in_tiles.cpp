@@ -108,7 +108,8 @@ template <class Step>
 auto take(job& work, const Step& step) {
     try {
         return step();
-    } catch (const tf::stream_error& error) {
+    } catch (const tf::io_error& error) {
+        if (error.why() == tf::io_error::kind::file) throw;
         throw failure_of(work, error);
     }
 }

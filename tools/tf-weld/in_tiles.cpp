@@ -27,7 +27,8 @@ void take(job& work, const char* timed, const Step& step) {
     tf::status ended{};
     try {
         ended = step();
-    } catch (const tf::stream_error& error) {
+    } catch (const tf::io_error& error) {
+        if (error.why() == tf::io_error::kind::file) throw;
         throw failure_of(work, error);
     }
     work.call_ended(ended == tf::status::cancelled);
@@ -40,12 +41,12 @@ tf::weld_stream_options library_options(job& work, const weld_request& request,
     tf::weld_stream_options options;
     options.tolerance = tolerance.value;
     options.relative = tolerance.relative;
-    options.rule = asked.rule;
+    options.chain = asked.chain;
     options.same = asked.same;
     options.keep = asked.keep;
     options.keep_by = asked.keep_by;
-    options.order = asked.order;
     options.order_by = asked.order_by;
+    options.highest_first = asked.highest_first;
     options.keep_seams = asked.keep_seams;
     options.across = asked.across;
     options.keep_degenerate = asked.keep_degenerate;
@@ -91,15 +92,16 @@ void enter_sources(job& work, const tf::cloud_survey& survey, const tf::cloud_in
     const auto precision = [](bool single) { return single ? "float" : "double"; };
     std::uint64_t first_point = 0;
     for (std::size_t i = 0; i < inputs.paths.size(); ++i) {
-        const tf::cloud_survey::source& from = survey.sources[i];
+        const tf::mesh_file& from = survey.sources[i];
+        const std::uint64_t points = from.attributes.find("vertex")->rows;
         json source{{"input", inputs.names[i]}};
         source["format"] = from.format;
         source["sha256"] = sums[i].empty() ? json(nullptr) : json(sums[i]);
-        source["precision_in"] = precision(from.single);
-        source["points"] = from.points;
+        source["precision_in"] = precision(from.stored_as == tf::precision::float32);
+        source["points"] = points;
         source["faces"] = survey.faces;
         source["first_point"] = first_point;
-        first_point += from.points;
+        first_point += points;
         work.entry["sources"].push_back(std::move(source));
     }
     const json& first = work.entry["sources"].front();
@@ -148,7 +150,7 @@ class stream_files {
         } catch (const tf::io_error& error) {
             throw failure(bad_output, "output", outputs_.said_of_paths(error.what()));
         }
-        if (leads()) enter(weld.written());
+        if (leads()) enter(weld.result());
         const job::timer timing = work_.time("write");
         if (map_) map_->commit();
         outputs_.commit();
@@ -180,7 +182,7 @@ class stream_files {
         };
     }
 
-    void enter(const tf::weld_stream_written& written) {
+    void enter(const tf::weld_stream_result& written) {
         if (written.label_replaced) warn_of_replaced(work_, asked_.label);
         if (written.removed) work_.warn(written.removed->warnings);
         warn_of_las_grid(work_, "means", written.las_moved);
@@ -198,7 +200,8 @@ class stream_files {
     tf::weld_stream_outputs to_{};
 };
 
-welding in_words_of_memory(const tf::cloud_survey& survey, const tf::weld_stream_counts& counts) {
+welding in_words_of_memory(const tf::weld_stream_result& result) {
+    const tf::cloud_survey& survey = result.survey;
     welding w;
     w.points = survey.points;
     w.polygons = survey.faces;
@@ -206,15 +209,8 @@ welding in_words_of_memory(const tf::cloud_survey& survey, const tf::weld_stream
     w.box = survey.box;
     w.tolerance = survey.tolerance;
     w.conditions = survey.conditions;
-    w.result.statistics.non_finite = survey.non_finite;
-    w.result.statistics.max_displacement = counts.max_displacement;
-    w.result.statistics.groups = counts.groups;
-    w.result.statistics.collapsed = counts.collapsed;
-    w.result.statistics.degenerate = counts.degenerate;
-    w.result.statistics.flipped = counts.flipped;
-    w.result.statistics.nonmanifold_before = counts.nonmanifold_before;
-    w.result.statistics.nonmanifold_after = counts.nonmanifold_after;
-    w.counted = {.points = counts.kept, .triangles = counts.triangles};
+    w.result.statistics = result.statistics;
+    w.counted = {.points = result.kept, .triangles = result.triangles};
     return w;
 }
 
@@ -282,13 +278,13 @@ exit_status weld_in_tiles(job& work, const weld_request& request, const tile_opt
     take(work, "weld", [&] { return weld->weld(); });
     work.entry["tiles"]["unfinished"] = json::array();
 
-    const welding w = in_words_of_memory(survey, weld->counts());
+    const tf::weld_stream_result result = weld->result();
+    const welding w = in_words_of_memory(result);
     work.out.result(work.name + ": " + verdict(w, request));
     say_details(work, w);
     enter_report(work, w, request);
-    work.entry["polygons"] = {
-        {"in", w.polygons},
-        {"out", request.outputs.drops_nothing() ? w.polygons : weld->counts().faces}};
+    work.entry["polygons"] = {{"in", w.polygons},
+                              {"out", request.outputs.drops_nothing() ? w.polygons : result.faces}};
     warn_of_defects(work, w);
     stream_files(work, request, tiles, header).write(*weld);
     return request.outputs.check && w.removed() > 0 ? found : done;

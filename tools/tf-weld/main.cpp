@@ -32,7 +32,7 @@ void add_what_is_merged(command_line& line, weld_settings& s, bool& exact) {
                  "kept one is within DIST\n"
                  "chain: merge all points linked by steps of DIST",
                  "first"},
-                [&s](std::string_view text) { s.options.rule = tools::parse_rule(text); });
+                [&s](std::string_view text) { tools::parse_rule(text, s.options); });
     line.offer("--rule", {"first", "chain"});
     line.option({"--same", "P[=TOL],...",
                  "merge only if property P agrees, too (within TOL),\n"
@@ -92,7 +92,7 @@ void add_columns(command_line& line, common_options& o, bool& mixed) {
     line.option({"--rename", "P=NAME,...", "write property P of points as NAME"},
                 [&o](std::string_view text) {
                     o.rename = tools::parse_names("--rename", text);
-                    for (auto& r : o.rename) std::swap(r.name, r.source);
+                    for (auto& [name, source] : o.rename) std::swap(name, source);
                 });
     line.option({"--las-scale", "S[,S,S]", "scale of LAS coordinates, one or one for each axis",
                  "of the input, else chosen"},
@@ -157,7 +157,7 @@ void check_request(const command_line& line, const tools::weld_request& r,
         for (const auto& name : r.settings.options.across)
             if (condition.property == name) refuse(name + " is named by --same and by --across");
     const tf::weld_options& options = r.settings.options;
-    if (options.order != tf::weld_order::given && options.keep != tf::weld_keep::first)
+    if (!options.order_by.empty() && options.keep != tf::weld_keep::first)
         refuse("--order says which point stays; it excludes --keep " +
                tools::keep_in_words(options));
     check_what_is_marked(outputs, r.settings, o);
@@ -180,7 +180,7 @@ int run(int argc, char** argv, tools::team_member& me) {
     line.inputs(options.inputs,
                 "points: PLY PCD LAS LAZ XYZ PTS CSV; meshes: STL\n"
                 "OBJ PLY OFF GLB/glTF 3MF; or folders; \"-\" = stdin");
-    options.content = tf::file_content::meshes_and_points;
+    options.takes_points = true;
     line.flag(options.joined, {"--join", "", "treat all INPUTs as one set", "each on its own"});
     add_what_is_merged(line, r.settings, exact);
     add_which_one_stays(line, r.settings.options);

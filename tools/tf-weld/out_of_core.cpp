@@ -26,6 +26,13 @@ bool has_lists(const tf::mesh_file& header) {
            });
 }
 
+/// Of a mesh: faces or other rows behind the points.
+bool has_rows_behind(const tf::mesh_file& header) {
+    return std::ranges::any_of(header.attributes.elements, [](const tf::element& e) {
+        return e.name != "vertex" && e.rows > 0 && !e.columns.empty();
+    });
+}
+
 /// Other formats are written whole.
 bool is_of_blocks(const std::string& format, bool is_mesh) {
     if (is_mesh) return format == "ply" || format == "obj";
@@ -34,8 +41,8 @@ bool is_of_blocks(const std::string& format, bool is_mesh) {
 
 /// Why only memory will do; empty where tiles will, too.
 std::string what_needs_memory(const job& work, const weld_request& request,
-                              const tf::cloud_outline& cloud) {
-    const tf::mesh_file& header = cloud.header;
+                              const tf::mesh_file& header) {
+    const bool is_mesh = has_rows_behind(header);
     const tf::weld_options& o = request.settings.options;
     if (work.options.shows()) return work.options.html.empty() ? "--png" : "--html";
     if (work.options.drop_nan) return "--drop-nan";
@@ -46,12 +53,12 @@ std::string what_needs_memory(const job& work, const weld_request& request,
     const auto path = mesh_output(work.options, work.path);
     if (!header.indexed && chooses) return "--keep of an STL";
     if (!header.indexed && !request.outputs.label.empty()) return "--label of an STL";
-    if (!header.indexed && request.settings.tolerance.value > 0.0 && o.rule == tf::weld_rule::first)
+    if (!header.indexed && request.settings.tolerance.value > 0.0 && !o.chain)
         return "-t of an STL (not of a PLY that tf-weld without -t makes of it)";
     const std::string format = path ? form_of(work, header, *path).format : std::string();
-    if (path && !is_of_blocks(format, cloud.has_rows))
-        return "the output format " + format + (cloud.has_rows ? " of a mesh" : " of a cloud");
-    if (cloud.has_rows && work.options.precision == "float" &&
+    if (path && !is_of_blocks(format, is_mesh))
+        return "the output format " + format + (is_mesh ? " of a mesh" : " of a cloud");
+    if (is_mesh && work.options.precision == "float" &&
         (header.stored_as == tf::precision::float64 || o.keep == tf::weld_keep::mean))
         return "--precision float of a mesh in doubles";
     const bool looks_again = chooses || work.options.precision == "float";
@@ -62,12 +69,12 @@ std::string what_needs_memory(const job& work, const weld_request& request,
 
 /// None for what is no cloud that can be read by blocks. \throws tf::io_error where it cannot be
 /// read
-std::optional<tf::cloud_outline> cloud_at(const tf::cloud_inputs& inputs,
-                                          const tf::communicator& ranks) {
+std::optional<tf::mesh_file> header_of(const tf::cloud_inputs& inputs,
+                                       const tf::communicator& ranks) {
     try {
         return inputs.outline(ranks);
     } catch (const tf::io_error& error) {
-        if (!error.needs_all()) throw;
+        if (error.why() != tf::io_error::kind::blocks) throw;
         return std::nullopt;  // reading all of it will say why
     } catch (const std::invalid_argument&) {
         return std::nullopt;
@@ -124,36 +131,37 @@ exit_status weld_files(job& work, const weld_request& request, const tile_option
         follow_first();
         return weld_in_memory(work, request, remark_on_folder(tiles));
     }
-    std::optional<tf::cloud_outline> cloud;
+    std::optional<tf::mesh_file> header;
     {
         const job::timer timing = work.time("read");
-        cloud = cloud_at(inputs, tiles.communicator);
+        header = header_of(inputs, tiles.communicator);
     }
     follow_first();
-    if (!cloud && tiles.has_others())
+    if (!header && tiles.has_others())
         throw failure(
             bad_input, "read",
             work.name +
                 ": is no cloud, plain PLY or binary STL, which several processes read by blocks; "
                 "other meshes are welded by one, in memory");
-    if (!cloud)
+    if (!header)
         return weld_mesh(
             work, request, tiles, size,
             "meshes other than plain PLY and binary STL are welded in memory, not in tiles");
     const std::uint64_t needed =
         (std::uint64_t{32} << 20) +
-        tf::weld_stream_options::memory_to_weld(cloud->header, cloud->points.value_or(size / 16));
+        tf::weld_stream_options::memory_to_weld(*header, header->attributes.find("vertex")->rows);
     if (!asked && needed <= allowed) return weld_in_memory(work, request, remark_on_folder(tiles));
-    const std::string only = what_needs_memory(work, request, *cloud);
+    const std::string only = what_needs_memory(work, request, *header);
     if (only.empty())
         return work_in(work, folder_for(work, request, tiles), tiles,
-                       [&] { return weld_in_tiles(work, request, tiles, inputs, cloud->header); });
-    if (cloud->has_rows && !tiles.has_others())
+                       [&] { return weld_in_tiles(work, request, tiles, inputs, *header); });
+    const bool is_mesh = has_rows_behind(*header);
+    if (is_mesh && !tiles.has_others())
         return weld_mesh(work, request, tiles, size, only + " needs the whole mesh in memory");
     throw failure(asked ? bad_usage : stopped, asked ? "usage" : "memory",
-                  work.name + ": " + only + " needs the whole " +
-                      (cloud->has_rows ? "mesh" : "cloud") + " in memory, about " +
-                      in_megabytes(needed) + "; without it, a smaller --memory would do");
+                  work.name + ": " + only + " needs the whole " + (is_mesh ? "mesh" : "cloud") +
+                      " in memory, about " + in_megabytes(needed) +
+                      "; without it, a smaller --memory would do");
 }
 
 }  // namespace

@@ -115,7 +115,7 @@ void enter_blank_report(job& work, const weld_request& request) {
     entry["box"] = nullptr;
     entry["skipped"] = {{"non_finite", nullptr}};
     entry["tolerance"] = {{"given", request.settings.tolerance.given}, {"used", nullptr}};
-    entry["rule"] = name_of(request.settings.options.rule);
+    entry["rule"] = rule_in_words(request.settings.options);
     entry["keep"] = keep_in_words(request.settings.options);
     entry["order"] = order_in_words(request.settings.options);
     entry["same"] = json::array();

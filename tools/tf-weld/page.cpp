@@ -140,7 +140,7 @@ void write_page(job& work, const tf::mesh_file& file, const welding& w,
     shown.facts.insert(shown.facts.end() - 1,
                        {{"tolerance", request.settings.tolerance.given + " (" + brief(w.tolerance) +
                                           " in file units)"},
-                        {"rule", name_of(request.settings.options.rule)}});
+                        {"rule", rule_in_words(request.settings.options)}});
     write_page(work, std::move(shown));
 }
 

@@ -39,14 +39,13 @@ std::string known_properties(const tf::attributes& known) {
 
 }  // namespace
 
-std::vector<tf::named_column> parse_names(std::string_view option, std::string_view text) {
-    std::vector<tf::named_column> names;
+name_pairs parse_names(std::string_view option, std::string_view text) {
+    name_pairs names;
     for (const auto part : split(option, text)) {
         const std::size_t equals = part.find('=');
         if (equals == std::string_view::npos || equals == 0 || equals + 1 == part.size())
             refuse(std::string(option) + " " + std::string(part) + ": expected A=B");
-        names.push_back(
-            {std::string(part.substr(0, equals)), std::string(part.substr(equals + 1))});
+        names.emplace_back(part.substr(0, equals), part.substr(equals + 1));
     }
     return names;
 }
@@ -84,19 +83,19 @@ void check_properties(const job& work, const tf::mesh_file& file) {
             !(name == "normal" && !corners.normal_of_corner.empty()) &&
             !(name == "uv" && !corners.texture_of_corner.empty()))
             check("--drop", name);
-    for (const tf::named_column& r : work.options.rename) {
-        check("--rename", r.source);
-        if (has(r.name) || r.name == "x" || r.name == "y" || r.name == "z")
-            throw failure(bad_input, "property",
-                          "--rename " + r.source + "=" + r.name + ": there is a property " +
-                              r.name + " already");
+    for (const auto& [name, source] : work.options.rename) {
+        check("--rename", source);
+        if (has(name) || name == "x" || name == "y" || name == "z")
+            throw failure(
+                bad_input, "property",
+                "--rename " + source + "=" + name + ": there is a property " + name + " already");
     }
 }
 
-tf::weld_rule parse_rule(std::string_view text) {
-    if (text == "first") return tf::weld_rule::first;
-    if (text == "chain") return tf::weld_rule::chain;
-    refuse("--rule " + std::string(text) + ": expected first or chain");
+void parse_rule(std::string_view text, tf::weld_options& options) {
+    if (text != "first" && text != "chain")
+        refuse("--rule " + std::string(text) + ": expected first or chain");
+    options.chain = text == "chain";
 }
 
 std::vector<tf::weld_condition> parse_same(std::string_view text) {
@@ -125,17 +124,17 @@ void parse_keep(std::string_view text, tf::weld_options& options) {
 }
 
 void parse_order(std::string_view text, tf::weld_options& options) {
-    const bool greatest = text.starts_with("max:");
-    const std::string_view name = greatest || text.starts_with("min:") ? text.substr(4) : text;
+    const bool highest = text.starts_with("max:");
+    const std::string_view name = highest || text.starts_with("min:") ? text.substr(4) : text;
     if (name.empty())
         refuse("--order " + std::string(text) + ": expected P, min:P or max:P for a property P");
-    options.order = greatest ? tf::weld_order::highest : tf::weld_order::lowest;
     options.order_by = name;
+    options.highest_first = highest;
 }
 
 std::string order_in_words(const tf::weld_options& options) {
-    if (options.order == tf::weld_order::given) return "file";
-    return (options.order == tf::weld_order::lowest ? "min:" : "max:") + options.order_by;
+    if (options.order_by.empty()) return "file";
+    return (options.highest_first ? "max:" : "min:") + options.order_by;
 }
 
 std::string keep_in_words(const tf::weld_options& options) {
@@ -143,7 +142,9 @@ std::string keep_in_words(const tf::weld_options& options) {
     return words[static_cast<std::size_t>(options.keep)] + options.keep_by;
 }
 
-const char* name_of(tf::weld_rule rule) { return rule == tf::weld_rule::first ? "first" : "chain"; }
+const char* rule_in_words(const tf::weld_options& options) {
+    return options.chain ? "chain" : "first";
+}
 
 failure property_failure(const tf::weld_property_error& error, const tf::attributes& known) {
     const std::string option = error.option() == "keep_by"    ? "--keep "

@@ -40,13 +40,13 @@ struct weld_request {
 };
 
 /// Values of options. All of them: \throws failure (bad_usage) naming option and text
-[[nodiscard]] tf::weld_rule parse_rule(std::string_view text);
+/// "first", "chain"
+void parse_rule(std::string_view text, tf::weld_options& options);
 /// "intensity,nx=0.01"
 [[nodiscard]] std::vector<tf::weld_condition> parse_same(std::string_view text);
 [[nodiscard]] std::vector<std::string> parse_across(std::string_view text);
 /// "x=E,y=N,z=H"; `option` is named where it is none
-[[nodiscard]] std::vector<tf::named_column> parse_names(std::string_view option,
-                                                        std::string_view text);
+[[nodiscard]] name_pairs parse_names(std::string_view option, std::string_view text);
 /// "P,..."
 [[nodiscard]] std::vector<std::string> parse_properties(std::string_view option,
                                                         std::string_view text);
@@ -61,7 +61,7 @@ void parse_order(std::string_view text, tf::weld_options& options);
 /// As typed; an order of "P" is "min:P", and none "file".
 [[nodiscard]] std::string order_in_words(const tf::weld_options& options);
 [[nodiscard]] std::string keep_in_words(const tf::weld_options& options);
-[[nodiscard]] const char* name_of(tf::weld_rule rule);
+[[nodiscard]] const char* rule_in_words(const tf::weld_options& options);
 
 /// That points have the properties that --drop and --rename name. \throws failure (bad_input)
 void check_properties(const job& work, const tf::mesh_file& file);

@@ -126,7 +126,7 @@ def stops():
             "self_intersections of a soup": lambda: tf.self_intersections(soup),
             "wrap": lambda: tf.wrap(ball, 0.002),
             "repair of a soup": lambda: tf.repair(soup, max_loss=1, check=False),
-            "weld of a million points": lambda: tf.weld(cloud, 0.05, rule="chain"),
+            "weld of a million points": lambda: tf.weld(cloud, 0.05, chain=True),
             "query_pairs": lambda: tree.query_pairs(0.05, output_type="ndarray"),
             "closest_point of 3 million": lambda: tf.closest_point(ball, far)}.items():
         sent = []

@@ -57,7 +57,7 @@ TEST_CASE("repair_file: objects that overlap stay two solids, or become one") {
     CHECK(each.parts[1].faces == 12);
     CHECK(each.statistics.volume_after == doctest::Approx(2.0));
 
-    const tf::repaired_file one = tf::repair_file({&file}, {}, tf::repair_scope::whole_file);
+    const tf::repaired_file one = tf::repair_file({&file}, {.as_one = true});
     CHECK(one.certificate);
     CHECK(one.parts.empty());
     CHECK(tf::signed_volume(one.file.mesh) == doctest::Approx(1.5));
@@ -88,7 +88,7 @@ TEST_CASE("repair_file: objects that are patches of one surface are one part") {
     CHECK(made.statistics.holes == 0);
     CHECK(made.parts[0].faces == 12);
     CHECK(tf::find_solid_defects({&file}).message() == "none");
-    CHECK(tf::find_solid_defects({&file}, tf::repair_scope::whole_file).meeting_pairs > 0);
+    CHECK(tf::find_solid_defects(file.mesh).meeting_pairs > 0);
 }
 
 TEST_CASE("repair_file: a part that is no solid is named, with the numbers of the file") {
@@ -109,9 +109,8 @@ TEST_CASE("repair_file: a part that is no solid is named, with the numbers of th
     const tf::repaired_file cancelled =
         tf::repair_file({&file}, {.progress = [](double) { return false; }});
     CHECK(cancelled.certificate.status == tf::status::cancelled);
-    CHECK(tf::find_solid_defects({&file}, tf::repair_scope::each_part, [](double) {
-              return false;
-          }).status == tf::status::cancelled);
+    CHECK(tf::find_solid_defects({&file}, [](double) { return false; }).status ==
+          tf::status::cancelled);
 }
 
 TEST_CASE("repair_file: coplanar faces are merged, but not where that would mix values") {
@@ -156,5 +155,5 @@ TEST_CASE("repair_file: parts of one value each are merged, each in itself") {
     const tf::repaired_file made = tf::repair_file({&file});
     CHECK(made.file.mesh.faces.size() == 24);
     CHECK(std::ranges::count(made.is_left, 0) == 8);
-    CHECK(tf::repair_file({&file}, {}, tf::repair_scope::whole_file).file.mesh.faces.size() > 24);
+    CHECK(tf::repair_file({&file}, {.as_one = true}).file.mesh.faces.size() > 24);
 }

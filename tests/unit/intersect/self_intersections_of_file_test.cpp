@@ -192,19 +192,19 @@ TEST_CASE("stream_search: tiles by several workers, in any order, some of them t
     o.faces_per_tile = 300;
     o.folder = folder.path / "work";
     CHECK_THROWS_WITH_AS((void)tf::stream_search(path, o).tiles(),
-                         doctest::Contains("holds no tiles of this input"), tf::stream_error);
+                         doctest::Contains("holds no tiles of this input"), tf::io_error);
     tf::stream_search first(path, o), second(path, o);
-    CHECK_THROWS_WITH_AS((void)first.scatter(), doctest::Contains("is in use"), tf::stream_error);
+    CHECK_THROWS_WITH_AS((void)first.scatter(), doctest::Contains("is in use"), tf::io_error);
     { const tf::stream_search gone = std::move(second); }
-    CHECK_THROWS_AS((void)tf::self_intersections_of_file(path, o), tf::stream_error);  // held still
-    CHECK_THROWS_WITH_AS((void)first.finish(), doctest::Contains("holds no tiles"),
-                         tf::stream_error);
+    CHECK_THROWS_WITH_AS((void)tf::self_intersections_of_file(path, o),  // held still
+                         doctest::Contains("is in use"), tf::io_error);
+    CHECK_THROWS_WITH_AS((void)first.finish(), doctest::Contains("holds no tiles"), tf::io_error);
     REQUIRE(first.scatter() == tf::status::ok);
     tf::stream_search other(path, o);
     REQUIRE(other.tiles() > 5);
     CHECK_THROWS_AS((void)other.search_tile(other.tiles()), std::out_of_range);
     CHECK_THROWS_WITH_AS((void)other.finish(), doctest::Contains("tiles 0, 1, 2, 3, 4, 5"),
-                         tf::stream_error);
+                         tf::io_error);
     tf::for_chunks(2, 1, [&](std::size_t worker, std::size_t, std::size_t) {
         tf::stream_search mine(path, o);
         const std::size_t tiles = mine.tiles();
@@ -221,7 +221,7 @@ TEST_CASE("stream_search: tiles by several workers, in any order, some of them t
     { const tf::stream_search gone = std::move(other); }
     tf::stream_search last(path, others);
     CHECK_THROWS_WITH_AS((void)last.scatter(), doctest::Contains("holds tiles of another input"),
-                         tf::stream_error);
+                         tf::io_error);
     CHECK(told_of(r.part, r.found, r.bounds) == in_memory(path, o));
     last.remove_folder();
     CHECK_FALSE(fs::exists(o.folder));
@@ -286,8 +286,8 @@ TEST_CASE(
     std::uint64_t needed = 0;
     try {
         (void)tf::self_intersections_of_file(path, o);
-    } catch (const tf::stream_error& error) {
-        CHECK(error.why() == tf::stream_error::reason::memory);
+    } catch (const tf::io_error& error) {
+        CHECK(error.why() == tf::io_error::kind::memory);
         needed = error.needed();
     }
     CHECK(needed > o.memory);

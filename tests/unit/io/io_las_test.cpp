@@ -367,9 +367,10 @@ TEST_CASE("LAS: a stream of blocks is the file") {
             tf::point_reader reader(in);
             REQUIRE(reader.count() == 120000);
             tf::point_writer writer(out, reader.header(), 120000);
-            tf::point_block block;
-            for (std::size_t most = 1; reader.read(block, most); most = 2 * most + 1)
-                writer.write(block);
+            tf::detail::io::point_block block;
+            for (std::size_t most = 1; reader.read(block.points, block.properties, most);
+                 most = 2 * most + 1)
+                writer.write(block.points, block.properties);
             (void)writer.commit();
             CHECK(bytes_of(out) == bytes_of(in));
         }
@@ -390,7 +391,7 @@ TEST_CASE("LAS: parts with a joined head are the file") {
             std::vector<std::string> heads;
             std::string points;
             for (const auto& [first, last] : {std::pair{std::size_t{0}, cut}, {cut, 2000u}}) {
-                tf::point_block block;
+                tf::detail::io::point_block block;
                 std::vector<std::uint32_t> rows;
                 for (std::size_t i = first; i < last; ++i) {
                     rows.push_back(static_cast<std::uint32_t>(i));
@@ -398,7 +399,7 @@ TEST_CASE("LAS: parts with a joined head are the file") {
                 }
                 block.properties = file.attributes.elements[0].gathered(rows);
                 tf::point_writer writer(path, file, 2000);
-                writer.write(block);
+                writer.write(block.points, block.properties);
                 REQUIRE(writer.has_parts());
                 tf::write_result result;
                 const tf::detail::io::written_part part = writer.commit_part(result);
@@ -430,7 +431,7 @@ TEST_CASE("LAZ: parts of whole chunks with a joined head and all chunks are the 
             std::vector<std::string> told;
             std::vector<tf::point_writer> writers;
             for (std::size_t r = 0; r + 1 < cuts.size(); ++r) {
-                tf::point_block block;
+                tf::detail::io::point_block block;
                 std::vector<std::uint32_t> rows;
                 for (std::size_t i = cuts[r]; i < cuts[r + 1]; ++i) {
                     rows.push_back(static_cast<std::uint32_t>(i));
@@ -442,7 +443,7 @@ TEST_CASE("LAZ: parts of whole chunks with a joined head and all chunks are the 
                                          file, count, tf::write_options{.format = "laz"});
                 REQUIRE(writer.has_parts());
                 CHECK(writer.points_together() == 50'000);
-                writer.write(block);
+                writer.write(block.points, block.properties);
                 told.push_back(writer.tell_part());
             }
             std::vector<std::string> heads;
@@ -478,8 +479,8 @@ TEST_CASE("LAZ: chunks ahead of the first point are not read") {
             std::vector<tf::point3> points;
             const auto read_all = [&] {
                 tf::point_reader reader(path, "", first);
-                tf::point_block block;
-                while (reader.read(block, 30'000))
+                tf::detail::io::point_block block;
+                while (reader.read(block.points, block.properties, 30'000))
                     points.insert(points.end(), block.points.begin(), block.points.end());
             };
             if (damaged && first < 50'000) {

@@ -46,14 +46,14 @@ TEST_CASE("point parts: parts written by several, put one after the other, are t
         std::string bytes;
         std::vector<std::string> heads;
         std::vector<std::uint32_t> rows;
-        tf::point_block block;
+        tf::detail::io::point_block block;
         for (std::uint32_t i = 0; i < 700; ++i) {
             rows.push_back(i);
             block.points.push_back(file.mesh.points[i]);
             if (i != 250 && i != 699) continue;
             block.properties = file.attributes.elements[0].gathered(rows);
             tf::point_writer writer(here.folder / "part", file, 700, options);
-            writer.write(block);
+            writer.write(block.points, block.properties);
             tf::write_result result;
             REQUIRE(writer.has_parts());
             if (writer.has_shared_values()) {
@@ -110,14 +110,14 @@ TEST_CASE("point parts: parts of a compressed PCD share their values, and pack a
                          }});
                 const std::size_t end = part + 1 == parts ? count : count * part / (parts + 3);
                 while (first < end) {  // the first one has none, the last one many
-                    tf::point_block block;
+                    tf::detail::io::point_block block;
                     std::vector<std::uint32_t> rows;
                     for (; first < end && rows.size() < 5000; ++first) {
                         rows.push_back(static_cast<std::uint32_t>(first));
                         block.points.push_back(file.mesh.points[first]);
                     }
                     block.properties = file.attributes.elements[0].gathered(rows);
-                    writer.write(block);
+                    writer.write(block.points, block.properties);
                 }
             }
             std::string bytes;
@@ -142,18 +142,18 @@ TEST_CASE("point parts: parts of a compressed PCD share their values, and pack a
 TEST_CASE("point parts: a shared place is refused where it is of no use, and has its own end") {
     const parts_folder here;
     tf::mesh_file file = cloud(3, false);
-    const tf::point_block all{.points = file.mesh.points,
-                              .properties = file.attributes.elements[0]};
+    const tf::detail::io::point_block all{.points = file.mesh.points,
+                                          .properties = file.attributes.elements[0]};
     tf::point_writer plain(here.folder / "a.pcd", file, 3);
     CHECK_FALSE(plain.has_shared_values());
     CHECK_THROWS_AS(plain.share_values({}), std::logic_error);
     file.format = "pcd-binary-compressed";
     tf::point_writer late(here.folder / "b.pcd", file, 3);
-    late.write(all);
+    late.write(all.points, all.properties);
     CHECK_THROWS_AS(late.share_values({}), std::logic_error);
     tf::point_writer part(here.folder / "c.pcd", file, 3);
     part.share_values({.put = [](std::uint64_t, auto) {}, .get = [](std::uint64_t, auto) {}});
-    part.write(all);
+    part.write(all.points, all.properties);
     CHECK_THROWS_AS(static_cast<void>(part.commit()), std::logic_error);
     CHECK_FALSE(fs::exists(here.folder / "c.pcd"));
 }

@@ -62,8 +62,8 @@ tf::mesh_file read_by(std::size_t most, const fs::path& path) {
     tf::element& vertices = has_columns ? file.attributes.obtain("vertex", 0) : none;
     for (tf::column& c : vertices.columns)
         if (c.list_length) c.list_begin.assign(1, 0);
-    tf::point_block block;
-    while (reader.read(block, most)) {
+    tf::detail::io::point_block block;
+    while (reader.read(block.points, block.properties, most)) {
         CHECK(block.points.size() <= most);
         REQUIRE(block.properties.rows == block.points.size());
         REQUIRE(block.properties.columns.size() == vertices.columns.size());
@@ -73,7 +73,7 @@ tf::mesh_file read_by(std::size_t most, const fs::path& path) {
         vertices.rows += block.properties.rows;
     }
     CHECK(block.points.empty());
-    CHECK_FALSE(reader.read(block, most));
+    CHECK_FALSE(reader.read(block.points, block.properties, most));
     CHECK(reader.count() == file.mesh.points.size());
     file.warnings = reader.header().warnings;
     return file;
@@ -120,13 +120,13 @@ TEST_CASE("point streams: blocks written one by one are the bytes of the whole f
                     tf::point_writer writer(path, file, count, options);
                     for (std::size_t first = 0; first < count; first += most) {
                         std::vector<std::uint32_t> rows;
-                        tf::point_block block;
+                        tf::detail::io::point_block block;
                         for (std::size_t i = first; i < std::min(count, first + most); ++i) {
                             rows.push_back(static_cast<std::uint32_t>(i));
                             block.points.push_back(file.mesh.points[i]);
                         }
                         block.properties = file.attributes.elements[0].gathered(rows);
-                        writer.write(block);
+                        writer.write(block.points, block.properties);
                     }
                     const tf::write_result result = writer.commit();
                     CHECK(bytes_of(path) == expected);
@@ -153,14 +153,14 @@ TEST_CASE("point streams: what follows the first points is the rest of the file"
             CAPTURE(first);
             tf::point_reader reader(path, {}, first);
             CHECK(reader.count() == 700);
-            tf::point_block block;
+            tf::detail::io::point_block block;
             for (std::size_t i = first; i < 700; i += block.points.size()) {
-                REQUIRE(reader.read(block, 100));
+                REQUIRE(reader.read(block.points, block.properties, 100));
                 CHECK(same_bytes_of(block.points, {whole.mesh.points.begin() + std::ptrdiff_t(i),
                                                    whole.mesh.points.begin() +
                                                        std::ptrdiff_t(i + block.points.size())}));
             }
-            CHECK_FALSE(reader.read(block, 100));
+            CHECK_FALSE(reader.read(block.points, block.properties, 100));
         }
     }
 }
@@ -181,8 +181,9 @@ TEST_CASE("point streams: lists and rows without coordinates alone pass through"
         tf::point_reader reader(again);
         tf::point_writer writer(here.folder / "c.ply", reader.header(), *reader.count(),
                                 {.ascii = ascii});
-        tf::point_block block;
-        while (reader.read(block, 2)) writer.write(block);
+        tf::detail::io::point_block block;
+        while (reader.read(block.points, block.properties, 2))
+            writer.write(block.points, block.properties);
         (void)writer.commit();
         CHECK(bytes_of(here.folder / "c.ply") == bytes);
     }
@@ -229,8 +230,8 @@ TEST_CASE("point streams: what is no file of points is refused") {
     CHECK_THROWS_AS(tf::point_reader(here.put("a.obj", "v 0 0 0\n")), tf::io_error);
     CHECK_THROWS_AS(tf::point_reader(here.folder / "none.ply"), tf::io_error);
     tf::point_reader cut(here.put("b.ply", head + "end_header\n0 0 \n"));
-    tf::point_block block;
-    CHECK_THROWS_AS(cut.read(block, 10), tf::io_error);
+    tf::detail::io::point_block block;
+    CHECK_THROWS_AS(cut.read(block.points, block.properties, 10), tf::io_error);
     CHECK_THROWS_AS(tf::point_writer(here.folder / "a.off", {}, 0), tf::io_error);
     CHECK_THROWS_AS(tf::point_writer(here.folder / "a.stl", {}, 0), tf::io_error);
 }
@@ -238,30 +239,31 @@ TEST_CASE("point streams: what is no file of points is refused") {
 TEST_CASE("point streams: a writer takes what was announced, and leaves nothing without commit") {
     const stream_folder here;
     const tf::mesh_file file = cloud(2, true);
-    tf::point_block block{.points = file.mesh.points, .properties = file.attributes.elements[0]};
+    tf::detail::io::point_block block{.points = file.mesh.points,
+                                      .properties = file.attributes.elements[0]};
     {
         tf::point_writer writer(here.folder / "a.ply", file, 3);
-        writer.write(block);
-        CHECK_THROWS_AS(writer.write(block), std::invalid_argument);
+        writer.write(block.points, block.properties);
+        CHECK_THROWS_AS(writer.write(block.points, block.properties), std::invalid_argument);
         CHECK_THROWS_AS(writer.commit(), tf::io_error);
     }
     {
         tf::point_writer writer(here.folder / "a.ply", file, 2);
-        tf::point_block other = block;
+        tf::detail::io::point_block other = block;
         other.properties.columns.pop_back();
-        CHECK_THROWS_AS(writer.write(other), std::invalid_argument);
+        CHECK_THROWS_AS(writer.write(other.points, other.properties), std::invalid_argument);
         other = block;
         other.properties.rows = 1;
-        CHECK_THROWS_AS(writer.write(other), std::invalid_argument);
+        CHECK_THROWS_AS(writer.write(other.points, other.properties), std::invalid_argument);
         other = block;
         other.points[0].x = 0.1;  // no float32, as the header promises
-        CHECK_THROWS_AS(writer.write(other), std::invalid_argument);
+        CHECK_THROWS_AS(writer.write(other.points, other.properties), std::invalid_argument);
     }
     CHECK(fs::is_empty(here.folder));
     tf::point_writer rounding(here.folder / "a.ply", file, 2,
                               {.precision = tf::precision::float32});
     block.points[0].x = 0.1;
-    rounding.write(block);
+    rounding.write(block.points, block.properties);
     CHECK(rounding.commit().max_displacement > 0.0);
     CHECK(tf::read(here.folder / "a.ply").mesh.points[0].x ==
           static_cast<double>(static_cast<float>(0.1)));
@@ -283,8 +285,9 @@ void copy_by(std::size_t most, const fs::path& from, const fs::path& to, bool as
              bool with_points = true) {
     tf::point_reader reader(from, {}, 0, true);
     tf::point_writer writer(to, reader.header(), *reader.count(), {.ascii = ascii}, 5);
-    tf::point_block points;
-    while (with_points && reader.read(points, most)) writer.write(points);
+    tf::detail::io::point_block points;
+    while (with_points && reader.read(points.points, points.properties, most))
+        writer.write(points.points, points.properties);
     for (tf::detail::io::row_block rows; reader.read(rows, most);) writer.write(rows);
     writer.commit();
 }
@@ -325,15 +328,15 @@ TEST_CASE("point streams: of a file in parts, each has some points, and some of 
             tf::point_reader reader(text, {}, first, true);
             const fs::path path = here.folder / (std::string("part") + to.extension().string());
             tf::point_writer writer(path, reader.header(), 5, {}, 5);
-            tf::point_block points;
-            REQUIRE(reader.read(points, first == 0 ? 3 : 2));
-            writer.write(points);
+            tf::detail::io::point_block points;
+            REQUIRE(reader.read(points.points, points.properties, first == 0 ? 3 : 2));
+            writer.write(points.points, points.properties);
             tf::detail::io::row_block rows;
             REQUIRE(reader.read(rows, 3));  // three faces for the first part
             if (first > 0) REQUIRE(reader.read(rows, 3));
             CHECK_THROWS_AS(writer.write(rows), std::invalid_argument);  // points are missing
             const std::uint64_t bytes = writer.end_part();
-            CHECK_THROWS_AS(writer.write(points), std::invalid_argument);
+            CHECK_THROWS_AS(writer.write(points.points, points.properties), std::invalid_argument);
             const std::uint64_t room = first == 0 ? 1000 : 0;
             writer.leave_room(room);
             do writer.write(rows);

@@ -46,7 +46,7 @@ std::vector<std::optional<io::record_index>> look(const std::vector<fs::path>& p
 std::string read_shared(const fs::path& path, std::uint64_t first, const io::record_index* known) {
     io::point_blocks reader(path, {}, first, io::row_use::none, known);
     std::string all = std::to_string(reader.count().value_or(0));
-    tf::point_block block;
+    tf::detail::io::point_block block;
     while (reader.read(block, 50))
         for (std::size_t i = 0; i < block.points.size(); ++i) {
             for (std::size_t k = 0; k < 3; ++k) all += ' ' + std::to_string(block.points[i][k]);
@@ -155,7 +155,7 @@ TEST_CASE("shared records: points with lists are found by many, each at its shar
                 const auto from = [&](const io::record_index* index) {
                     io::point_blocks reader(path, {}, first, io::row_use::copied, index);
                     std::string all;
-                    tf::point_block block;
+                    tf::detail::io::point_block block;
                     while (reader.read(block, 64))
                         for (const tf::point3& p : block.points) all += std::to_string(p[0]) + ' ';
                     return all;

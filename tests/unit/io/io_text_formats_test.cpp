@@ -374,7 +374,8 @@ TEST_CASE("csv: whole numbers beyond 2^53 stay, colors are of 8 or 16 bits, the 
 }
 
 TEST_CASE("csv: columns are what they are said to be") {
-    const auto chosen = [](const std::string& text, std::vector<tf::named_column> columns) {
+    using name_pairs = std::vector<std::pair<std::string, std::string>>;
+    const auto chosen = [](const std::string& text, name_pairs columns) {
         return tf::read(std::as_bytes(std::span(text)), "a.csv", {},
                         {.columns = std::move(columns)});
     };
@@ -388,7 +389,7 @@ TEST_CASE("csv: columns are what they are said to be") {
     const tf::mesh_file plain = chosen("9 1 2 3\n", {{"x", "2"}, {"y", "3"}, {"z", "4"}});
     CHECK(plain.mesh.points == std::vector<tf::point3>{{1, 2, 3}});
     CHECK(text_column(plain, "vertex", "column_1").number(0) == 9);
-    const auto complaint = [&](const std::vector<tf::named_column>& columns) -> std::string {
+    const auto complaint = [&](const name_pairs& columns) -> std::string {
         try {
             (void)chosen(text, columns);
         } catch (const tf::io_error& error) {

@@ -209,7 +209,8 @@ TEST_CASE("translation: by blocks, the same bytes as whole files") {
             tf::point_reader reader(in);
             const auto out = own.path / (std::string("out.") + to);
             tf::point_writer writer(out, reader.header(), 3);
-            for (tf::point_block block; reader.read(block, 2);) writer.write(block);
+            for (tf::detail::io::point_block block; reader.read(block.points, block.properties, 2);)
+                writer.write(block.points, block.properties);
             const tf::write_result parts = writer.commit();
             tf::mesh_file whole = tf::read(in);
             const translated_file expected = put_translated(whole, to);

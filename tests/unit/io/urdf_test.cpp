@@ -145,14 +145,13 @@ TEST_CASE("urdf: meshes are found beside the file, in packages, and where it is 
     std::filesystem::create_directories(folder.path() / "elsewhere");
     const auto away = folder.write(with("package://meshes/a.stl"), "elsewhere/robot.urdf");
     CHECK_THROWS_AS(static_cast<void>(tf::read_urdf(away)), tf::io_error);
-    tf::urdf_options options;
-    options.package_folders = {folder.path() / "arm"};
-    CHECK(tf::read_urdf(away, options).meshes.size() == 1);
+    const std::filesystem::path packages = folder.path() / "arm";
+    CHECK(tf::read_urdf(away, {&packages, 1}).meshes.size() == 1);
     const auto r = tf::read_urdf(folder.write(with(
         "meshes/a.stl", "<collision><geometry><capsule radius=\"1\"/></geometry></collision>")));
     CHECK(r.skipped == std::vector<std::string>{"link a: a capsule is not read"});
-    options.visual = true;
-    CHECK(tf::read_urdf(folder.write(with("meshes/a.stl")), options).meshes.empty());
+    constexpr bool visual = true;
+    CHECK(tf::read_urdf(folder.write(with("meshes/a.stl")), {}, visual).meshes.empty());
 }
 
 TEST_CASE("urdf: parts are the links that have faces, each one mesh in the frame of its link") {
@@ -171,16 +170,20 @@ TEST_CASE("urdf: parts are the links that have faces, each one mesh in the frame
     const auto no_file = [](const std::filesystem::path&) -> tf::mesh {
         throw std::logic_error("there is no file");
     };
-    const tf::robot_parts made = r.parts(no_file);
-    CHECK(made.links == std::vector<std::uint32_t>{0, 2, 3});
+    const std::vector<tf::urdf_mesh> made = r.parts(no_file);
+    const auto links_of = [](const std::vector<tf::urdf_mesh>& parts) {
+        std::vector<std::uint32_t> links;
+        for (const tf::urdf_mesh& part : parts) links.push_back(part.link);
+        return links;
+    };
+    REQUIRE(links_of(made) == std::vector<std::uint32_t>{0, 2, 3});
     using pairs = std::vector<std::array<std::uint32_t, 2>>;
-    CHECK(made.adjacent == pairs{{0, 1}, {1, 2}});
-    REQUIRE(made.parts.size() == 3);
-    CHECK(made.parts[1].points.size() == 16);
-    CHECK(made.parts[1].faces.size() == 24);
-    CHECK(tf::bounding_box(made.parts[1].points)->min == tf::point3{4, -1, -1});
-    CHECK(tf::bounding_box(made.parts[1].points)->max == tf::point3{10, 1, 1});
-    CHECK(tf::signed_volume(made.parts[1]) == 16.0);
+    CHECK(r.adjacent(made) == pairs{{0, 1}, {1, 2}});
+    CHECK(made[1].shape.points.size() == 16);
+    CHECK(made[1].shape.faces.size() == 24);
+    CHECK(tf::bounding_box(made[1].shape.points)->min == tf::point3{4, -1, -1});
+    CHECK(tf::bounding_box(made[1].shape.points)->max == tf::point3{10, 1, 1});
+    CHECK(tf::signed_volume(made[1].shape) == 16.0);
     // Links without faces are no parts, whatever they are joined to.
     auto only_files = r;
     for (tf::urdf_mesh& one : only_files.meshes) one.file = std::to_string(one.link);
@@ -190,8 +193,8 @@ TEST_CASE("urdf: parts are the links that have faces, each one mesh in the frame
         return path == "3" ? r.meshes[0].shape : tf::mesh{};
     });
     CHECK(asked == std::vector<std::string>{"0", "2", "2", "3"});
-    CHECK(parts.links == std::vector<std::uint32_t>{3});
-    CHECK(parts.adjacent.empty());
+    CHECK(links_of(parts) == std::vector<std::uint32_t>{3});
+    CHECK(only_files.adjacent(parts).empty());
 }
 
 TEST_CASE("urdf: a scale that mirrors turns faces over") {
@@ -207,7 +210,8 @@ TEST_CASE("urdf: a scale that mirrors turns faces over") {
                 tetrahedron.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
                 return tetrahedron;
             })
-            .parts.at(0);
+            .at(0)
+            .shape;
     };
     for (const char* scale : {"2 2 1.5", "2 2 -1.5", "-2 -2 1.5", "-2 -2 -1.5"}) {
         CAPTURE(scale);

@@ -29,7 +29,7 @@ void check_chains(const std::vector<point3>& points, double tolerance, const num
                tf::test::brute_within(points[i], points[j], tolerance) &&
                (!may_merge || may_merge(i, j));
     };
-    tf::weld_options options{.tolerance = tolerance, .rule = tf::weld_rule::chain};
+    tf::weld_options options{.tolerance = tolerance, .chain = true};
     options.label = label;
     options.may_merge = may_merge;
     CHECK(tf::detail::weld::dense_chains(points, options) ==
@@ -113,7 +113,7 @@ TEST_CASE("dense_chains: progress is told often, and stops the work") {
         const point3 p = test::unit_point(engine);
         points.push_back({400.0 * p.x, 400.0 * p.y, p.z});
     }
-    tf::weld_options options{.tolerance = 0.2, .rule = tf::weld_rule::chain};
+    tf::weld_options options{.tolerance = 0.2, .chain = true};
     int calls = 0;
     options.progress = [&](double) { return ++calls > 0; };
     CHECK(tf::detail::weld::dense_chains(points, options).size() == points.size());

@@ -26,7 +26,6 @@ using tf::group_points;
 using tf::point3;
 using tf::point_groups;
 using tf::weld_options;
-using tf::weld_rule;
 using tf::detail::weld::find_groups;
 using tf::detail::weld::neighbor_search;
 using family = test::weld_family;
@@ -34,7 +33,7 @@ using numbers = std::vector<std::uint32_t>;
 
 constexpr std::array searches{neighbor_search::automatic, neighbor_search::window,
                               neighbor_search::cells, neighbor_search::tree};
-constexpr std::array rules{weld_rule::first, weld_rule::chain};
+constexpr std::array rules{false, true};
 
 bool finite(const point3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -52,9 +51,8 @@ point_groups by_definition(const std::vector<point3>& points, const weld_options
     const auto are_linked = [&](std::uint32_t i, std::uint32_t j) {
         return linked(points, options, i, j);
     };
-    const numbers first = options.rule == weld_rule::first
-                              ? tf::test::brute_leaders(points, are_linked)
-                              : tf::test::brute_chains(points, are_linked);
+    const numbers first = !options.chain ? tf::test::brute_leaders(points, are_linked)
+                                         : tf::test::brute_chains(points, are_linked);
     point_groups groups;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         if (first[i] == i) {
@@ -70,11 +68,11 @@ point_groups by_definition(const std::vector<point3>& points, const weld_options
 
 /// Both rules, by every search, against their definition.
 void check_definition(const std::vector<point3>& points, weld_options options) {
-    for (const weld_rule rule : rules) {
-        options.rule = rule;
+    for (const bool chain : rules) {
+        options.chain = chain;
         const point_groups expected = by_definition(points, options);
         for (const neighbor_search search : searches) {
-            CAPTURE(static_cast<int>(rule));
+            CAPTURE(chain);
             CAPTURE(static_cast<int>(search));
             CAPTURE(options.tolerance);
             const point_groups groups = find_groups("group_points", points, options, search);
@@ -123,7 +121,7 @@ TEST_CASE("group_points: tolerance 0 joins equal coordinates only") {
 TEST_CASE("group_points: chain follows a chain, first does not") {
     const std::vector<point3> points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
     CHECK(group_points(points, {.tolerance = 1.0}).group_of_point == numbers{0, 0, 1, 1});
-    CHECK(group_points(points, {.tolerance = 1.0, .rule = weld_rule::chain}).group_of_point ==
+    CHECK(group_points(points, {.tolerance = 1.0, .chain = true}).group_of_point ==
           numbers{0, 0, 0, 0});
 }
 
@@ -241,12 +239,12 @@ TEST_CASE("join_groups: faces stay, also those that collapse, and kept points ar
 
 namespace {
 
-weld_options options_of(double tolerance, weld_rule rule) {
-    return {.tolerance = tolerance, .rule = rule};
+weld_options options_of(double tolerance, bool chain) {
+    return {.tolerance = tolerance, .chain = chain};
 }
 
-point_groups groups_by(neighbor_search search, const family& f, weld_rule rule) {
-    return find_groups("group_points", f.points, options_of(f.tolerance, rule), search);
+point_groups groups_by(neighbor_search search, const family& f, bool chain) {
+    return find_groups("group_points", f.points, options_of(f.tolerance, chain), search);
 }
 
 }  // namespace
@@ -297,14 +295,14 @@ TEST_CASE("group_points: the number of threads changes nothing") {
     all.insert(all.end(), large.begin() + 1, large.begin() + 3);
     all.back().tolerance = 1e-4;
     for (const family& f : all)
-        for (const weld_rule rule : rules)
+        for (const bool chain : rules)
             for (const neighbor_search search : searches) {
                 CAPTURE(f.name);
                 point_groups one;
                 for (const unsigned threads : {1U, 2U, 8U}) {
                     if (threads == 8 && search == neighbor_search::tree) continue;
                     const tf::thread_scope scope(threads);
-                    const point_groups found = groups_by(search, f, rule);
+                    const point_groups found = groups_by(search, f, chain);
                     if (threads == 1) one = found;
                     REQUIRE(found.group_of_point == one.group_of_point);
                     REQUIRE(found.first_of_group == one.first_of_group);
@@ -314,27 +312,27 @@ TEST_CASE("group_points: the number of threads changes nothing") {
 
 TEST_CASE("group_points: searches agree on many points") {
     for (const family& f : test::weld_families(13, 4'000))
-        for (const weld_rule rule : rules) {
+        for (const bool chain : rules) {
             CAPTURE(f.name);
-            const point_groups expected = groups_by(neighbor_search::tree, f, rule);
+            const point_groups expected = groups_by(neighbor_search::tree, f, chain);
             for (const neighbor_search search : searches)
-                REQUIRE(groups_by(search, f, rule).group_of_point == expected.group_of_point);
+                REQUIRE(groups_by(search, f, chain).group_of_point == expected.group_of_point);
         }
 }
 
 TEST_CASE("group_points: powers of two scale nothing away") {
     for (const family& f : test::weld_families(17, 500)) {
         if (f.points[0].x == 1e300) continue;  // has no room
-        for (const weld_rule rule : rules) {
+        for (const bool chain : rules) {
             CAPTURE(f.name);
-            const point_groups expected = group_points(f.points, options_of(f.tolerance, rule));
+            const point_groups expected = group_points(f.points, options_of(f.tolerance, chain));
             for (const int exponent : {-900, -200, 13, 700, 990}) {
                 std::vector<point3> scaled;
                 for (const point3& p : f.points)
                     scaled.push_back({std::ldexp(p.x, exponent), std::ldexp(p.y, exponent),
                                       std::ldexp(p.z, exponent)});
                 const double tolerance = std::ldexp(f.tolerance, exponent);
-                REQUIRE(group_points(scaled, options_of(tolerance, rule)).group_of_point ==
+                REQUIRE(group_points(scaled, options_of(tolerance, chain)).group_of_point ==
                         expected.group_of_point);
             }
         }
@@ -351,10 +349,8 @@ TEST_CASE("group_points: chains do not depend on the order of points") {
             std::swap(order[i], order[engine() % (i + 1)]);
         std::vector<point3> shuffled;
         for (const std::uint32_t i : order) shuffled.push_back(f.points[i]);
-        const point_groups given =
-            group_points(f.points, options_of(f.tolerance, weld_rule::chain));
-        const point_groups found =
-            group_points(shuffled, options_of(f.tolerance, weld_rule::chain));
+        const point_groups given = group_points(f.points, options_of(f.tolerance, true));
+        const point_groups found = group_points(shuffled, options_of(f.tolerance, true));
         REQUIRE(found.first_of_group.size() == given.first_of_group.size());
         for (std::uint32_t i = 0; i < order.size(); ++i) {  // one group of one is one of the other
             const std::uint32_t first = order[found.first_of_group[found.group_of_point[i]]];
@@ -368,10 +364,10 @@ TEST_CASE("group_points: many labels at one place take no time") {
     const std::vector<point3> points(count, {1, 2, 3});
     numbers labels(count);
     for (std::uint32_t i = 0; i < count; ++i) labels[i] = i % (count / 2);
-    for (const weld_rule rule : rules)
+    for (const bool chain : rules)
         for (const double tolerance : {0.0, 1e-3}) {
             const point_groups groups =
-                group_points(points, {.tolerance = tolerance, .rule = rule, .label = labels});
+                group_points(points, {.tolerance = tolerance, .chain = chain, .label = labels});
             REQUIRE(groups.first_of_group.size() == count / 2);
             CHECK(groups.group_of_point[count - 1] == count / 2 - 1);
         }
@@ -381,19 +377,19 @@ TEST_CASE("group_points: may_merge is asked about equal points, too, and most ma
     const std::size_t count = 20'000;
     const std::vector<point3> points(count, {1, 2, 3});
     const auto may_merge = [](std::uint32_t i, std::uint32_t j) { return (i == 5) == (j == 5); };
-    for (const weld_rule rule : rules)
+    for (const bool chain : rules)
         for (const double tolerance : {0.0, 1e-3}) {
             const point_groups groups = group_points(
-                points, {.tolerance = tolerance, .rule = rule, .may_merge = may_merge});
+                points, {.tolerance = tolerance, .chain = chain, .may_merge = may_merge});
             CHECK(groups.first_of_group == numbers{0, 5});
         }
 }
 
 TEST_CASE("group_points: progress never decreases, and stops the work when it says so") {
     for (const family& f : test::weld_families(23, 3'000))
-        for (const weld_rule rule : rules) {
+        for (const bool chain : rules) {
             CAPTURE(f.name);
-            weld_options options = options_of(f.tolerance, rule);
+            weld_options options = options_of(f.tolerance, chain);
             double last = 0.0;
             int calls = 0;
             options.progress = [&](double done) {

@@ -86,11 +86,11 @@ TEST_CASE("mesh tiles: the file that weld of all of it would give") {
                 CHECK(made.survey.tiles > 1);
                 CHECK(made.survey.faces == 900);
                 CHECK(made.survey.triangles == 1350);
-                const tf::weld_stream_counts& c = made.counts;
+                const tf::weld_statistics& c = made.statistics;
                 const tf::weld_statistics& s = whole.statistics;
-                CHECK(c.kept == whole.file.mesh.points.size());
-                CHECK(c.triangles == whole.file.mesh.faces.size());
-                CHECK(c.faces == whole.file.stored_faces);
+                CHECK(made.kept == whole.file.mesh.points.size());
+                CHECK(made.triangles == whole.file.mesh.faces.size());
+                CHECK(made.faces == whole.file.stored_faces);
                 CHECK(c.collapsed == s.collapsed);
                 CHECK(c.degenerate == s.degenerate);
                 CHECK(c.flipped == s.flipped);
@@ -104,9 +104,9 @@ TEST_CASE("mesh tiles: what is not written in tiles, and who does not") {
     const test::own_folder here("mesh_tiles_refused");
     const fs::path in = here.path / "in.ply";
     tf::write(in, soup(5));
-    const tf::cloud_outline outline = tf::cloud_inputs{.paths = {in}}.outline();
-    CHECK(outline.has_rows);
-    CHECK(outline.header.attributes.find("face")->rows == 25);
+    const tf::mesh_file header = tf::cloud_inputs{.paths = {in}}.outline();
+    CHECK(header.attributes.find("vertex")->rows == soup(5).mesh.points.size());
+    CHECK(header.attributes.find("face")->rows == 25);
     CHECK_THROWS_AS(static_cast<void>(tf::cloud_inputs{.paths = {in, in}}.outline()), tf::io_error);
     CHECK_THROWS_AS(tf::weld_stream(in, here.path / "out.xyz", {}), tf::io_error);
     CHECK_FALSE(fs::exists(here.path / "out.xyz"));
@@ -116,19 +116,19 @@ namespace {
 
 /// What is known of a weld.
 std::vector<std::uint64_t> known(const tf::weld_stream_result& of) {
-    const tf::weld_stream_counts& c = of.counts;
+    const tf::weld_statistics& c = of.statistics;
     return {of.survey.faces,
             of.survey.triangles,
-            c.kept,
+            of.kept,
             c.groups,
-            c.faces,
-            c.triangles,
+            of.faces,
+            of.triangles,
             c.collapsed,
             c.degenerate,
             c.flipped,
             c.nonmanifold_before,
             c.nonmanifold_after,
-            of.written.still_within.value()};
+            of.still_within.value()};
 }
 
 /// Whether teams write the bytes that one writes, and know what it knows.
@@ -146,7 +146,7 @@ void check_teams(const fs::path& in, const fs::path& out, const tf::weld_stream_
         CHECK(bytes_of(out) == expected);
         for (const tf::weld_stream_result& r : made) {
             CHECK(known(r) == known(one));
-            CHECK(r.counts.max_displacement == one.counts.max_displacement);
+            CHECK(r.statistics.max_displacement == one.statistics.max_displacement);
             CHECK(r.survey.warnings.size() == one.survey.warnings.size());
         }
         CHECK_FALSE(fs::exists(in.string() + ".tiles"));
@@ -206,7 +206,7 @@ TEST_CASE("mesh tiles: faces of one length, text, facets of STL and OBJ are shar
                 CAPTURE(out);
                 tf::weld_stream_options options;
                 options.tolerance = tolerance;
-                options.rule = tf::weld_rule::chain;
+                options.chain = true;
                 options.points_per_tile = 200;
                 check_teams(here.path / name, here.path / out, options);
             }
@@ -330,5 +330,5 @@ TEST_CASE("paged files: any record in any order, and a file that was cut") {
     fs::resize_file(path, 8 * 50000);
     stream::paged_file<std::uint64_t> cut(path, count, 1);
     CHECK(cut.at(3) == 9);
-    CHECK_THROWS_AS(static_cast<void>(cut.at(60000)), tf::stream_error);
+    CHECK_THROWS_AS(static_cast<void>(cut.at(60000)), tf::io_error);
 }

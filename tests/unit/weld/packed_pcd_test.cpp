@@ -107,7 +107,7 @@ bool packed_as_team(const packing_job& work, std::size_t size, std::size_t victi
             };
         try {
             static_cast<void>(tf::weld_stream(work.inputs, work.outputs, options));
-        } catch (const tf::stream_error&) {  // the first one, when killed, takes its files with it
+        } catch (const tf::io_error&) {  // the first one, when killed, takes its files with it
             if (steps == 0) throw;
             throw test::killed();
         }
@@ -182,11 +182,11 @@ TEST_CASE(
         work.options.folder = path / "work";
         work.options.tolerance = 0.05;
         work.options.points_per_tile = 300;
-        if (round % 3 == 1) work.options.rule = tf::weld_rule::chain;
+        if (round % 3 == 1) work.options.chain = true;
         if (round % 4 == 2) work.options.keep = tf::weld_keep::mean;
         if (round % 4 == 3) {
-            work.options.order = tf::weld_order::highest;
             work.options.order_by = "shade";
+            work.options.highest_first = true;
         }
         work.outputs.welded = {path / "welded.pcd", {}};
         work.outputs.removed = {path / "removed.pcd", {}};
@@ -244,7 +244,7 @@ TEST_CASE("packed_pcd: one damaged input is named, and nothing stays") {
     work.options.folder = folder.path / "work";
     work.outputs.welded = {folder.path / "welded.pcd", {}};
     // The header says all that there is to know before: it is not unpacked for that.
-    CHECK(work.inputs.outline().points == 1800);
+    CHECK(work.inputs.outline().attributes.find("vertex")->rows == 1800);
     for (const std::size_t size : {1U, 4U}) {
         std::string said;
         try {

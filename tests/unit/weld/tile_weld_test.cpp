@@ -22,6 +22,8 @@ namespace {
 
 using test::border_way;
 using test::border_ways;
+using test::by_chain;
+using test::by_first;
 using test::check_equal;
 using test::cloud;
 using test::number_slices;
@@ -31,17 +33,16 @@ using test::weld_crowded;
 using test::weld_in_tiles;
 using test::weld_tile;
 using tf::point3;
-using tf::weld_rule;
 using tf::detail::weld::border_point;
 using tf::detail::weld::border_weld;
 using tf::detail::weld::tile_point;
 using tf::detail::weld::tile_result;
 using tf::detail::weld::tile_role;
 
-constexpr std::array tile_rules{weld_rule::first, weld_rule::chain};
+constexpr std::array tile_rules{false, true};
 
-std::vector<std::uint64_t> leaders(const cloud& points, weld_rule rule, double tolerance) {
-    const auto groups = tf::group_points(points, {.tolerance = tolerance, .rule = rule});
+std::vector<std::uint64_t> leaders(const cloud& points, bool chain, double tolerance) {
+    const auto groups = tf::group_points(points, {.tolerance = tolerance, .chain = chain});
     std::vector<std::uint64_t> leader;
     for (const std::uint32_t g : groups.group_of_point) leader.push_back(groups.first_of_group[g]);
     return leader;
@@ -51,10 +52,10 @@ std::size_t in_memory = 0;  ///< points that `tiled_leaders` has done
 
 void check_same(const cloud& points, double tolerance, test::random& random) {
     CAPTURE(tolerance);
-    for (const weld_rule rule : tile_rules) {
-        const auto expected = leaders(points, rule, tolerance);
+    for (const bool chain : tile_rules) {
+        const auto expected = leaders(points, chain, tolerance);
         for (const std::size_t count : {1U, 2U, 3U, 7U, 50U}) {
-            CAPTURE(static_cast<int>(rule));
+            CAPTURE(chain);
             CAPTURE(count);
             for (int turn = 0; turn < 2; ++turn) {
                 border_way way = border_ways[random.below(border_ways.size())];
@@ -62,11 +63,11 @@ void check_same(const cloud& points, double tolerance, test::random& random) {
                 CAPTURE(way.by_halves);
                 CAPTURE(way.slices_a_run);
                 CAPTURE(way.least_bits);
-                CHECK(weld_in_tiles(points, rule, tolerance, count, random, {}, way).leader ==
+                CHECK(weld_in_tiles(points, chain, tolerance, count, random, {}, way).leader ==
                       expected);
             }
         }
-        if (rule != weld_rule::first) continue;
+        if (chain) continue;
         const auto tiled = tf::detail::weld::tiled_leaders(
             points, {.tolerance = tolerance},
             {points.size() / 7 + 1, tf::detail::weld::tiling::always});
@@ -93,7 +94,7 @@ TEST_CASE("tile_weld: an empty cloud and a single point are welded as ever") {
 TEST_CASE("tile_weld: a tolerance that is no length is refused") {
     for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN(),
                              std::numeric_limits<double>::infinity()}) {
-        CHECK_THROWS_AS(tf::detail::weld::tile_weld(weld_rule::first, bad), std::invalid_argument);
+        CHECK_THROWS_AS(tf::detail::weld::tile_weld(by_first, bad), std::invalid_argument);
         CHECK_THROWS_AS(tf::detail::weld::border_weld{bad}, std::invalid_argument);
         CHECK_THROWS_AS(tf::detail::weld::crowded_chain{bad}, std::invalid_argument);
         CHECK_THROWS_AS(tf::detail::weld::tile_cuts({}, bad, 1), std::invalid_argument);
@@ -150,7 +151,7 @@ TEST_CASE("tile_weld: a chain through all tiles is one group, whatever its order
     const double step = std::sqrt(0.5 * 0.5 + 0.25 * 0.25);
     check_same(points, 1.01 * step, random);
     check_same(points, 0.99 * step, random);
-    const auto leader = weld_in_tiles(points, weld_rule::chain, 1.01 * step, 50, random).leader;
+    const auto leader = weld_in_tiles(points, by_chain, 1.01 * step, 50, random).leader;
     CHECK(std::count(leader.begin(), leader.end(), 0U) == 400);
 }
 
@@ -159,7 +160,7 @@ TEST_CASE("tile_weld: decisions that hang on each other from tile to tile come o
     test::random random(7);
     cloud points;
     for (int i = 0; i < 300; ++i) points.push_back({static_cast<double>(i), 0.0, 0.0});
-    const auto leader = weld_in_tiles(points, weld_rule::first, 1.0, 40, random).leader;
+    const auto leader = weld_in_tiles(points, by_first, 1.0, 40, random).leader;
     for (std::size_t i = 0; i < leader.size(); ++i) CHECK(leader[i] == i - i % 2);
     std::reverse(points.begin(), points.end());
     check_same(points, 1.0, random);
@@ -172,9 +173,9 @@ TEST_CASE("tile_weld: of rows that hang on those before, a run knows only the la
     for (std::size_t i = 0; i < side * side; ++i)
         points.push_back({static_cast<double>(i % side) + 0.5 * random.unit(),
                           static_cast<double>(i / side) + 0.5 * random.unit(), 0.0});
-    const auto expected = leaders(points, weld_rule::first, 1.9);
+    const auto expected = leaders(points, by_first, 1.9);
     for (const bool by_halves : {false, true}) {
-        const tiled found = weld_in_tiles(points, weld_rule::first, 1.9, 9, random, {},
+        const tiled found = weld_in_tiles(points, by_first, 1.9, 9, random, {},
                                           {.by_halves = by_halves, .slices_a_run = 1});
         CHECK(found.leader == expected);
         CHECK(found.border > points.size() / 2);
@@ -203,14 +204,14 @@ TEST_CASE("tile_weld: of a crowd in any order, runs know few points, and each on
     cloud points;
     for (int i = 0; i < 20000; ++i)
         points.push_back({random.unit(), 0.3 * random.unit(), 0.3 * random.unit()});
-    const auto expected = leaders(points, weld_rule::first, 0.2);
+    const auto expected = leaders(points, by_first, 0.2);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < expected.size(); ++i) kept += expected[i] == i ? 1 : 0;
     for (const bool by_halves : {false, true}) {
         border_way way{.by_halves = by_halves, .slices_a_run = 1};
-        const tiled whole = weld_in_tiles(points, weld_rule::first, 0.2, 2, random, {}, way);
+        const tiled whole = weld_in_tiles(points, by_first, 0.2, 2, random, {}, way);
         way.least_bits = 0;
-        const tiled split = weld_in_tiles(points, weld_rule::first, 0.2, 2, random, {}, way);
+        const tiled split = weld_in_tiles(points, by_first, 0.2, 2, random, {}, way);
         CHECK(whole.leader == expected);
         CHECK(split.leader == expected);
         CHECK(whole.handed_over > 0);
@@ -384,10 +385,10 @@ TEST_CASE("tile_weld: points that are not finite stay out of it") {
 TEST_CASE("tile_weld: the longest move is that from a point to its leader") {
     test::random random(12);
     const cloud points = uniform(500, random);
-    for (const weld_rule rule : tile_rules)
+    for (const bool chain : tile_rules)
         for (const double tolerance : {0.0, 0.05, 0.15, 0.3}) {
             CAPTURE(tolerance);
-            const tiled found = weld_in_tiles(points, rule, tolerance, 6, random, {},
+            const tiled found = weld_in_tiles(points, chain, tolerance, 6, random, {},
                                               border_ways[random.below(border_ways.size())]);
             const auto apart = [&](std::size_t i, double x) {
                 const point3& leader = points[found.leader[i]];
@@ -405,7 +406,7 @@ TEST_CASE("tile_weld: the longest move is that from a point to its leader") {
 TEST_CASE("tile_weld: what a tile decides for itself does not go to the border") {
     test::random random(13);
     const cloud points = uniform(20000, random);
-    const tiled found = weld_in_tiles(points, weld_rule::first, 0.005, 4, random);
+    const tiled found = weld_in_tiles(points, by_first, 0.005, 4, random);
     CHECK(found.border > 0);
     CHECK(found.border < 2000);
 }
@@ -426,9 +427,9 @@ TEST_CASE("tile_weld: points whose values do not agree stay apart, as in the who
         std::vector<std::uint32_t> label;
         for (std::size_t i = 0; i < points.size(); ++i)
             label.push_back(static_cast<std::uint32_t>(more.at(i)[0] - zero));
-        for (const weld_rule rule : tile_rules)
+        for (const bool chain : tile_rules)
             for (const double tolerance : {0.0, 0.05, 0.15, 0.4}) {
-                tf::weld_options options{.tolerance = tolerance, .rule = rule, .label = label};
+                tf::weld_options options{.tolerance = tolerance, .chain = chain, .label = label};
                 options.may_merge = [&](std::uint32_t i, std::uint32_t j) {
                     const std::uint64_t a = more.at(i)[1];
                     const std::uint64_t b = more.at(j)[1];
@@ -440,7 +441,7 @@ TEST_CASE("tile_weld: points whose values do not agree stay apart, as in the who
                     expected.push_back(groups.first_of_group[g]);
                 for (const std::size_t count : {1U, 2U, 7U, 50U})
                     for (const border_way& way : border_ways)
-                        CHECK(weld_in_tiles(points, rule, tolerance, count, random, more, way)
+                        CHECK(weld_in_tiles(points, chain, tolerance, count, random, more, way)
                                   .leader == expected);
             }
     }
@@ -477,6 +478,6 @@ TEST_CASE("crowded_chain: two crowds a hair more than the tolerance apart stay t
         points[3999].at = {gap + more, 0.0, 0.0};
         const tile_result result = weld_crowded(points, gap, random);
         CHECK(result.dropped.size() == (more > 0.0 ? 3998 : 3999));
-        check_equal(result, weld_tile(points, weld_rule::chain, gap, random));
+        check_equal(result, weld_tile(points, by_chain, gap, random));
     }
 }

@@ -45,14 +45,14 @@ ids in_order(const std::vector<double>& values, bool lowest) {
 
 /// The survivor that each point belongs to, `linked` being of points as they are numbered.
 template <class Linked>
-ids survivors(const tf::mesh& cloud, const ids& order, tf::weld_rule rule, const Linked& linked) {
+ids survivors(const tf::mesh& cloud, const ids& order, bool chain, const Linked& linked) {
     std::vector<tf::point3> sorted;
     for (const std::uint32_t i : order) sorted.push_back(cloud.points[i]);
     const auto sorted_linked = [&](std::uint32_t i, std::uint32_t j) {
         return linked(order[i], order[j]);
     };
-    const ids first = rule == tf::weld_rule::first ? tf::test::brute_leaders(sorted, sorted_linked)
-                                                   : tf::test::brute_chains(sorted, sorted_linked);
+    const ids first = !chain ? tf::test::brute_leaders(sorted, sorted_linked)
+                             : tf::test::brute_chains(sorted, sorted_linked);
     ids survivor(order.size());
     for (std::size_t k = 0; k < order.size(); ++k) survivor[order[k]] = order[first[k]];
     return survivor;
@@ -83,20 +83,22 @@ std::vector<double> values_with_ties(test::random& source, std::size_t count) {
 
 TEST_CASE("weld: an order says which point stays, ties by number and NaN last") {
     const tf::mesh cloud{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {}};
-    const auto kept = [&](const std::vector<double>& q, tf::weld_order order) {
+    const auto kept = [&](const std::vector<double>& q, bool highest_first, const char* by = "q") {
         return tf::weld(cloud.points, vertex_columns({{"q", q}}),
-                        {.tolerance = 1.0, .order = order, .order_by = "q"})
+                        {.tolerance = 1.0, .order_by = by, .highest_first = highest_first})
             .point_of_group;
     };
-    CHECK(kept({2, 1, 3, 4}, tf::weld_order::given) == ids{0, 2});
-    CHECK(kept({2, 1, 3, 4}, tf::weld_order::lowest) == ids{1, 3});
-    CHECK(kept({2, 4, 3, 1}, tf::weld_order::highest) == ids{1, 3});
-    CHECK(kept({5, 5, 5, 5}, tf::weld_order::lowest) == ids{0, 2});
-    CHECK(kept({0.0, -0.0, 1, 1}, tf::weld_order::lowest) == ids{0, 2});
-    CHECK(kept({not_a_number, infinity, not_a_number, -1}, tf::weld_order::lowest) == ids{1, 3});
-    CHECK(kept({not_a_number, -infinity, not_a_number, -1}, tf::weld_order::highest) == ids{1, 3});
-    const auto by_axis = tf::weld(
-        cloud.points, {.tolerance = 1.0, .order = tf::weld_order::highest, .order_by = "x"});
+    constexpr bool lowest = false, highest = true;
+    for (const bool highest_first : {lowest, highest})
+        CHECK(kept({2, 1, 3, 4}, highest_first, "") == ids{0, 2});
+    CHECK(kept({2, 1, 3, 4}, lowest) == ids{1, 3});
+    CHECK(kept({2, 4, 3, 1}, highest) == ids{1, 3});
+    CHECK(kept({5, 5, 5, 5}, lowest) == ids{0, 2});
+    CHECK(kept({0.0, -0.0, 1, 1}, lowest) == ids{0, 2});
+    CHECK(kept({not_a_number, infinity, not_a_number, -1}, lowest) == ids{1, 3});
+    CHECK(kept({not_a_number, -infinity, not_a_number, -1}, highest) == ids{1, 3});
+    const auto by_axis =
+        tf::weld(cloud.points, {.tolerance = 1.0, .order_by = "x", .highest_first = true});
     CHECK(by_axis.point_of_group == ids{1, 3});
     CHECK(by_axis.groups.group_of_point == ids{0, 0, 1, 1});
     CHECK(by_axis.mesh.points == std::vector<tf::point3>{{1, 0, 0}, {3, 0, 0}});
@@ -121,13 +123,13 @@ TEST_CASE("weld: in any order the groups are those of the definition") {
         };
         for (const unsigned asked : {0U, 1U, 2U, 4U, 8U, 13U})
             for (const double tolerance : {0.0, 1.0, 1.5})
-                for (const auto rule : {tf::weld_rule::first, tf::weld_rule::chain})
-                    for (const auto order : {tf::weld_order::lowest, tf::weld_order::highest}) {
+                for (const bool chain : {false, true})
+                    for (const bool highest_first : {false, true}) {
                         CAPTURE(asked);
                         CAPTURE(tolerance);
-                        tf::weld_options options{.tolerance = tolerance, .rule = rule};
-                        options.order = order;
+                        tf::weld_options options{.tolerance = tolerance, .chain = chain};
                         options.order_by = "rank";
+                        options.highest_first = highest_first;
                         if ((asked & 1U) != 0) options.label = label;
                         if ((asked & 2U) != 0) options.same = {{"kind"}};
                         if ((asked & 4U) != 0) options.same = {{"kind", 1.0}};
@@ -142,9 +144,9 @@ TEST_CASE("weld: in any order the groups are those of the definition") {
                                    ((asked & 4U) == 0 || same_kind(i, j, 1.0)) &&
                                    ((asked & 8U) == 0 || odd(i, j));
                         };
-                        const auto sorted = in_order(rank, order == tf::weld_order::lowest);
+                        const auto sorted = in_order(rank, !highest_first);
                         check_survivors(tf::weld(cloud.points, properties, options),
-                                        survivors(cloud, sorted, rule, linked));
+                                        survivors(cloud, sorted, chain, linked));
                     }
     }
 }
@@ -157,13 +159,14 @@ TEST_CASE("weld: an order of whole numbers that no double holds") {
     tf::attributes properties;
     properties.obtain("vertex", 3).columns = {tf::column::of<std::int64_t>("time", time),
                                               tf::column::of<std::uint64_t>("id", id)};
-    const auto kept = [&](tf::weld_order order, const char* by) {
-        return tf::weld(cloud.points, properties, {.order = order, .order_by = by}).point_of_group;
+    const auto kept = [&](const char* by, bool highest_first) {
+        return tf::weld(cloud.points, properties, {.order_by = by, .highest_first = highest_first})
+            .point_of_group;
     };
-    CHECK(kept(tf::weld_order::lowest, "time") == ids{2});
-    CHECK(kept(tf::weld_order::highest, "time") == ids{0});
-    CHECK(kept(tf::weld_order::lowest, "id") == ids{2});
-    CHECK(kept(tf::weld_order::highest, "id") == ids{1});
+    CHECK(kept("time", false) == ids{2});
+    CHECK(kept("time", true) == ids{0});
+    CHECK(kept("id", false) == ids{2});
+    CHECK(kept("id", true) == ids{1});
 }
 
 TEST_CASE("weld: faces follow points that are kept by an order, split groups keep theirs") {
@@ -174,7 +177,6 @@ TEST_CASE("weld: faces follow points that are kept by an order, split groups kee
     file.attributes = vertex_columns({{"rank", {5, 5, 5, 1, 2, 9}}});
     for (const bool manifold : {false, true}) {
         tf::weld_options options{.keep_manifold = manifold};
-        options.order = tf::weld_order::lowest;
         options.order_by = "rank";
         const auto welded = tf::weld(file, options);
         CHECK(welded.point_of_group == ids{1, 3, 4, 5});
@@ -192,7 +194,6 @@ TEST_CASE("count_still_within: looks in the order that it was welded in") {
     file.attributes = vertex_columns({{"rank", {2, 1, 3}}});
     tf::weld_options options{.tolerance = reach};
     CHECK(tf::count_still_within(file, options, tf::precision::float32) == 1);
-    options.order = tf::weld_order::lowest;
     options.order_by = "rank";
     CHECK(tf::count_still_within(file, options, tf::precision::float64) == 0);
     CHECK(tf::count_still_within(file, options, tf::precision::float32) == 2);
@@ -203,8 +204,7 @@ TEST_CASE("weld: orders that cannot be meant are refused") {
     const auto refused = [&](const tf::attributes& properties, const std::string& by,
                              const std::string& reason) {
         try {
-            static_cast<void>(tf::weld(cloud.points, properties,
-                                       {.order = tf::weld_order::lowest, .order_by = by}));
+            static_cast<void>(tf::weld(cloud.points, properties, {.order_by = by}));
             FAIL("not refused");
         } catch (const tf::weld_property_error& error) {
             CHECK(error.option() == "order_by");
@@ -213,8 +213,7 @@ TEST_CASE("weld: orders that cannot be meant are refused") {
     };
     refused({}, "q", "");
     refused(vertex_columns({{"nx", {0}}, {"ny", {0}}}), "normal", "is more than one property");
-    CHECK_THROWS_AS(static_cast<void>(tf::weld(cloud.points, {.keep = tf::weld_keep::mean,
-                                                              .order = tf::weld_order::lowest,
-                                                              .order_by = "x"})),
-                    std::invalid_argument);
+    CHECK_THROWS_AS(
+        static_cast<void>(tf::weld(cloud.points, {.keep = tf::weld_keep::mean, .order_by = "x"})),
+        std::invalid_argument);
 }

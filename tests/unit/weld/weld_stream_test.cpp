@@ -45,10 +45,10 @@ class stream_folder {
     [[nodiscard]] fs::path work() const { return path_ / "work"; }
     [[nodiscard]] const std::vector<tf::point3>& points() const { return points_; }
 
-    [[nodiscard]] tf::weld_stream_options options(tf::weld_rule rule) const {
+    [[nodiscard]] tf::weld_stream_options options(bool chain = false) const {
         tf::weld_stream_options o;
         o.tolerance = 0.02;
-        o.rule = rule;
+        o.chain = chain;
         o.folder = work();
         o.points_per_tile = 300;
         return o;
@@ -64,47 +64,44 @@ std::string content_of(const fs::path& path) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-constexpr tf::weld_rule both_rules[] = {tf::weld_rule::first, tf::weld_rule::chain};
-
 }  // namespace
 
 TEST_CASE("weld_stream: files, map and counts are what weld gives") {
     const stream_folder folder(2000);
-    for (const tf::weld_rule rule : both_rules) {
+    for (const bool chain : {false, true}) {
         std::vector<std::uint32_t> map;
         tf::weld_stream_outputs outputs;
         outputs.welded = {folder.output(), {}};
         outputs.map = [&](std::span<const std::uint64_t> next) {
             for (const std::uint64_t n : next) map.push_back(static_cast<std::uint32_t>(n));
         };
-        const auto streamed = tf::weld_stream(folder.inputs(), outputs, folder.options(rule));
-        const auto whole = tf::weld(folder.points(), {.tolerance = 0.02, .rule = rule});
+        const auto streamed = tf::weld_stream(folder.inputs(), outputs, folder.options(chain));
+        const auto whole = tf::weld(folder.points(), {.tolerance = 0.02, .chain = chain});
         CHECK(streamed.status == tf::status::ok);
         CHECK(streamed.survey.points == 2000);
         CHECK(streamed.survey.tiles > 3);
-        CHECK(streamed.counts.kept == whole.mesh.points.size());
-        CHECK(streamed.counts.groups == whole.statistics.groups);
-        CHECK(streamed.counts.max_displacement == whole.statistics.max_displacement);
+        CHECK(streamed.kept == whole.mesh.points.size());
+        CHECK(streamed.statistics.groups == whole.statistics.groups);
+        CHECK(streamed.statistics.max_displacement == whole.statistics.max_displacement);
         CHECK(map == whole.groups.group_of_point);
         CHECK(tf::read(folder.output()).mesh.points == whole.mesh.points);
         CHECK_FALSE(fs::exists(folder.work()));
         const std::string bytes = content_of(folder.output());
         fs::remove(folder.output());
-        tf::weld_stream(folder.input(), folder.output(), folder.options(rule));
+        tf::weld_stream(folder.input(), folder.output(), folder.options(chain));
         CHECK(content_of(folder.output()) == bytes);
     }
 }
 
 TEST_CASE("weld_stream: a relative tolerance is a share of the diagonal") {
     const stream_folder folder(500);
-    tf::weld_stream_options options = folder.options(tf::weld_rule::first);
+    tf::weld_stream_options options = folder.options();
     options.tolerance = 0.05;
     options.relative = true;
     const auto streamed = tf::weld_stream(folder.inputs(), tf::weld_stream_outputs{}, options);
     const double length = 0.05 * tf::bounding_box(folder.points())->diagonal();
     CHECK(streamed.survey.tolerance == length);
-    CHECK(streamed.counts.kept ==
-          tf::weld(folder.points(), {.tolerance = length}).mesh.points.size());
+    CHECK(streamed.kept == tf::weld(folder.points(), {.tolerance = length}).mesh.points.size());
 }
 
 TEST_CASE("weld_stream: wherever it is cancelled nothing is written, and the next call goes on") {
@@ -114,7 +111,7 @@ TEST_CASE("weld_stream: wherever it is cancelled nothing is written, and the nex
         CAPTURE(at);
         tf::weld_stream_outputs outputs;
         outputs.welded = {folder.output(), {}};
-        tf::weld_stream_options options = folder.options(tf::weld_rule::first);
+        tf::weld_stream_options options = folder.options();
         options.progress = [&](std::string_view step, double share) {
             return step != at || share < 0.5;
         };
@@ -132,7 +129,7 @@ TEST_CASE("weld_stream: wherever it is cancelled nothing is written, and the nex
 
 TEST_CASE("weld_stream: what it cannot work with is refused") {
     const stream_folder folder(100);
-    tf::weld_stream_options options = folder.options(tf::weld_rule::first);
+    tf::weld_stream_options options = folder.options();
     for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
         options.tolerance = bad;
         CHECK_THROWS_AS(tf::weld_stream(folder.inputs(), tf::weld_stream_outputs{}, options),
@@ -147,8 +144,8 @@ TEST_CASE("weld_stream: what it cannot work with is refused") {
     try {
         tf::weld_stream(folder.inputs(), tf::weld_stream_outputs{}, options);
         FAIL("not refused");
-    } catch (const tf::stream_error& error) {
-        CHECK(error.why() == tf::stream_error::reason::folder_foreign);
+    } catch (const tf::io_error& error) {
+        CHECK(error.why() == tf::io_error::kind::folder_foreign);
         CHECK(error.path() == folder.work());
     }
     fs::remove_all(folder.work());
@@ -156,8 +153,8 @@ TEST_CASE("weld_stream: what it cannot work with is refused") {
     try {
         tf::weld_stream(folder.inputs(), tf::weld_stream_outputs{}, options);
         FAIL("not refused");
-    } catch (const tf::stream_error& error) {
-        CHECK(error.why() == tf::stream_error::reason::folder_in_use);
+    } catch (const tf::io_error& error) {
+        CHECK(error.why() == tf::io_error::kind::folder_in_use);
     }
 }
 

@@ -98,7 +98,7 @@ tf::weld_stream_result weld_shared(const job& work, test::random& random) {
     CHECK(last.weld() == tf::status::ok);
     CHECK(last.write(work.outputs()) == tf::status::ok);
     last.remove_folder();
-    return {last.survey(), last.counts(), last.written()};
+    return last.result();
 }
 
 /// Clouds that are hard in one way each.
@@ -168,15 +168,15 @@ class team_folder : public test::own_folder {
 };
 
 void check_counts(const tf::weld_stream_result& a, const tf::weld_stream_result& b) {
-    CHECK(a.counts.kept == b.counts.kept);
-    CHECK(a.counts.groups == b.counts.groups);
-    CHECK(a.counts.max_displacement == b.counts.max_displacement);
+    CHECK(a.kept == b.kept);
+    CHECK(a.statistics.groups == b.statistics.groups);
+    CHECK(a.statistics.max_displacement == b.statistics.max_displacement);
     CHECK(a.survey.points == b.survey.points);
     CHECK(a.survey.non_finite == b.survey.non_finite);
     CHECK(a.survey.box == b.survey.box);
     CHECK(a.survey.single == b.survey.single);
     CHECK(a.survey.warnings.size() == b.survey.warnings.size());
-    CHECK(a.written.still_within == b.written.still_within);
+    CHECK(a.still_within == b.still_within);
 }
 
 using change = std::function<void(tf::weld_stream_options&)>;
@@ -184,13 +184,10 @@ const std::vector<change> choices{
     [](auto&) {},
     [](auto& o) { o.same = {{.property = "shade", .tolerance = 0.25}}; },
     [](auto& o) {
-        o.order = tf::weld_order::highest;
         o.order_by = "shade";
+        o.highest_first = true;
     },
-    [](auto& o) {
-        o.order = tf::weld_order::lowest;
-        o.order_by = "y";
-    },
+    [](auto& o) { o.order_by = "y"; },
     [](auto& o) { o.keep = tf::weld_keep::mean; },
     [](auto& o) { o.keep = tf::weld_keep::last; },
     [](auto& o) {
@@ -210,12 +207,12 @@ TEST_CASE("weld_team: any number of processes write what one writes") {
     std::size_t turn = 0;
     for (const auto& points : families(500, random)) {
         folder.put(points, random);
-        for (const tf::weld_rule rule : {tf::weld_rule::first, tf::weld_rule::chain})
+        for (const bool chain : {false, true})
             for (const std::size_t c : {std::size_t{0}, 1 + turn % (choices.size() - 1)}) {
                 const std::string format = ++turn % 3 == 0 ? "csv" : "ply";
                 job work = folder.work(format);
                 work.options.tolerance = 0.02;
-                work.options.rule = rule;
+                work.options.chain = chain;
                 choices[c](work.options);
                 work.options.points_per_tile = 60 + 40 * (turn % 4);
                 CAPTURE(turn);
@@ -261,7 +258,7 @@ TEST_CASE("weld_team: killed at any step, another number of processes goes on to
         folder.put(all[random.below(all.size())], random);
         job work = folder.work("ply");
         work.options.tolerance = 0.03;
-        work.options.rule = random.below(2) == 0 ? tf::weld_rule::first : tf::weld_rule::chain;
+        work.options.chain = random.below(2) != 0;
         choices[static_cast<std::size_t>(round) % choices.size()](work.options);
         work.options.points_per_tile = 60;
         const auto one = weld_alone(work);
@@ -380,7 +377,7 @@ TEST_CASE("weld_team: maps and labels are those of one") {
             folder.put(all[turn % all.size()], random);
             job work = folder.work("ply");
             work.options.tolerance = 0.05;
-            work.options.rule = turn % 2 == 0 ? tf::weld_rule::first : tf::weld_rule::chain;
+            work.options.chain = turn % 2 != 0;
             choose(work.options);
             work.options.points_per_tile = 150;
             std::vector<std::uint64_t> map;
@@ -469,7 +466,7 @@ TEST_CASE("weld_team: what is not there, or of another job, is refused in words"
     const auto says = [](const std::function<void()>& step) -> std::string {
         try {
             step();
-        } catch (const tf::stream_error& error) {
+        } catch (const tf::io_error& error) {
             return error.what();
         }
         return "";

@@ -16,13 +16,6 @@ static_assert(TREEFORM_INT64 == static_cast<int>(tf::scalar_type::int64));
 static_assert(TREEFORM_UINT64 == static_cast<int>(tf::scalar_type::uint64));
 static_assert(TREEFORM_SCALAR_FLOAT32 == static_cast<int>(tf::scalar_type::float32));
 static_assert(TREEFORM_SCALAR_FLOAT64 == static_cast<int>(tf::scalar_type::float64));
-static_assert(TREEFORM_MESHES == static_cast<int>(tf::file_content::meshes));
-static_assert(TREEFORM_MESHES_AND_POINTS == static_cast<int>(tf::file_content::meshes_and_points));
-
-void glue::fill(keeper&, const tf::named_column& from, treeform_named_column& to) {
-    to.name = from.name.c_str();
-    to.source = from.source.c_str();
-}
 
 void glue::fill(keeper&, const tf::io_warning& from, treeform_warning& to) {
     to.code = from.code.c_str();
@@ -168,24 +161,6 @@ void glue::fill(keeper& kept, const tf::usable_mesh& from, treeform_part& to) {
     to.degenerate = from.degenerate;
     to.joined = from.joined;
     to.face_in_file = faces_in_file(kept, from).data();
-}
-
-tf::urdf_options glue::read(const treeform_robot_options* options) {
-    return read(chosen(options, treeform_robot_options_init));
-}
-tf::urdf_options glue::read(const treeform_robot_options& o) {
-    tf::urdf_options how;
-    how.visual = o.visual != 0;
-    how.package_folders = paths(o.package_folders, o.package_folder_count, "package_folders");
-
-    return how;
-}
-
-void treeform_robot_options_init(treeform_robot_options* options, size_t size) {
-    treeform_robot_options to{};
-    const tf::urdf_options from;
-    to.visual = from.visual;
-    glue::init(options, size, to);
 }
 
 void glue::fill(keeper&, const tf::urdf_joint& from, treeform_robot_joint& to) {
@@ -405,22 +380,14 @@ treeform_code treeform_split_parts(const treeform_file* file, treeform_scene_par
     });
 }
 
-treeform_code treeform_files_of(const char* const* paths, size_t count,
-                                treeform_file_content content, treeform_strings** strings) {
-    return glue::guard([&] {
-        glue::start(strings);
-        return glue::give(tf::files_of(glue::texts(paths, count, "paths"),
-                                       glue::choice<tf::file_content>(content, 2, "content")),
-                          strings);
-    });
-}
-
-treeform_code treeform_read_urdf(const char* path, const treeform_robot_options* options,
-                                 treeform_robot** robot) {
+treeform_code treeform_read_urdf(const char* path, const char* const* package_folders, size_t count,
+                                 int32_t visual, treeform_robot** robot) {
     return glue::guard([&] {
         glue::start(robot);
         return glue::give(
-            tf::read_urdf(std::string(&glue::need(path, "path")), glue::read(options)), robot);
+            tf::read_urdf(std::string(&glue::need(path, "path")),
+                          glue::paths(package_folders, count, "package_folders"), visual != 0),
+            robot);
     });
 }
 

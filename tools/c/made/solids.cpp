@@ -13,12 +13,6 @@ static_assert(TREEFORM_POSITIVE == static_cast<int>(tf::fill_rule::positive));
 static_assert(TREEFORM_RESOLVE_SPLIT == static_cast<int>(tf::resolve_mode::split));
 static_assert(TREEFORM_RESOLVE_OUTER == static_cast<int>(tf::resolve_mode::outer));
 static_assert(TREEFORM_RESOLVE_REMOVE == static_cast<int>(tf::resolve_mode::remove));
-static_assert(TREEFORM_REPAIR_AUTOMATIC == static_cast<int>(tf::repair_rule::automatic));
-static_assert(TREEFORM_REPAIR_NONZERO == static_cast<int>(tf::repair_rule::nonzero));
-static_assert(TREEFORM_REPAIR_ODD == static_cast<int>(tf::repair_rule::odd));
-static_assert(TREEFORM_REPAIR_POSITIVE == static_cast<int>(tf::repair_rule::positive));
-static_assert(TREEFORM_EACH_PART == static_cast<int>(tf::repair_scope::each_part));
-static_assert(TREEFORM_WHOLE_FILE == static_cast<int>(tf::repair_scope::whole_file));
 
 tf::boolean_options glue::read(const treeform_boolean_options* options) {
     return read(chosen(options, treeform_boolean_options_init));
@@ -129,9 +123,10 @@ tf::repair_options glue::read(const treeform_repair_options& o) {
     how.gap = given(o.gap);
     how.largest_hole = o.largest_hole;
     how.strays = o.strays;
-    how.inside = choice<tf::repair_rule>(o.inside, 4, "inside");
+    if (o.inside != -1) how.inside = choice<tf::fill_rule>(o.inside, 3, "inside");
     how.max_loss = o.max_loss;
     how.sheet = o.sheet != 0;
+    how.as_one = o.as_one != 0;
     how.precision = choice<tf::precision>(o.precision, 2, "precision");
     how.max_displacement = o.max_displacement;
     how.keep_cuts = o.keep_cuts != 0;
@@ -152,9 +147,10 @@ void treeform_repair_options_init(treeform_repair_options* options, size_t size)
     to.gap = not_known;
     to.largest_hole = from.largest_hole;
     to.strays = from.strays;
-    to.inside = static_cast<treeform_repair_rule>(from.inside);
+    to.inside = -1;
     to.max_loss = from.max_loss;
     to.sheet = from.sheet;
+    to.as_one = from.as_one;
     to.precision = static_cast<treeform_precision>(from.precision);
     to.max_displacement = from.max_displacement;
     to.keep_cuts = from.keep_cuts;
@@ -359,14 +355,12 @@ treeform_code treeform_repair(const treeform_mesh* mesh, const treeform_repair_o
     });
 }
 
-treeform_code treeform_repair_file(const treeform_file* file, treeform_repair_scope scope,
+treeform_code treeform_repair_file(const treeform_file* file,
                                    const treeform_repair_options* options,
                                    treeform_repair_result** result) {
     return glue::guard([&] {
         glue::start(result);
-        return glue::give(glue::repair_file(glue::content(file, "file"),
-                                            glue::choice<tf::repair_scope>(scope, 2, "scope"),
-                                            glue::read(options)),
+        return glue::give(glue::repair_file(glue::content(file, "file"), glue::read(options)),
                           result);
     });
 }
@@ -382,15 +376,12 @@ treeform_code treeform_find_solid_defects(const treeform_mesh* mesh, treeform_pr
 }
 
 treeform_code treeform_find_solid_defects_of_file(const treeform_file* file,
-                                                  treeform_repair_scope scope,
                                                   treeform_progress progress, void* progress_data,
                                                   treeform_solid_defects** defects) {
     return glue::guard([&] {
         glue::start(defects);
-        return glue::give(
-            glue::find_solid_defects_of_file(glue::content(file, "file"),
-                                             glue::choice<tf::repair_scope>(scope, 2, "scope"),
-                                             glue::progress(progress, progress_data)),
-            defects);
+        return glue::give(glue::find_solid_defects_of_file(glue::content(file, "file"),
+                                                           glue::progress(progress, progress_data)),
+                          defects);
     });
 }

@@ -11,13 +11,13 @@ tf::weld_stream_options glue::read(const treeform_weld_stream_options& o) {
     tf::weld_stream_options how;
     how.tolerance = o.tolerance;
     how.relative = o.relative != 0;
-    how.rule = choice<tf::weld_rule>(o.rule, 2, "rule");
+    how.chain = o.chain != 0;
     how.same = conditions(o.same, o.same_count, "same");
 
     how.keep = choice<tf::weld_keep>(o.keep, 5, "keep");
     how.keep_by = text(o.keep_by);
-    how.order = choice<tf::weld_order>(o.order, 3, "order");
     how.order_by = text(o.order_by);
+    how.highest_first = o.highest_first != 0;
     how.keep_seams = o.keep_seams != 0;
     how.across = texts(o.across, o.across_count, "across");
 
@@ -37,9 +37,9 @@ void treeform_weld_stream_options_init(treeform_weld_stream_options* options, si
     const tf::weld_stream_options from;
     to.tolerance = from.tolerance;
     to.relative = from.relative;
-    to.rule = static_cast<treeform_weld_rule>(from.rule);
+    to.chain = from.chain;
     to.keep = static_cast<treeform_weld_keep>(from.keep);
-    to.order = static_cast<treeform_weld_order>(from.order);
+    to.highest_first = from.highest_first;
     to.keep_seams = from.keep_seams;
     to.keep_degenerate = from.keep_degenerate;
     to.as_las = from.as_las;
@@ -50,23 +50,23 @@ void treeform_weld_stream_options_init(treeform_weld_stream_options* options, si
 
 void glue::fill(keeper&, const tf::weld_stream_result& from, treeform_weld_stream_result& to) {
     to.points = from.survey.points;
-    to.non_finite = from.survey.non_finite;
     to.tolerance = from.survey.tolerance;
     to.tiles = from.survey.tiles;
     to.finished_tiles = from.survey.finished_tiles;
-    to.kept = from.counts.kept;
-    to.groups = from.counts.groups;
-    to.max_displacement = from.counts.max_displacement + from.survey.las_moved;
-    to.faces = from.counts.faces;
-    to.triangles = from.counts.triangles;
-    to.collapsed = from.counts.collapsed;
-    to.degenerate = from.counts.degenerate;
-    to.nonmanifold_before = from.counts.nonmanifold_before;
-    to.nonmanifold_after = from.counts.nonmanifold_after;
-    to.flipped = from.counts.flipped;
-    to.format = from.written.welded ? from.written.welded->format.c_str() : "";
-    to.still_within = from.written.still_within.value_or(0);
-    to.still_within_known = from.written.still_within.has_value();
+    to.kept = from.kept;
+    to.faces = from.faces;
+    to.triangles = from.triangles;
+    to.groups = from.statistics.groups;
+    to.non_finite = from.statistics.non_finite;
+    to.collapsed = from.statistics.collapsed;
+    to.degenerate = from.statistics.degenerate;
+    to.max_displacement = from.statistics.max_displacement + from.survey.las_moved;
+    to.nonmanifold_before = from.statistics.nonmanifold_before;
+    to.nonmanifold_after = from.statistics.nonmanifold_after;
+    to.flipped = from.statistics.flipped;
+    to.format = from.welded ? from.welded->format.c_str() : "";
+    to.still_within = from.still_within.value_or(0);
+    to.still_within_known = from.still_within.has_value();
 }
 
 treeform_code treeform_weld_stream(const char* const* inputs, size_t count, const char* output,

@@ -116,7 +116,6 @@ void fill(keeper& kept, const tf::align_result& from, treeform_align_result& to)
 void fill(keeper& kept, const tf::contact_region& from, treeform_contact_region& to);
 void fill(keeper& kept, const tf::part_clash& from, treeform_part_clash& to);
 void fill(keeper& kept, const tf::clash_result& from, treeform_clashes& to);
-void fill(keeper& kept, const tf::named_column& from, treeform_named_column& to);
 void fill(keeper& kept, const tf::io_warning& from, treeform_warning& to);
 void fill(keeper& kept, const tf::column& from, treeform_column& to);
 void fill(keeper& kept, const tf::element& from, treeform_rows& to);
@@ -130,8 +129,6 @@ void fill(keeper& kept, const tf::write_result& from, treeform_written& to);
 [[nodiscard]] tf::part_options read(const treeform_part_options* options);
 [[nodiscard]] tf::part_options read(const treeform_part_options& o);
 void fill(keeper& kept, const tf::usable_mesh& from, treeform_part& to);
-[[nodiscard]] tf::urdf_options read(const treeform_robot_options* options);
-[[nodiscard]] tf::urdf_options read(const treeform_robot_options& o);
 void fill(keeper& kept, const tf::urdf_joint& from, treeform_robot_joint& to);
 void fill(keeper& kept, const tf::urdf_mesh& from, treeform_robot_mesh& to);
 void fill(keeper& kept, const tf::urdf_robot& from, treeform_robot_view& to);

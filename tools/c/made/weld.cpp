@@ -6,16 +6,11 @@
 
 namespace tf = treeform;
 
-static_assert(TREEFORM_WELD_FIRST == static_cast<int>(tf::weld_rule::first));
-static_assert(TREEFORM_WELD_CHAIN == static_cast<int>(tf::weld_rule::chain));
 static_assert(TREEFORM_KEEP_FIRST == static_cast<int>(tf::weld_keep::first));
 static_assert(TREEFORM_KEEP_LAST == static_cast<int>(tf::weld_keep::last));
 static_assert(TREEFORM_KEEP_MEAN == static_cast<int>(tf::weld_keep::mean));
 static_assert(TREEFORM_KEEP_LOWEST == static_cast<int>(tf::weld_keep::lowest));
 static_assert(TREEFORM_KEEP_HIGHEST == static_cast<int>(tf::weld_keep::highest));
-static_assert(TREEFORM_ORDER_GIVEN == static_cast<int>(tf::weld_order::given));
-static_assert(TREEFORM_ORDER_LOWEST == static_cast<int>(tf::weld_order::lowest));
-static_assert(TREEFORM_ORDER_HIGHEST == static_cast<int>(tf::weld_order::highest));
 
 void glue::fill(keeper&, const tf::weld_condition& from, treeform_weld_condition& to) {
     to.property = from.property.c_str();
@@ -28,7 +23,7 @@ tf::weld_options glue::read(const treeform_weld_options* options) {
 tf::weld_options glue::read(const treeform_weld_options& o) {
     tf::weld_options how;
     how.tolerance = o.tolerance;
-    how.rule = choice<tf::weld_rule>(o.rule, 2, "rule");
+    how.chain = o.chain != 0;
     how.label = array(o.label, o.label_count, "label");
 
     if (o.may_merge)
@@ -42,8 +37,8 @@ tf::weld_options glue::read(const treeform_weld_options& o) {
 
     how.keep = choice<tf::weld_keep>(o.keep, 5, "keep");
     how.keep_by = text(o.keep_by);
-    how.order = choice<tf::weld_order>(o.order, 3, "order");
     how.order_by = text(o.order_by);
+    how.highest_first = o.highest_first != 0;
     how.only_borders = o.only_borders != 0;
     how.keep_manifold = o.keep_manifold != 0;
     how.keep_degenerate = o.keep_degenerate != 0;
@@ -56,10 +51,10 @@ void treeform_weld_options_init(treeform_weld_options* options, size_t size) {
     treeform_weld_options to{};
     const tf::weld_options from;
     to.tolerance = from.tolerance;
-    to.rule = static_cast<treeform_weld_rule>(from.rule);
+    to.chain = from.chain;
     to.keep_seams = from.keep_seams;
     to.keep = static_cast<treeform_weld_keep>(from.keep);
-    to.order = static_cast<treeform_weld_order>(from.order);
+    to.highest_first = from.highest_first;
     to.only_borders = from.only_borders;
     to.keep_manifold = from.keep_manifold;
     to.keep_degenerate = from.keep_degenerate;

@@ -51,8 +51,8 @@ inline void take(const char* name, py::handle value, tf::transform<3>& to) {
 inline void take(const char* name, py::handle value, std::array<double, 3>& to) {
     to = made_by<std::array<double, 3>>("vector", name, value);
 }
-inline void take(const char* name, py::handle value, std::vector<tf::named_column>& to) {
-    to = columns_of(made_by<name_pairs>("columns_of", name, value));
+inline void take(const char* name, py::handle value, name_pairs& to) {
+    to = made_by<name_pairs>("columns_of", name, value);
 }
 inline void take(const char* name, py::handle value, std::array<double, 2>& to) {
     to = made_by<std::array<double, 2>>("pair", name, value);

@@ -9,12 +9,6 @@ namespace binding {
 /// Pairs of names as Python has them: the new one, and that in the file.
 using name_pairs = std::vector<std::pair<std::string, std::string>>;
 
-[[nodiscard]] inline std::vector<treeform::named_column> columns_of(const name_pairs& pairs) {
-    std::vector<treeform::named_column> columns;
-    for (const auto& [name, source] : pairs) columns.push_back({name, source});
-    return columns;
-}
-
 /// All that a file has besides points and faces: a `mesh_file` without its mesh. Copies share it
 /// until one of them is changed: a copy made with the interpreter's lock stays as it is without it.
 class file_data {

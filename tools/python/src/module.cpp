@@ -37,9 +37,7 @@ void translate(std::exception_ptr thrown) {
     } catch (const std::out_of_range& error) {
         PyErr_SetString(PyExc_IndexError, in_python(error.what()).c_str());
     } catch (const tf::io_error& error) {
-        raise_file_error(in_python(error.what()), error.reason(), std::string(error.path()));
-    } catch (const tf::stream_error& error) {
-        raise_file_error(error.what(), {}, error.path().string());
+        raise_file_error(in_python(error.what()), error.reason(), error.path());
     } catch (const std::filesystem::filesystem_error& error) {
         raise_file_error(error.what(), error.code(), error.path1().string());
     } catch (const std::system_error& error) {

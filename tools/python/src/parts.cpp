@@ -24,9 +24,15 @@ py::list regions_of(tf::part_clash& from) {
     return regions;
 }
 
-py::list meshes_of(std::vector<tf::mesh>&& meshes) {
+robot_data::robot_data(const tf::urdf_robot& robot, const std::vector<tf::urdf_mesh>& parts)
+    : content(robot) {
+    for (const tf::urdf_mesh& part : parts) links.push_back(part.link);
+}
+
+py::list meshes_of(std::vector<tf::urdf_mesh>&& parts) {
     py::list made;
-    for (tf::mesh& one : meshes) made.append(mesh_object(std::move(one), py::none(), py::none()));
+    for (tf::urdf_mesh& one : parts)
+        made.append(mesh_object(std::move(one.shape), py::none(), py::none()));
     return made;
 }
 
@@ -51,7 +57,7 @@ py::object with_attributes(const file_data* data, tf::attributes&& attributes) {
 
 py::list warnings_of(const tf::weld_stream_result& from) {
     py::list warnings = texts_of(from.survey.warnings);
-    for (const auto* const written : {&from.written.welded, &from.written.removed})
+    for (const auto* const written : {&from.welded, &from.removed})
         if (*written)
             for (const py::handle text : texts_of((*written)->warnings)) warnings.append(text);
     return warnings;

@@ -19,10 +19,12 @@ py::array part_of(const std::vector<T>& all, const tf::section_loop& loop) {
 /// The loop around one, by its number in the layer.
 py::object parent_of(const tf::section_result& whole, const tf::section_loop& loop);
 struct robot_data {
+    robot_data(const tf::urdf_robot& robot, const std::vector<tf::urdf_mesh>& parts);
+
     tf::urdf_robot content{};
     std::vector<std::uint32_t> links{};  ///< of parts
 };
-py::list meshes_of(std::vector<tf::mesh>&& meshes);
+py::list meshes_of(std::vector<tf::urdf_mesh>&& parts);
 /// What is said in warnings.
 py::list texts_of(const std::vector<tf::io_warning>& warnings);
 py::array faces_in_file(const tf::usable_mesh& part);

@@ -5,10 +5,9 @@ namespace {
 
 py::object read_urdf(const std::filesystem::path& path,
                      const std::vector<std::filesystem::path>& package_folders, bool visual) {
-    tf::robot_parts parts;
+    std::vector<tf::urdf_mesh> parts;
     tf::urdf_robot made = run([&](const tf::progress_callback& report) {
-        tf::urdf_robot content =
-            tf::read_urdf(path, {.visual = visual, .package_folders = package_folders});
+        tf::urdf_robot content = tf::read_urdf(path, package_folders, visual);
         double files = 0.0;
         parts = content.parts([&](const std::filesystem::path& file) {
             const double share = files++ / static_cast<double>(content.meshes.size());

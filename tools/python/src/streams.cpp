@@ -63,15 +63,11 @@ struct shared_weld {
                                                 const std::string& removed,
                                                 const std::string& label, bool withhold) {
         work.check_tiles();
-        tf::weld_stream_result result;
-        result.status = take_survey();
-        if (result.status == tf::status::ok) result.status = work.weld();
-        if (result.status == tf::status::ok)
-            result.status = work.write(outputs_of(output, removed, label, withhold));
-        result.survey = work.survey();
-        result.counts = work.counts();
-        result.written = work.written();
-        return result;
+        tf::status ended = take_survey();
+        if (ended == tf::status::ok) ended = work.weld();
+        if (ended == tf::status::ok)
+            static_cast<void>(work.write(outputs_of(output, removed, label, withhold)));
+        return work.result();
     }
 };
 

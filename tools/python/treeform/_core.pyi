@@ -245,9 +245,10 @@ class RepairOptions:
     defaults: dict[str, Any]
     def __init__(self, *, join: bool = ..., orient: bool = ..., fill: bool = ...,
                  resolve: bool = ..., detach: bool = ..., gap: Optional[float] = ...,
-                 largest_hole: Optional[int] = ..., strays: float = ..., inside: str = ...,
-                 max_loss: float = ..., sheet: bool = ..., precision: str = ...,
-                 max_displacement: float = ..., keep_cuts: bool = ...) -> None: ...
+                 largest_hole: Optional[int] = ..., strays: float = ...,
+                 inside: Optional[str] = ..., max_loss: float = ..., sheet: bool = ...,
+                 precision: str = ..., max_displacement: float = ...,
+                 keep_cuts: bool = ...) -> None: ...
 
 class OffsetOptions:
     names: tuple[str, ...]
@@ -284,18 +285,18 @@ class StreamSearchOptions:
 class WeldOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
-    def __init__(self, *, tolerance: float = ..., rule: str = ..., same: Same = ...,
+    def __init__(self, *, tolerance: float = ..., chain: bool = ..., same: Same = ...,
                  keep_seams: bool = ..., across: list[str] = ..., keep: str = ...,
-                 keep_by: str = ..., order: str = ..., order_by: str = ...,
+                 keep_by: str = ..., order_by: str = ..., highest_first: bool = ...,
                  only_borders: bool = ..., keep_manifold: bool = ...,
                  keep_degenerate: bool = ...) -> None: ...
 
 class WeldStreamOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
-    def __init__(self, *, tolerance: float = ..., relative: bool = ..., rule: str = ...,
-                 same: Same = ..., keep: str = ..., keep_by: str = ..., order: str = ...,
-                 order_by: str = ..., keep_seams: bool = ..., across: list[str] = ...,
+    def __init__(self, *, tolerance: float = ..., relative: bool = ..., chain: bool = ...,
+                 same: Same = ..., keep: str = ..., keep_by: str = ..., order_by: str = ...,
+                 highest_first: bool = ..., keep_seams: bool = ..., across: list[str] = ...,
                  keep_degenerate: bool = ..., as_las: bool = ..., memory: Optional[int] = ...,
                  folder: str = ..., points_per_tile: Optional[int] = ...) -> None: ...
 

@@ -232,8 +232,8 @@ def self_intersections_of_file(path: Path, *, vertices: str | None = None,
     communicator: ranks that do it together, as for `weld_stream`; the first one gets the result,
         all others an empty one.
 
-    Raises FileError if the file cannot be read or has another format; FileError for the folder;
-    ValueError for more than 2^32 - 1 triangles.
+    Raises FileError if the file cannot be read or has another format, or for the folder; ValueError
+    for more than 2^32 - 1 triangles.
 
     Cost: time as `self_intersections`; memory as in the options, plus the result; on the disk 60 to
     100 bytes for each tile that a face reaches into, and 24 bytes for each vertex of a PLY.

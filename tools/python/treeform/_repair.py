@@ -143,7 +143,7 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
 
 
 def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = None,
-           largest_hole: int | None = None, strays: float = 0.001, inside: str = "automatic",
+           largest_hole: int | None = None, strays: float = 0.001, inside: str | None = None,
            max_loss: float = 0.05, sheet: bool = False, precision: str = "float64",
            max_displacement: float = np.inf, keep_cuts: bool = False, check: bool = True,
            progress: Progress = None) -> RepairResult:
@@ -174,7 +174,8 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
     strays: Drops loose open pieces below this share of the area, and single triangles below 1 %. If
         a larger component vanishes since it bounds nothing, the status is `excessive_loss`, unless
         `max_loss` is 1.
-    inside: 'automatic', 'nonzero', 'odd' or 'positive': what is solid.
+    inside: 'nonzero', 'odd' or 'positive': what is solid. By default 'positive' where each shell
+        looks outward, else 'nonzero', or labels.
     max_loss: Losing more than this share of the volume gives the status `excessive_loss`; if there
         were holes, of the area. Faces that are still there or hidden in the solid are not lost. 1
         allows any loss.

@@ -97,8 +97,8 @@ class StreamWeld(InSteps[_core.WeldInSteps]):
     """
 
     def __init__(self, files: Path | Iterable[Path], tolerance: float = 0.0, *,
-                 relative: bool = False, rule: str = "first", keep: str = "first",
-                 keep_by: str = "", order: str = "given", order_by: str = "",
+                 relative: bool = False, chain: bool = False, keep: str = "first",
+                 keep_by: str = "", order_by: str = "", highest_first: bool = False,
                  same: Mapping[str, float] | None = None, keep_seams: bool = False,
                  across: Iterable[str] = (),
                  keep_degenerate: bool = False, as_las: bool = False, memory: int = 0,
@@ -124,10 +124,10 @@ class StreamWeld(InSteps[_core.WeldInSteps]):
 
 # made of headers:
 #   weld count_nearly_equal WeldStreamResult weld_stream
-def weld(mesh_or_points: Body, tolerance: float = 0.0, *, rule: str = "first",
+def weld(mesh_or_points: Body, tolerance: float = 0.0, *, chain: bool = False,
          same: Mapping[str, float] | None = None, keep_seams: bool = False,
-         across: Iterable[str] = (), keep: str = "first", keep_by: str = "", order: str = "given",
-         order_by: str = "", only_borders: bool = False, keep_manifold: bool = False,
+         across: Iterable[str] = (), keep: str = "first", keep_by: str = "", order_by: str = "",
+         highest_first: bool = False, only_borders: bool = False, keep_manifold: bool = False,
          keep_degenerate: bool = False, label: ArrayLike | None = None,
          progress: Progress = None) -> WeldResult:
     """Merges the points of a mesh or point cloud that are within the tolerance of each other.
@@ -166,16 +166,16 @@ def weld(mesh_or_points: Body, tolerance: float = 0.0, *, rule: str = "first",
 
     mesh_or_points: a mesh, points (n, 3), or anything with `points` or `vertices` and no faces.
     tolerance: Euclidean, inclusive; 0: equal coordinates (-0 equals +0).
-    rule: 'first' drops a point when an earlier kept one is within the tolerance; 'chain' makes one
-        point of all that steps of at most the tolerance link.
+    chain: one point of all that steps of at most the tolerance link. By default a point is dropped
+        when an earlier kept one is within the tolerance.
     same: vertex properties that must agree, with the largest difference.
     keep_seams: normals, texture coordinates and colors must agree, except for those in `across`.
     across: properties that `keep_seams` does not look at.
     keep: which point of a group stays: 'first', 'last', 'mean', 'lowest' or 'highest' of `keep_by`.
     keep_by: a property of vertices.
-    order: in which 'first' goes through the points: 'given', 'lowest' or 'highest' of `order_by`.
-        Needs `keep` 'first'.
-    order_by: a property of vertices.
+    order_by: a property of vertices: points are visited by its values, the least first; needs
+        `keep` 'first'. '': by number.
+    highest_first: the greatest value of `order_by` first.
     only_borders: Merge only points on edges of exactly one face.
     keep_manifold: Split groups that would make non-manifold edges or points.
     keep_degenerate: Keep faces that repeat a corner.
@@ -183,12 +183,12 @@ def weld(mesh_or_points: Body, tolerance: float = 0.0, *, rule: str = "first",
 
     Raises ValueError for a tolerance that is negative or not finite; unless there is one label for
     each point; for more than 2^32 - 2 points; for a corner out of range; for a property that is
-    missing or is a list; for `order` with another `keep` than `first`; for more than 2^32 / 3 faces
-    with `keep_manifold`. The message names the lowest invalid element.
+    missing or is a list; for `order_by` with another `keep` than `first`; for more than 2^32 / 3
+    faces with `keep_manifold`. The message names the lowest invalid element.
 
     Cost: Parallel, except rule `first` for points with several others within the tolerance, if
     points come row by row or few are kept. Memory besides the result: up to 36 bytes a point (50
-    for dense chains, 110 with `tree`), 40 more with `order`; 24 bytes a face, 100 with
+    for dense chains, 110 with `tree`), 40 more with `order_by`; 24 bytes a face, 100 with
     `keep_manifold`; 8 bytes a point for each property in a condition.
 
     >>> import treeform
@@ -218,34 +218,34 @@ class WeldStreamResult(Result):
 
     points: Points of the inputs.
     kept: Points that are left.
-    groups: Groups of two points or more.
     max_displacement: The furthest that a point moved, at most; also to a step of LAS.
     tolerance: As a length.
     non_finite: Points that are not finite; all are kept.
     tiles: Parts that space was cut into.
     continued: Whether the run went on from what an earlier one had left.
     faces: Of a mesh, faces that are left.
-    statistics: Of a mesh, what became of its faces, as in `WeldResult.statistics`.
+    statistics: Counts of what was done, as in `WeldResult`.
     warnings: What a person should know.
+    triangles: Of these, cut into triangles.
     """
 
     points: int
     kept: int
-    groups: int
     max_displacement: float
     tolerance: float
     non_finite: int
     tiles: int
     continued: bool
     faces: int
-    statistics: dict[str, int]
+    statistics: dict[str, Any]
     warnings: list[str]
+    triangles: int
 
 
 def weld_stream(files: Path | Iterable[Path], out: Path, tolerance: float = 0.0, *,
-                relative: bool = False, rule: str = "first",
+                relative: bool = False, chain: bool = False,
                 same: Mapping[str, float] | None = None, keep: str = "first", keep_by: str = "",
-                order: str = "given", order_by: str = "", keep_seams: bool = False,
+                order_by: str = "", highest_first: bool = False, keep_seams: bool = False,
                 across: Iterable[str] = (), keep_degenerate: bool = False, as_las: bool = False,
                 memory: int = 0, folder: Path = "", points_per_tile: int = 0, removed: Path = "",
                 label: str = "", withhold: bool = False, columns: Columns | None = None,
@@ -255,21 +255,21 @@ def weld_stream(files: Path | Iterable[Path], out: Path, tolerance: float = 0.0,
     writes the outputs. Each output appears whole or not at all. One PLY or binary STL alone may be
     a mesh: as `weld` would, faces get their new corners, and those that collapse are left out. Each
     rank has a share of points and of faces. Meshes need `out` as PLY or OBJ; an STL no tolerance,
-    or 'chain'.
+    or `chain`.
 
     The bytes of the outputs are those of `weld` of the whole.
 
     files: one or several, as one cloud; or one mesh.
     tolerance: as for `weld`.
     relative: `tolerance` is a share of the diagonal of the cloud's box.
-    rule: 'first' drops a point when an earlier kept one is within the tolerance; 'chain' makes one
-        point of all that steps of at most the tolerance link.
+    chain: one point of all that steps of at most the tolerance link. By default a point is dropped
+        when an earlier kept one is within the tolerance.
     same: vertex properties that must agree, with the largest difference.
     keep: which point of a group stays: 'first', 'last', 'mean', 'lowest' or 'highest' of `keep_by`.
     keep_by: a property of vertices.
-    order: in which 'first' goes through the points: 'given', 'lowest' or 'highest' of `order_by`.
-        Needs `keep` 'first'.
-    order_by: a property of vertices.
+    order_by: a property of vertices: points are visited by its values, the least first; needs
+        `keep` 'first'. '': by number.
+    highest_first: the greatest value of `order_by` first.
     keep_seams: normals, texture coordinates and colors must agree, except for those in `across`.
     across: properties that `keep_seams` does not look at.
     keep_degenerate: keep faces that repeat a corner.
@@ -288,7 +288,7 @@ def weld_stream(files: Path | Iterable[Path], out: Path, tolerance: float = 0.0,
         `rank`, `size` and `allgather`, such as `mpi4py.MPI.COMM_WORLD`. All call the same. Where
         one fails or is interrupted, all raise at the next collective call.
 
-    Raises FileError when an input cannot be read or an output cannot be written, FileError,
+    Raises FileError when an input cannot be read or an output cannot be written, or for the folder;
     ValueError for a tolerance below 0 or not finite, and as `weld`.
 
     Cost: O(V log V) time; memory as the options say; 34 bytes a point on the disk, 8 more for each

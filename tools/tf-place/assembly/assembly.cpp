@@ -62,7 +62,7 @@ assembly_command::assembly_command(const std::string& mode)
                    : "Find in which of many poses parts of an assembly, or links of a "
                      "robot,\npenetrate each other or are too close.") {
     options_.joined = true;
-    options_.content = clash_ ? tf::file_content::meshes : tf::file_content::meshes_and_points;
+    options_.takes_points = !clash_;
     line_.word("MODE", [](std::string_view) {});
     line_.inputs(options_.inputs,
                  clash_ ? mesh_inputs : "STL OBJ PLY OFF GLB/glTF 3MF files, or one URDF file");

@@ -42,10 +42,9 @@ tf::mesh read_part(job& work, const std::string& path) {
 
 movable read_robot(job& work, const assembly_settings& settings) {
     movable all;
-    tf::urdf_options options;
-    for (const std::string& folder : settings.package_folders)
-        options.package_folders.emplace_back(folder);
-    all.robot = tf::read_urdf(work.path, options);
+    const std::vector<std::filesystem::path> folders(settings.package_folders.begin(),
+                                                     settings.package_folders.end());
+    all.robot = tf::read_urdf(work.path, folders);
     work.entry["inputs"].push_back({{"input", work.path},
                                     {"format", nullptr},
                                     {"sha256", nullptr},
@@ -53,14 +52,15 @@ movable read_robot(job& work, const assembly_settings& settings) {
                                     {"faces", nullptr}});
     for (const std::string& text : all.robot->approximated) work.warn("approximated", text);
     for (const std::string& text : all.robot->skipped) work.warn("no-mesh", text);
-    tf::robot_parts found = all.robot->parts(
+    std::vector<tf::urdf_mesh> found = all.robot->parts(
         [&](const std::filesystem::path& path) { return read_part(work, path.string()); });
-    if (found.parts.empty())
-        throw failure(bad_input, "no-triangles", work.name + ": no link has a mesh");
-    for (tf::mesh& part : found.parts) all.shapes.emplace_back(std::move(part));
-    for (const std::uint32_t link : found.links) all.names.push_back(all.robot->links[link]);
-    all.links = std::move(found.links);
-    all.adjacent = std::move(found.adjacent);
+    if (found.empty()) throw failure(bad_input, "no-triangles", work.name + ": no link has a mesh");
+    all.adjacent = all.robot->adjacent(found);
+    for (tf::urdf_mesh& part : found) {
+        all.shapes.emplace_back(std::move(part.shape));
+        all.names.push_back(all.robot->links[part.link]);
+        all.links.push_back(part.link);
+    }
     return all;
 }
 

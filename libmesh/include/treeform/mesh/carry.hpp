@@ -143,13 +143,6 @@ struct file_part {
 /// \cost   O(V log V + F log F), and O(V + F) for each part and column
 [[nodiscard]] TREEFORM_API std::vector<file_part> split_parts(const carry_source& whole);
 
-/// What is repaired as one mesh.
-enum class repair_scope : std::uint8_t {
-    /// Each part of a scene becomes a solid. Parts may overlap before and after.
-    each_part,
-    whole_file  ///< overlapping parts become one solid
-};
-
 /// A repaired part of a file.
 struct repaired_part {
     std::string name{};            ///< "object", "object/group", "group" or empty
@@ -172,19 +165,19 @@ struct repaired_file {
     std::vector<repaired_part> parts{};  ///< empty if all was repaired as one mesh
 };
 
-/// `repair` of a file's mesh, or of each of its parts.
+/// `repair` of each part of a file; with `repair_options::as_one`, of all parts as one mesh.
 ///
-/// Parts are the objects, groups or nodes, with the vertices as the file numbers them; those whose
-/// open edges coincide are patches of one surface, and one part. What `repair_options` says of the
-/// mesh, such as `max_loss`, then holds of each part. Cuts are kept where merging would mix values
+/// Each part becomes a solid; parts may overlap before and after. They are the objects, groups or
+/// nodes, with the vertices as the file numbers them; those whose open edges coincide are patches
+/// of one surface, and one part. What `repair_options` says of the mesh, such as `max_loss`, holds
+/// of each part. Cuts are kept where merging would mix values
 /// (`carry_sources::merging_mixes_values`), of faces within a part.
 ///
 /// \throws std::invalid_argument as `repair`
 /// \cost   as `repair` and `carry_sources::carry`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API repaired_file repair_file(const carry_source& input,
-                                                     const repair_options& options = {},
-                                                     repair_scope scope = repair_scope::each_part);
+                                                     const repair_options& options = {});
 
 /// The defects of all parts together; faces that the input left out are not counted. Changes
 /// nothing.
@@ -192,9 +185,8 @@ struct repaired_file {
 /// \throws std::invalid_argument as `self_intersections`
 /// \cost   as `find_solid_defects` of a mesh
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API solid_defects
-find_solid_defects(const carry_source& input, repair_scope scope = repair_scope::each_part,
-                   const progress_callback& progress = {});
+[[nodiscard]] TREEFORM_API solid_defects find_solid_defects(const carry_source& input,
+                                                            const progress_callback& progress = {});
 
 /// Gives all `files` one common list of texture files, and their faces int32 indices into it
 /// ("texnumber"). The list is that of the first file, followed by further names of the other files.

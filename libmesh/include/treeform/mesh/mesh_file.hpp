@@ -16,40 +16,49 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace treeform {
 
-/// A file that cannot be read or written; `what()` names the path, the line or byte, and the
-/// reason: "part.obj:17: vertex index 0 (OBJ counts from 1)".
+/// A file that cannot be read or written, or the folder of work in tiles; `what()` names the path,
+/// the line or byte, and the reason: "part.obj:17: vertex index 0 (OBJ counts from 1)".
 class TREEFORM_API io_error : public std::runtime_error {
   public:
+    enum class kind : std::uint8_t {
+        file,    ///< a file that is not of the kinds below cannot be read or written
+        blocks,  ///< no file of points, or none that can be read in blocks: `read` takes all of it
+        folder,  ///< of work in tiles, as all that follow: it cannot be made or written to
+        folder_in_use,   ///< another process uses it
+        folder_foreign,  ///< it holds files of others
+        tile_write,      ///< a tile cannot be written
+        tile_read,       ///< a tile cannot be read
+        tile_damaged,    ///< a tile has changed since it was written
+        memory,          ///< it is not enough; `needed()` would be
+        input_changed    ///< the input has changed while it was worked on
+    };
+
     using std::runtime_error::runtime_error;
     /// The system does not let it be opened, read or written.
     io_error(const std::string& path, std::error_code reason)
-        : std::runtime_error(path + ": " + reason.message()),
-          reason_(reason),
-          path_size_(path.size()) {}
+        : std::runtime_error(path + ": " + reason.message()), reason_(reason), path_(path) {}
+    io_error(kind why, std::string path, const std::string& text, std::uint64_t needed = 0)
+        : std::runtime_error(text), why_(why), path_(std::move(path)), needed_(needed) {}
 
-    /// What is no file of points, or not one that can be read in blocks: `read` takes all of it.
-    [[nodiscard]] static io_error of_blocks(const std::string& text) {
-        io_error error(text);
-        error.needs_all_ = true;
-        return error;
-    }
-    [[nodiscard]] bool needs_all() const { return needs_all_; }
-
+    [[nodiscard]] kind why() const { return why_; }
     /// Of the system; none where the reason is in the file.
     [[nodiscard]] std::error_code reason() const { return reason_; }
-    /// Of the file, where there is a `reason`; else empty.
-    [[nodiscard]] std::string_view path() const { return {what(), path_size_}; }
+    /// Of the file, where there is a `reason`, and of tiles; else empty.
+    [[nodiscard]] const std::string& path() const { return path_; }
+    /// Bytes of memory that would be enough.
+    [[nodiscard]] std::uint64_t needed() const { return needed_; }
 
   private:
+    kind why_ = kind::file;
     std::error_code reason_{};
-    std::size_t path_size_ = 0;
-    bool needs_all_ = false;
+    std::string path_{};
+    std::uint64_t needed_ = 0;
 };
 
 /// Something that a person should know about a file that was read or written.
@@ -105,18 +114,11 @@ struct value_range {
     friend bool operator==(const value_range&, const value_range&) = default;
 };
 
-/// A column of a table of text, by the name that it gets.
-struct named_column {
-    std::string name{};    ///< "x", "intensity", ...
-    std::string source{};  ///< what the heading calls it, or its number, from 1
-
-    friend bool operator==(const named_column&, const named_column&) = default;
-};
-
 /// How to read.
 struct read_options {
-    /// Of XYZ, PTS and CSV: names for columns. Those for x, y and z are the coordinates.
-    std::vector<named_column> columns{};
+    /// Of XYZ, PTS and CSV: names for columns, such as {"x", "easting"}; what the heading calls it,
+    /// or its number, from 1. Those for x, y and z are the coordinates.
+    std::vector<std::pair<std::string, std::string>> columns{};
     bool drop_nan = false;  ///< `mesh_file::drop_non_finite`, which a warning says; of `read` alone
 };
 

@@ -16,17 +16,18 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace treeform {
 
-/// Consecutive points with their properties, as `mesh_file` has them for a whole file.
+namespace detail::io {
+
+/// Consecutive points with their properties.
 struct point_block {
     std::vector<point3> points{};
     element properties{.name = "vertex"};  ///< a row a point
 };
-
-namespace detail::io {
 
 /// Consecutive rows of an element behind the points, such as faces.
 struct row_block {
@@ -54,7 +55,7 @@ class TREEFORM_API point_reader {
     /// many rows there are. They can be read next. The facets of an STL have the column
     /// "stl_attribute" also where all of it is zero.
     ///
-    /// \throws io_error, whose `needs_all()` is true, for a format without points, for a file with
+    /// \throws io_error of `kind::blocks` for a format without points, for a file with
     ///         faces or other elements that have rows; with `with_rows` for what is ahead of the
     ///         points, for strips of triangles, and for faces with texture coordinates of corners;
     ///         io_error as `read`
@@ -72,11 +73,11 @@ class TREEFORM_API point_reader {
     [[nodiscard]] const mesh_file& header() const;
     /// Number of points in the file, if its header says it.
     [[nodiscard]] std::optional<std::uint64_t> count() const;
-    /// Replaces the content of `block` by the next points, at most `most`. Returns false, with an
-    /// empty block, when none are left.
+    /// Replaces the content of `points`, and of `properties` with a row for each, by that of the
+    /// next points, at most `most`. Returns false, with both empty, when none are left.
     ///
     /// \throws io_error as `read`
-    bool read(point_block& block, std::size_t most);
+    bool read(std::vector<point3>& points, element& properties, std::size_t most);
     /// Likewise, with `with_rows`, the next rows of one element, in the order of the file; passes
     /// over points that have not been read.
     ///
@@ -128,10 +129,12 @@ class TREEFORM_API point_writer {
     point_writer(point_writer&&) noexcept;
     point_writer& operator=(point_writer&&) noexcept;
 
+    /// The next points; `properties` has a row for each.
+    ///
     /// \throws io_error when the file cannot be written, std::invalid_argument for columns other
     ///         than those of the header, more than `count` points, or a coordinate that the
     ///         header's types do not hold unless `options.precision` says to round
-    void write(const point_block& block);
+    void write(points_view points, const element& properties);
     /// Rows of the other elements, behind all points, in the order of the header.
     /// \throws io_error, std::invalid_argument for other columns or more rows than the header's
     void write(const detail::io::row_block& block);
@@ -175,30 +178,24 @@ class TREEFORM_API point_writer {
     std::unique_ptr<state> state_;
 };
 
-/// What is in files before their points are read.
-struct cloud_outline {
-    mesh_file header{};                     ///< as that of a `point_reader`
-    std::optional<std::uint64_t> points{};  ///< if all headers say it
-    bool has_rows =
-        false;  ///< of a mesh: faces or other rows behind the points, which the header counts
-};
-
 /// Files that are one cloud, all points of the first before those of the next.
 struct cloud_inputs {
     std::vector<std::filesystem::path> paths{};
-    std::string format{};                 ///< as for `read`
-    std::vector<named_column> columns{};  ///< as in `read_options`
-    std::vector<std::string> names{};     ///< for warnings; empty: the paths
-    bool mixed = false;                   ///< as in `join`
+    std::string format{};  ///< as for `read`
+    /// As in `read_options`.
+    std::vector<std::pair<std::string, std::string>> columns{};
+    std::vector<std::string> names{};  ///< for warnings; empty: the paths
+    bool mixed = false;                ///< as in `join`
 
-    /// What is in the files, before their points are read.
-    /// One file alone may be a mesh, as `point_reader` reads it with rows. Text is read once,
-    /// shared by the ranks; every rank must call this.
+    /// What is in the files, before their points are read: the header, as that of a `point_reader`,
+    /// whose elements have no values, but as many rows as there are; those of "vertex" are the
+    /// points. One file alone may be a mesh, as `point_reader` reads it with rows. Text is read
+    /// once, shared by the ranks; every rank must call this.
     ///
-    /// \throws io_error, whose `needs_all()` is true, for what is no file of points, as
+    /// \throws io_error of `kind::blocks` for what is no file of points, as
     ///         `point_reader`, io_error for what cannot be read; std::invalid_argument for columns
     ///         that `join` cannot unite
-    [[nodiscard]] TREEFORM_API cloud_outline outline(const communicator& ranks = {}) const;
+    [[nodiscard]] TREEFORM_API mesh_file outline(const communicator& ranks = {}) const;
 };
 
 }  // namespace treeform

@@ -82,17 +82,6 @@ namespace treeform {
                                           std::string_view format,
                                           const read_options& options = {});
 
-/// Which files of a folder are included.
-enum class file_content : std::uint8_t {
-    meshes,            ///< STL, OBJ, PLY, OFF, 3MF, GLB, glTF
-    meshes_and_points  ///< also PCD, LAS, LAZ, XYZ, CSV, PTS, ASC
-};
-
-/// `paths` with each folder replaced by its files of these formats, by extension, in the order of
-/// their names. Subfolders are not searched. A folder without such files is kept, and so is "-".
-[[nodiscard]] TREEFORM_API std::vector<std::string> files_of(std::span<const std::string> paths,
-                                                             file_content content);
-
 /// Whether other scenes than glTF and GLB (DAE, FBX, ...) can be read: true unless treeform was
 /// built without assimp.
 [[nodiscard]] TREEFORM_API bool reads_scenes();
@@ -124,13 +113,6 @@ struct urdf_mesh {
     mesh shape{};
 };
 
-/// A robot as parts of an assembly: its links that have faces.
-struct robot_parts {
-    std::vector<mesh> parts{};           ///< [P] all meshes of a link as one, in its frame
-    std::vector<std::uint32_t> links{};  ///< [P] ascending
-    std::vector<std::array<std::uint32_t, 2>> adjacent{};  ///< `urdf_robot::adjacent`, by parts
-};
-
 /// A robot.
 struct urdf_robot {
     std::string name{};
@@ -144,10 +126,15 @@ struct urdf_robot {
     /// first, ascending.
     [[nodiscard]] TREEFORM_API std::vector<std::array<std::uint32_t, 2>> adjacent() const;
 
-    /// The links that have faces. `mesh_of_file` returns the mesh of a file; it is called in the
-    /// order of `meshes`, once for each mesh with a file.
-    [[nodiscard]] TREEFORM_API robot_parts
-    parts(const std::function<mesh(const std::filesystem::path&)>& mesh_of_file) const;
+    /// The same as numbers of `parts`, of those of which both links are among them.
+    [[nodiscard]] TREEFORM_API std::vector<std::array<std::uint32_t, 2>> adjacent(
+        std::span<const urdf_mesh> parts) const;
+
+    /// The robot as parts of an assembly: for each link that has faces, ascending, all its meshes
+    /// as one, a `shape` in the frame of the link. `mesh_of_file` returns the mesh of a file; it is
+    /// called in the order of `meshes`, once for each mesh with a file.
+    [[nodiscard]] TREEFORM_API std::vector<urdf_mesh> parts(
+        const std::function<mesh(const std::filesystem::path&)>& mesh_of_file) const;
 
     /// [L] Where each link is: from its own frame to that of the robot. Joints without a value are
     /// at 0, fixed ones stay, and those that mimic another follow it unless they have a value of
@@ -159,21 +146,16 @@ struct urdf_robot {
         const std::map<std::string, double>& values) const;
 };
 
-/// How to read a robot.
-struct urdf_options {
-    bool visual = false;  ///< use visual meshes instead of collision meshes
-    /// Folders of packages: `package://name/rest` is FOLDER/name/rest or FOLDER/rest for one of
-    /// these, else for the file's folder or one above it.
-    std::vector<std::filesystem::path> package_folders{};
-};
-
 /// Reads the robot at `path`. Joints are fixed, revolute, continuous or prismatic. Boxes, cylinders
-/// and spheres become meshes. Mesh files are not read, but must exist.
+/// and spheres become meshes. Mesh files are not read, but must exist. `package://name/rest` is
+/// FOLDER/name/rest or FOLDER/rest for one of `package_folders`, else for the file's folder or one
+/// above it. With `visual`, visual meshes are used instead of collision meshes.
 ///
 /// \throws io_error naming the path and the reason: not XML, no robot, an unsupported joint, a link
 ///         that is missing, has two parents or is its own ancestor, repeated names, invalid
 ///         numbers, sizes that are not positive, a missing mesh file
-[[nodiscard]] TREEFORM_API urdf_robot read_urdf(const std::filesystem::path& path,
-                                                const urdf_options& options = {});
+[[nodiscard]] TREEFORM_API urdf_robot
+read_urdf(const std::filesystem::path& path,
+          std::span<const std::filesystem::path> package_folders = {}, bool visual = false);
 
 }  // namespace treeform

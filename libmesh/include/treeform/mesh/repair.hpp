@@ -42,14 +42,6 @@ struct resolve_options {
     progress_callback progress{};
 };
 
-/// What is inside, for `repair`.
-enum class repair_rule : std::uint8_t {
-    automatic,  ///< `positive` if each shell is outward after `orient`, else `nonzero` or labels
-    nonzero,
-    odd,
-    positive
-};
-
 /// How to repair. All steps are on by default.
 struct repair_options {
     bool join = true;     ///< drop degenerate and duplicate faces; close cracks and T-junctions
@@ -67,12 +59,15 @@ struct repair_options {
     /// larger component vanishes since it bounds nothing, the status is `excessive_loss`, unless
     /// `max_loss` is 1.
     double strays = 0.001;
-    repair_rule inside = repair_rule::automatic;
+    /// What is solid. By default `positive` if each shell is outward after `orient`, else `nonzero`
+    /// or labels.
+    std::optional<fill_rule> inside{};
     /// Losing more than this share of the volume gives the status `excessive_loss`; if there were
     /// holes, of the area. Faces that are still there or hidden in the solid are not lost. 1 allows
     /// any loss.
     double max_loss = 0.05;
-    bool sheet = false;  ///< the mesh is an open surface: keep its border, and fill nothing
+    bool sheet = false;   ///< the mesh is an open surface: keep its border, and fill nothing
+    bool as_one = false;  ///< of `repair_file`: all parts of a scene become one solid
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
     /// As in `boolean_options`.

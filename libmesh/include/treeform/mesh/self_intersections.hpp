@@ -192,7 +192,7 @@ struct stream_search_result {
 /// If the process is killed, the folder stays, and the same call resumes there. With several ranks,
 /// rank 0 makes the tiles, all ranks search them, and rank 0 gets the result.
 ///
-/// \throws io_error if the file cannot be read or has another format; stream_error for the folder;
+/// \throws io_error if the file cannot be read or has another format, or for the folder;
 ///         std::length_error for more than 2^32 - 1 triangles
 /// \cost   time as `self_intersections`; memory as in the options, plus the result; on the disk 60
 ///         to 100 bytes for each tile that a face reaches into, and 24 bytes for each vertex of a
@@ -225,14 +225,14 @@ class TREEFORM_API stream_search {
     [[nodiscard]] status scatter();
     /// Number of tiles.
     ///
-    /// \throws stream_error before `scatter` has ended in any process; likewise the steps below
+    /// \throws io_error before `scatter` has ended in any process; likewise the steps below
     [[nodiscard]] std::size_t tiles();
     [[nodiscard]] std::vector<std::size_t> unfinished();  ///< tiles
     /// \throws std::out_of_range for a tile out of range
     [[nodiscard]] status search_tile(std::size_t tile);
     /// Combines the results of all tiles.
     ///
-    /// \throws stream_error naming tiles that are not finished, at most a hundred
+    /// \throws io_error naming tiles that are not finished, at most a hundred
     [[nodiscard]] stream_search_result finish();
     void remove_folder();
 

@@ -20,7 +20,7 @@ namespace treeform {
 /// A partition of points into groups, each of which becomes one point.
 struct point_groups {
     std::vector<std::uint32_t> group_of_point{};  ///< [V] groups in the order of their first points
-    /// [G] the first point of each group, ascending: the lowest-numbered, unless `order` is set
+    /// [G] the first point of each group, ascending: the lowest-numbered, unless `order_by` is set
     std::vector<std::uint32_t> first_of_group{};
     treeform::status status = status::ok;  ///< or cancelled; then the rest is empty
 
@@ -134,15 +134,15 @@ struct file_weld_result {
 ///
 /// \throws std::invalid_argument for a tolerance that is negative or not finite; unless there is
 ///         one label for each point; for more than 2^32 - 2 points; for a corner out of range; for
-///         a property that is missing or is a list (`weld_property_error`); for `order` with
+///         a property that is missing or is a list (`weld_property_error`); for `order_by` with
 ///         another `keep` than `first`; for more than 2^32 / 3 faces with `keep_manifold`. The
 ///         message names the lowest invalid element
 /// \cost   O(V log V + F log F) for any tolerance and any number of equal points, if `may_merge` is
 ///         empty or nearly always true. Parallel, except rule `first` for points with several
 ///         others within the tolerance, if points come row by row or few are kept. Memory besides
 ///         the result: up to 36 bytes a point (50 for dense chains, 110 with `tree`), 40 more with
-///         `order`; 24 bytes a face, 100 with `keep_manifold`; 8 bytes a point for each property in
-///         a condition
+///         `order_by`; 24 bytes a face, 100 with `keep_manifold`; 8 bytes a point for each property
+///         in a condition
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API weld_result weld(const mesh_ref& mesh, const weld_options& options = {});
 
@@ -170,7 +170,7 @@ struct file_weld_result {
 [[nodiscard]] TREEFORM_API std::optional<std::uint64_t> count_still_within(
     const mesh_file& welded, const weld_options& options, precision written_as);
 
-/// Only the groups, for callers who merge their own arrays. Of `options`, it uses tolerance, rule,
+/// Only the groups, for callers who merge their own arrays. Of `options`, it uses tolerance, chain,
 /// label, may_merge and progress.
 ///
 /// \throws std::invalid_argument as `weld`

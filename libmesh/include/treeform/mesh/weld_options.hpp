@@ -15,18 +15,6 @@
 
 namespace treeform {
 
-/// The rule that forms groups.
-enum class weld_rule : std::uint8_t {
-    /// Visits points in order, and drops a point if an earlier kept point is within the tolerance.
-    /// The dropped point joins the nearest of these kept points, and the earliest of equally near
-    /// ones. So no two kept points are within the tolerance, no point is further than the tolerance
-    /// from the kept point of its group, and welding the kept points again changes nothing.
-    first,
-    /// All points linked by steps of at most the tolerance are one group. Its earliest point is
-    /// kept. A point may be many tolerances away from that point.
-    chain
-};
-
 /// Which point of a group is kept, with its coordinates and properties.
 enum class weld_keep : std::uint8_t {
     first,   ///< the lowest-numbered; kept points do not move
@@ -35,13 +23,6 @@ enum class weld_keep : std::uint8_t {
     lowest,  ///< the one with the least value of `keep_by`, not NaN if there are others; of equal
              ///< ones the first
     highest  ///< the one with the greatest value of `keep_by`, otherwise as `lowest`
-};
-
-/// The order in which rules visit points.
-enum class weld_order : std::uint8_t {
-    given,   ///< by point number
-    lowest,  ///< by `order_by`, the least value first, NaN last; of equal ones the lowest-numbered
-    highest  ///< by `order_by`, the greatest value first, otherwise as `lowest`
 };
 
 /// A vertex property that must agree for two points to be merged.
@@ -57,7 +38,14 @@ struct weld_condition {
 /// How to weld. Most callers only set `tolerance`.
 struct weld_options {
     double tolerance = 0.0;  ///< Euclidean, inclusive; 0: equal coordinates (-0 equals +0)
-    weld_rule rule = weld_rule::first;
+    /// The rule that forms groups. By default, the rule `first`: visits points in order, and drops
+    /// a point if an earlier kept point is within the tolerance. The dropped point joins the
+    /// nearest of these kept points, and the earliest of equally near ones. So no two kept points
+    /// are within the tolerance, no point is further than the tolerance from the kept point of its
+    /// group, and welding the kept points again changes nothing. With `chain`, all points linked by
+    /// steps of at most the tolerance are one group. Its earliest point is kept. A point may be
+    /// many tolerances away from that point.
+    bool chain = false;
     /// [V] or empty: points with different labels are never merged.
     std::span<const std::uint32_t> label{};
     /// Empty, or a function that tells whether two points may be merged. Called for pairs within
@@ -71,13 +59,14 @@ struct weld_options {
     std::vector<std::string> across{};
     weld_keep keep = weld_keep::first;
     std::string keep_by{};  ///< for `lowest` and `highest`: a property as in `weld_condition`
-    /// The order in which the rule visits points; the first point of a group in this order is kept.
-    /// Other values than `given` need `weld_keep::first`. Kept points stay in the order of their
-    /// numbers.
-    weld_order order = weld_order::given;
-    std::string order_by{};      ///< for `lowest` and `highest`: a property as in `weld_condition`
-    bool only_borders = false;   ///< merge only points on edges of exactly one face
-    bool keep_manifold = false;  ///< split groups that would make non-manifold edges or points
+    /// A property as in `weld_condition`: the rule visits points by its values, the least first,
+    /// NaN last, of equal ones the lowest-numbered; the first point of a group in this order is
+    /// kept. Needs `weld_keep::first`. Empty: by point number. Kept points stay in the order of
+    /// their numbers.
+    std::string order_by{};
+    bool highest_first = false;    ///< for `order_by`: the greatest value first
+    bool only_borders = false;     ///< merge only points on edges of exactly one face
+    bool keep_manifold = false;    ///< split groups that would make non-manifold edges or points
     bool keep_degenerate = false;  ///< keep faces that repeat a corner
     progress_callback progress{};
 

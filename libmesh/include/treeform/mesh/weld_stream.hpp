@@ -14,6 +14,7 @@
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/point_stream.hpp>
+#include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/weld_options.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -25,7 +26,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -37,12 +37,12 @@ namespace treeform {
 struct weld_stream_options {
     double tolerance = 0.0;  ///< as in `weld_options`
     bool relative = false;   ///< `tolerance` is a share of the diagonal of the cloud's box
-    weld_rule rule = weld_rule::first;
+    bool chain = false;      ///< as in `weld_options`
     std::vector<weld_condition> same{};  ///< as in `weld_options`, and so are the next four
     weld_keep keep = weld_keep::first;   ///< others need points without lists
     std::string keep_by{};
-    weld_order order = weld_order::given;
     std::string order_by{};
+    bool highest_first = false;
     bool keep_seams = false;  ///< of a mesh, as in `weld_options`, and so are the next two
     std::vector<std::string> across{};
     bool keep_degenerate = false;
@@ -69,8 +69,8 @@ struct weld_stream_options {
                                                                    std::uint64_t points);
 
     /// The least `memory` with which `points` points can be welded in tiles. Where
-    /// points are crowded, and by `weld_rule::chain`, the limit may turn out higher
-    /// (`stream_error`).
+    /// points are crowded, and with `chain`, the limit may turn out higher
+    /// (`io_error::kind::memory`).
     [[nodiscard]] TREEFORM_API static std::uint64_t memory_to_stream(const mesh_file& header,
                                                                      std::uint64_t points);
 };
@@ -83,12 +83,9 @@ struct cloud_survey {
     std::uint64_t non_finite = 0;  ///< points with a NaN or infinite coordinate; all are kept
     std::optional<box3> box{};     ///< of the finite points
     bool single = true;            ///< float32 holds every coordinate exactly, and no file is LAS
-    struct source {
-        std::uint64_t points = 0;
-        bool single = true;
-        std::string format{};  ///< "ply-binary", ...
-    };
-    std::vector<source> sources{};      ///< of each file
+    /// Of each file: its format, `stored_as`, here by its values as `single`, and as many rows of
+    /// the element "vertex" as it has points.
+    std::vector<mesh_file> sources{};
     std::vector<value_range> ranges{};  ///< as `mesh_file::ranges`
     std::vector<io_warning> warnings{};
     double las_moved = 0.0;  ///< the furthest that a coordinate went to a step of LAS
@@ -102,20 +99,6 @@ struct cloud_survey {
     std::vector<std::filesystem::path> damaged{};  ///< files left by it that have changed since
     std::uint64_t disk_bytes = 0;  ///< about what the tiles will take; 0 when they are there
     std::optional<std::uint64_t> disk_bytes_free{};
-};
-
-/// What welding has done.
-struct weld_stream_counts {
-    std::uint64_t kept = 0;         ///< points
-    std::uint64_t groups = 0;       ///< groups of two points or more
-    double max_displacement = 0.0;  ///< the furthest that a point moved, rounded up to a double
-    std::uint64_t faces = 0;        ///< that are kept, as stored; and cut into triangles
-    std::uint64_t triangles = 0;
-    std::uint64_t collapsed = 0;  ///< as in `weld_statistics`, and so are the next four
-    std::uint64_t degenerate = 0;
-    std::uint64_t nonmanifold_before = 0;
-    std::uint64_t nonmanifold_after = 0;
-    std::uint64_t flipped = 0;
 };
 
 /// What to write; each part may be left out.
@@ -138,57 +121,29 @@ struct weld_stream_outputs {
     std::vector<std::filesystem::path> unfinished{};
 };
 
-/// What was written.
-struct weld_stream_written {
-    std::optional<write_result> welded{};
-    std::optional<write_result> removed{};
-    bool label_replaced = false;  ///< the input had a property of that name
-    double las_moved = 0.0;       ///< the furthest that a mean went to a step of LAS
-    /// As `count_still_within` for `welded`; none when all points are in it.
-    std::optional<std::uint64_t> still_within{};
-};
-
 /// What was welded and written.
 struct weld_stream_result {
     cloud_survey survey{};
-    weld_stream_counts counts{};
-    weld_stream_written written{};
+    std::uint64_t kept = 0;   ///< points
+    std::uint64_t faces = 0;  ///< that are kept, as stored; and cut into triangles
+    std::uint64_t triangles = 0;
+    weld_statistics statistics{};
+    std::optional<write_result> welded{};   ///< the output, where one was asked for
+    std::optional<write_result> removed{};  ///< likewise
+    bool label_replaced = false;            ///< the input had a property of that name
+    double las_moved = 0.0;                 ///< the furthest that a mean went to a step of LAS
+    /// As `count_still_within` for `welded`; none when all points are in it.
+    std::optional<std::uint64_t> still_within{};
     treeform::status status = status::ok;  ///< or cancelled: nothing is written, the folder stays
-};
-
-/// A problem with the files that work in tiles takes. `what()` names the path.
-class TREEFORM_API stream_error : public std::runtime_error {
-  public:
-    enum class reason : std::uint8_t {
-        folder,          ///< it cannot be made or written to
-        folder_in_use,   ///< another process uses it
-        folder_foreign,  ///< it holds files of others
-        write,           ///< a tile cannot be written
-        read,            ///< a tile cannot be read
-        damaged,         ///< a tile has changed since it was written
-        memory,          ///< it is not enough; `needed()` would be
-        input_changed    ///< the input has changed while it was welded
-    };
-    stream_error(reason why, std::filesystem::path path, const std::string& text,
-                 std::uint64_t needed = 0);
-
-    [[nodiscard]] reason why() const { return why_; }
-    [[nodiscard]] std::uint64_t needed() const { return needed_; }
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-  private:
-    reason why_;
-    std::filesystem::path path_;
-    std::uint64_t needed_;
 };
 
 /// Welds the cloud in the files `inputs` (PLY without faces, PCD, LAS, LAZ, PTS, XYZ, CSV), and
 /// writes the outputs. Each output appears whole or not at all. One PLY or binary STL alone may
 /// be a mesh: as `weld` would, faces get their new corners, and those that collapse are left out.
 /// Each rank has a share of points and of faces. Meshes need `welded` as PLY or OBJ; an STL no
-/// tolerance, or `weld_rule::chain`.
+/// tolerance, or `chain`.
 ///
-/// \throws io_error when an input cannot be read or an output cannot be written, stream_error,
+/// \throws io_error when an input cannot be read or an output cannot be written, or for the folder;
 ///         std::invalid_argument for a tolerance below 0 or not finite, and as `weld`
 /// \cost   O(V log V) time; memory as the options say; 34 bytes a point on the disk, 8 more for
 ///         each condition, 48 for an order, and points as in memory for a choice of what is kept;
@@ -225,17 +180,17 @@ class TREEFORM_API stream_weld {
     /// Gives each tile its points.
     [[nodiscard]] status scatter();
     /// Shared: knows the tiles.
-    /// \throws stream_error before `scatter` has ended, here or elsewhere
+    /// \throws io_error before `scatter` has ended, here or elsewhere
     void check_tiles();
-    /// \throws stream_error as `check_tiles`; std::out_of_range for a tile that is not there
+    /// \throws io_error as `check_tiles`; std::out_of_range for a tile that is not there
     [[nodiscard]] status weld_tile(std::size_t tile);
     /// Welds the tiles that are not finished, and what lies along their borders.
-    /// \throws stream_error naming tiles that are not finished, where they are shared
+    /// \throws io_error naming tiles that are not finished, where they are shared
     [[nodiscard]] status weld();
-    [[nodiscard]] const weld_stream_counts& counts() const;
     /// Writes the outputs, each whole or not at all.
     [[nodiscard]] status write(const weld_stream_outputs& outputs);
-    [[nodiscard]] const weld_stream_written& written() const;
+    /// What is known so far; cancelled where a step was.
+    [[nodiscard]] weld_stream_result result() const;
     /// Removes the folder. Call it last, when all outputs are where they belong.
     void remove_folder();
 

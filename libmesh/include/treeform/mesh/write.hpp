@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace treeform {
@@ -34,7 +35,8 @@ struct write_options {
     /// Columns of points to omit; "normal", "uv" or "color" for all columns of that kind, also of
     /// corners.
     std::vector<std::string> drop{};
-    std::vector<named_column> rename{};  ///< of points: `source` is the column, `name` the new one
+    /// Of points: new names for columns, such as {"height", "z_value"}.
+    std::vector<std::pair<std::string, std::string>> rename{};
     /// For LAS and LAZ; none: those of the file, else chosen by `write`.
     std::optional<std::array<double, 3>> las_scale{};
     std::optional<std::array<double, 3>> las_offset{};

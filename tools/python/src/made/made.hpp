@@ -30,7 +30,7 @@ py::object object(of_result, tf::intersection_region&& from);
 py::object object(of_result, tf::stream_search_result&& from);
 py::object object(of_result, tf::write_result&& from);
 py::object object(of_result, tf::urdf_joint&& from, const tf::urdf_robot& robot);
-py::object object(of_result, tf::urdf_robot&& from, tf::robot_parts& parts);
+py::object object(of_result, tf::urdf_robot&& from, std::vector<tf::urdf_mesh>& parts);
 py::object object(of_result, tf::weld_result&& from, const file_data* data);
 py::object object(of_result, tf::weld_stream_result&& from);
 py::object object(of_result, tf::deviation_result&& from);
@@ -54,6 +54,5 @@ py::object object(of_result, tf::clash_result&& from);
 py::dict counters(const tf::boolean_statistics& from);
 py::dict counters(const tf::repair_statistics& from);
 py::dict counters(const tf::weld_statistics& from);
-py::dict counters(const tf::weld_stream_counts& from);
 
 }  // namespace binding

@@ -121,14 +121,14 @@ void each_field(tf::stream_search_options& how, const Visit& visit) {
 template <class Visit>
 void each_field(tf::weld_options& how, const Visit& visit) {
     visit("tolerance", how.tolerance);
-    visit("rule", how.rule);
+    visit("chain", how.chain);
     visit("same", how.same);
     visit("keep_seams", how.keep_seams);
     visit("across", how.across);
     visit("keep", how.keep);
     visit("keep_by", how.keep_by);
-    visit("order", how.order);
     visit("order_by", how.order_by);
+    visit("highest_first", how.highest_first);
     visit("only_borders", how.only_borders);
     visit("keep_manifold", how.keep_manifold);
     visit("keep_degenerate", how.keep_degenerate);
@@ -138,12 +138,12 @@ template <class Visit>
 void each_field(tf::weld_stream_options& how, const Visit& visit) {
     visit("tolerance", how.tolerance);
     visit("relative", how.relative);
-    visit("rule", how.rule);
+    visit("chain", how.chain);
     visit("same", how.same);
     visit("keep", how.keep);
     visit("keep_by", how.keep_by);
-    visit("order", how.order);
     visit("order_by", how.order_by);
+    visit("highest_first", how.highest_first);
     visit("keep_seams", how.keep_seams);
     visit("across", how.across);
     visit("keep_degenerate", how.keep_degenerate);

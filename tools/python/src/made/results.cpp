@@ -304,17 +304,17 @@ py::object object(of_result, tf::urdf_joint&& from, const tf::urdf_robot& robot)
     return object_of("treeform._robots", "Joint", made);
 }
 
-py::object object(of_result, tf::urdf_robot&& from, tf::robot_parts& parts) {
+py::object object(of_result, tf::urdf_robot&& from, std::vector<tf::urdf_mesh>& parts) {
     py::dict made;
     made["name"] = as_python(std::move(from.name));
     made["links"] = as_python(std::vector(from.links));
     made["joints"] = as_python(std::vector(from.joints), from);
-    made["parts"] = meshes_of(std::move(parts.parts));
-    made["link_of_part"] = as_array(std::vector(parts.links));
-    made["adjacent"] = column(parts.adjacent, std::identity{});
+    made["parts"] = meshes_of(std::move(parts));
+    made["link_of_part"] = column(parts, &tf::urdf_mesh::link);
+    made["adjacent"] = column(from.adjacent(parts), std::identity{});
     made["approximated"] = as_python(std::move(from.approximated));
     made["skipped"] = as_python(std::move(from.skipped));
-    made["_data"] = py::cast(robot_data{from, parts.links});
+    made["_data"] = py::cast(robot_data(from, parts));
     return object_of("treeform._robots", "Robot", made);
 }
 
@@ -336,11 +336,11 @@ py::object object(of_result, tf::weld_stream_result&& from) {
     made["non_finite"] = py::cast(from.survey.non_finite);
     made["tiles"] = py::cast(from.survey.tiles);
     made["continued"] = py::cast(from.survey.continued);
-    made["kept"] = as_python(std::move(from.counts.kept));
-    made["groups"] = as_python(std::move(from.counts.groups));
-    made["max_displacement"] = py::cast(from.counts.max_displacement + from.survey.las_moved);
-    made["faces"] = py::cast(from.counts.faces);
-    made["statistics"] = counters(from.counts);
+    made["kept"] = as_python(std::move(from.kept));
+    made["faces"] = as_python(std::move(from.faces));
+    made["triangles"] = as_python(std::move(from.triangles));
+    made["statistics"] = counters(from.statistics);
+    made["max_displacement"] = py::cast(from.statistics.max_displacement + from.survey.las_moved);
     made["warnings"] = warnings_of(from);
     return object_of("treeform._weld", "WeldStreamResult", made);
 }
@@ -412,17 +412,6 @@ py::dict counters(const tf::weld_statistics& from) {
     made["nonmanifold_after"] = from.nonmanifold_after;
     made["flipped"] = from.flipped;
     made["left_alone"] = from.left_alone;
-    return made;
-}
-
-py::dict counters(const tf::weld_stream_counts& from) {
-    py::dict made;
-    made["triangles"] = from.triangles;
-    made["collapsed"] = from.collapsed;
-    made["degenerate"] = from.degenerate;
-    made["nonmanifold_before"] = from.nonmanifold_before;
-    made["nonmanifold_after"] = from.nonmanifold_after;
-    made["flipped"] = from.flipped;
     return made;
 }
 

@@ -28,10 +28,6 @@ struct words_of<tf::feature_kind> {
     static constexpr words<2> all{"plane", "axis"};
 };
 template <>
-struct words_of<tf::file_content> {
-    static constexpr words<2> all{"meshes", "meshes_and_points"};
-};
-template <>
 struct words_of<tf::fill_rule> {
     static constexpr words<3> all{"nonzero", "odd", "positive"};
 };
@@ -75,14 +71,6 @@ struct words_of<tf::precision> {
     static constexpr words<2> all{"float32", "float64"};
 };
 template <>
-struct words_of<tf::repair_rule> {
-    static constexpr words<4> all{"automatic", "nonzero", "odd", "positive"};
-};
-template <>
-struct words_of<tf::repair_scope> {
-    static constexpr words<2> all{"each_part", "whole_file"};
-};
-template <>
 struct words_of<tf::resolve_mode> {
     static constexpr words<3> all{"split", "outer", "remove"};
 };
@@ -112,14 +100,6 @@ struct words_of<tf::vertex_identity> {
 template <>
 struct words_of<tf::weld_keep> {
     static constexpr words<5> all{"first", "last", "mean", "lowest", "highest"};
-};
-template <>
-struct words_of<tf::weld_order> {
-    static constexpr words<3> all{"given", "lowest", "highest"};
-};
-template <>
-struct words_of<tf::weld_rule> {
-    static constexpr words<2> all{"first", "chain"};
 };
 
 }  // namespace binding

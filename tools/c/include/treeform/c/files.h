@@ -7,10 +7,16 @@
 /// The content of a mesh or point file: points, faces, all attributes.
 typedef struct treeform_file treeform_file;
 
+/// A column by the name that it gets.
+typedef struct treeform_named_column {
+    const char* name;    ///< "x", "intensity", ...
+    const char* source;  ///< what the heading calls it, or its number, from 1
+} treeform_named_column;
+
 // made of the headers of C++:
-//   read() read_mesh() named_column read_options read_as() read_memory() file_create()
-//   file_copy() scalar_type column element part io_warning mesh_file file_look()
-//   file_set_points() file_set_column() file_set_texture() file_add_part()
+//   read() read_mesh() read_options read_as() read_memory() file_create() file_copy()
+//   scalar_type column element part io_warning mesh_file file_look() file_set_points()
+//   file_set_column() file_set_texture() file_add_part()
 /// Reads the file at `path`, UTF-8; "-" is standard input. `format` is an extension without its
 /// dot ("stl", "ply", ...), or null: the content decides, then the extension. Coordinates are as
 /// stored.
@@ -21,18 +27,12 @@ TREEFORM_C_API treeform_code treeform_read(const char* path, const char* format,
 /// triangles that are not finite are left out. `treeform_read` and `treeform_as_mesh` tell which.
 TREEFORM_C_API treeform_code treeform_read_mesh(const char* path, treeform_mesh** mesh);
 
-/// A column of a table of text, by the name that it gets.
-typedef struct treeform_named_column {
-    const char* name;    ///< "x", "intensity", ...
-    const char* source;  ///< what the heading calls it, or its number, from 1
-} treeform_named_column;
-
 /// How to read.
 typedef struct treeform_read_options {
     size_t size;
     const char* format;  ///< null: by content
-    /// [column_count] Of XYZ, PTS and CSV: names for columns. Those for x, y and z are the
-    /// coordinates.
+    /// [column_count] Of XYZ, PTS and CSV: names for columns, such as {"x", "easting"}; what the
+    /// heading calls it, or its number, from 1. Those for x, y and z are the coordinates.
     const treeform_named_column* columns;
     size_t column_count;
     /// `mesh_file::drop_non_finite`, which a warning says; of `treeform_read` alone
@@ -236,7 +236,7 @@ typedef struct treeform_write_options {
     /// kind, also of corners.
     const char* const* drop;
     size_t drop_count;
-    /// [rename_count] of points: `source` is the column, `name` the new one
+    /// [rename_count] Of points: new names for columns, such as {"height", "z_value"}.
     const treeform_named_column* rename;
     size_t rename_count;
     /// [3] For LAS and LAZ; `TREEFORM_NONE`: those of the file, else chosen by `treeform_write`;
@@ -347,26 +347,11 @@ typedef struct treeform_scene_parts {
 } treeform_scene_parts;
 
 // made of the headers of C++:
-//   split_parts() file_content files_of()
+//   split_parts()
 /// The parts of a file by its objects, groups or nodes, each as a file of its own. Parts that have
 /// points or open edges in common are one.
 TREEFORM_C_API treeform_code treeform_split_parts(const treeform_file* file,
                                                   treeform_scene_parts** parts);
-
-/// Which files of a folder are included.
-typedef int32_t treeform_file_content;
-enum {
-    /// STL, OBJ, PLY, OFF, 3MF, GLB, glTF
-    TREEFORM_MESHES = 0,
-    /// also PCD, LAS, LAZ, XYZ, CSV, PTS, ASC
-    TREEFORM_MESHES_AND_POINTS = 1
-};
-
-/// `paths` with each folder replaced by its files of these formats, by extension, in the order of
-/// their names. Subfolders are not searched. A folder without such files is kept, and so is "-".
-TREEFORM_C_API treeform_code treeform_files_of(const char* const* paths, size_t count,
-                                               treeform_file_content content,
-                                               treeform_strings** strings);
 // end
 
 /// Whether other scenes than glTF and GLB (DAE, FBX, ...) can be read: 0 if treeform was built
@@ -377,24 +362,15 @@ TREEFORM_C_API int32_t treeform_reads_scenes(void);
 typedef struct treeform_robot treeform_robot;
 
 // made of the headers of C++:
-//   urdf_options read_urdf() urdf_mesh urdf_joint urdf_robot robot_look()
-/// How to read a robot.
-typedef struct treeform_robot_options {
-    size_t size;
-    int32_t visual;  ///< use visual meshes instead of collision meshes
-    /// [package_folder_count] Folders of packages: `package://name/rest` is FOLDER/name/rest or
-    /// FOLDER/rest for one of these, else for the file's folder or one above it.
-    const char* const* package_folders;
-    size_t package_folder_count;
-} treeform_robot_options;
-/// Sets the defaults.
-TREEFORM_C_API void treeform_robot_options_init(treeform_robot_options* options, size_t size);
-
+//   read_urdf() urdf_mesh urdf_joint urdf_robot robot_look()
 /// Reads the robot at `path`. Joints are fixed, revolute, continuous or prismatic. Boxes,
 /// cylinders and spheres become meshes. Mesh files are not read, but must exist.
+/// `package://name/rest` is FOLDER/name/rest or FOLDER/rest for one of `package_folders`, else for
+/// the file's folder or one above it. With `visual`, visual meshes are used instead of collision
+/// meshes.
 TREEFORM_C_API treeform_code treeform_read_urdf(const char* path,
-                                                const treeform_robot_options* options,
-                                                treeform_robot** robot);
+                                                const char* const* package_folders, size_t count,
+                                                int32_t visual, treeform_robot** robot);
 
 /// A mesh of a link, from a file or a shape; `place` maps its points to the link's frame.
 typedef struct treeform_robot_mesh {

@@ -11,8 +11,8 @@
 //   fill_rule boolean_options operand_volumes boolean_result boolean() boolean_named()
 //   names_in() unite() subtract() intersection() symmetric_difference() unite_all() clip()
 //   split() resolve_mode resolve_options repair_statistics repair_result
-//   resolve_self_intersections() repair_rule repair_options repair() repair_scope
-//   repair_file() solid_defects find_solid_defects() find_solid_defects_of_file()
+//   resolve_self_intersections() repair_options repair() repair_file() solid_defects
+//   find_solid_defects() find_solid_defects_of_file()
 /// Which points are inside an operand, by how often its surface winds around them.
 typedef int32_t treeform_fill_rule;
 enum {
@@ -302,16 +302,6 @@ TREEFORM_C_API treeform_code treeform_resolve_self_intersections(
     const treeform_mesh* mesh, treeform_resolve_mode mode, const treeform_resolve_options* options,
     treeform_repair_result** result);
 
-/// What is inside, for `treeform_repair`.
-typedef int32_t treeform_repair_rule;
-enum {
-    /// `positive` if each shell is outward after `orient`, else `nonzero` or labels
-    TREEFORM_REPAIR_AUTOMATIC = 0,
-    TREEFORM_REPAIR_NONZERO = 1,
-    TREEFORM_REPAIR_ODD = 2,
-    TREEFORM_REPAIR_POSITIVE = 3
-};
-
 /// How to repair. All steps are on by default.
 typedef struct treeform_repair_options {
     size_t size;
@@ -332,7 +322,9 @@ typedef struct treeform_repair_options {
     /// larger component vanishes since it bounds nothing, the status is `excessive_loss`, unless
     /// `max_loss` is 1; default 0.001
     double strays;
-    treeform_repair_rule inside;
+    /// What is solid. By default `positive` if each shell is outward after `orient`, else
+    /// `nonzero` or labels; a `treeform_fill_rule`, or -1
+    int32_t inside;
     /// Losing more than this share of the volume gives the status `excessive_loss`; if there were
     /// holes, of the area. Faces that are still there or hidden in the solid are not lost. 1
     /// allows any loss; default 0.05
@@ -345,6 +337,8 @@ typedef struct treeform_repair_options {
     treeform_progress progress;
     void* progress_data;
     int32_t keep_cuts;  ///< likewise; filled faces only merge with each other
+    /// of `treeform_repair_file`: all parts of a scene become one solid
+    int32_t as_one;
 } treeform_repair_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_repair_options_init(treeform_repair_options* options, size_t size);
@@ -369,19 +363,9 @@ TREEFORM_C_API treeform_code treeform_repair(const treeform_mesh* mesh,
                                              const treeform_repair_options* options,
                                              treeform_repair_result** result);
 
-/// What is repaired as one mesh.
-typedef int32_t treeform_repair_scope;
-enum {
-    /// Each part of a scene becomes a solid. Parts may overlap before and after.
-    TREEFORM_EACH_PART = 0,
-    /// overlapping parts become one solid
-    TREEFORM_WHOLE_FILE = 1
-};
-
-/// The same of a file, or each of its parts, with its attributes. The mesh of the file is taken as
-/// it is read.
+/// The same of each part of a file, or of all as one, with its attributes. The mesh of the file is
+/// taken as it is read.
 TREEFORM_C_API treeform_code treeform_repair_file(const treeform_file* file,
-                                                  treeform_repair_scope scope,
                                                   const treeform_repair_options* options,
                                                   treeform_repair_result** result);
 
@@ -413,9 +397,8 @@ TREEFORM_C_API treeform_code treeform_find_solid_defects(const treeform_mesh* me
                                                          void* progress_data,
                                                          treeform_solid_defects** defects);
 
-/// The same for `treeform_repair_file`.
+/// The same of all parts of a file together.
 TREEFORM_C_API treeform_code treeform_find_solid_defects_of_file(const treeform_file* file,
-                                                                 treeform_repair_scope scope,
                                                                  treeform_progress progress,
                                                                  void* progress_data,
                                                                  treeform_solid_defects** defects);

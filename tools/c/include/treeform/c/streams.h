@@ -11,14 +11,14 @@ typedef struct treeform_weld_stream_options {
     size_t size;
     double tolerance;  ///< as in `treeform_weld_options`
     int32_t relative;  ///< `tolerance` is a share of the diagonal of the cloud's box
-    treeform_weld_rule rule;
+    int32_t chain;     ///< as in `treeform_weld_options`
     /// [same_count] as in `treeform_weld_options`, and so are the next four
     const treeform_weld_condition* same;
     size_t same_count;
     treeform_weld_keep keep;  ///< others need points without lists
     const char* keep_by;
-    treeform_weld_order order;
     const char* order_by;
+    int32_t highest_first;
     /// Coordinates, and means of them, are rounded to the steps of the first file if it is LAS,
     /// else to those of `round_to_las`, before anything is decided of them.
     int32_t as_las;
@@ -59,7 +59,8 @@ TREEFORM_C_API void treeform_weld_stream_options_init(treeform_weld_stream_optio
 typedef struct treeform_weld_stream_result {
     void* owner;
     uint64_t points;
-    uint64_t non_finite;      ///< points left as they are
+    /// points with a NaN or infinite coordinate, left as they are
+    uint64_t non_finite;
     double tolerance;         ///< as a length
     uint64_t kept;            ///< points
     uint64_t groups;          ///< groups of two points or more
@@ -71,11 +72,11 @@ typedef struct treeform_weld_stream_result {
     int32_t still_within_known;
     uint64_t faces;  ///< that are kept, as stored; and cut into triangles
     uint64_t triangles;
-    uint64_t collapsed;  ///< as in `weld_statistics`, and so are the next four
-    uint64_t degenerate;
-    uint64_t nonmanifold_before;
+    uint64_t collapsed;           ///< faces that repeat a corner only after the weld
+    uint64_t degenerate;          ///< faces that repeated a corner before
+    uint64_t nonmanifold_before;  ///< edges of more than two faces
     uint64_t nonmanifold_after;
-    uint64_t flipped;
+    uint64_t flipped;  ///< kept faces whose normal turned by more than a right angle
 } treeform_weld_stream_result;
 
 /// Welds the cloud in the files `inputs` [count] (PLY, PCD, LAS, LAZ, PTS, XYZ, CSV), or the mesh

@@ -5,22 +5,8 @@
 #include <treeform/c/files.h>
 
 // made of the headers of C++:
-//   weld_rule weld_keep weld_order weld_condition weld_options weld_result weld() weld_file()
-//   group_points() count_nearly_equal() count_still_within() withhold()
-/// The rule that forms groups.
-typedef int32_t treeform_weld_rule;
-enum {
-    /// Visits points in order, and drops a point if an earlier kept point is within the tolerance.
-    /// The dropped point joins the nearest of these kept points, and the earliest of equally near
-    /// ones. So no two kept points are within the tolerance, no point is further than the
-    /// tolerance from the kept point of its group, and welding the kept points again changes
-    /// nothing.
-    TREEFORM_WELD_FIRST = 0,
-    /// All points linked by steps of at most the tolerance are one group. Its earliest point is
-    /// kept. A point may be many tolerances away from that point.
-    TREEFORM_WELD_CHAIN = 1
-};
-
+//   weld_keep weld_condition weld_options weld_result weld() weld_file() group_points()
+//   count_nearly_equal() count_still_within() withhold()
 /// Which point of a group is kept, with its coordinates and properties.
 typedef int32_t treeform_weld_keep;
 enum {
@@ -37,17 +23,6 @@ enum {
     TREEFORM_KEEP_HIGHEST = 4
 };
 
-/// The order in which rules visit points.
-typedef int32_t treeform_weld_order;
-enum {
-    /// by point number
-    TREEFORM_ORDER_GIVEN = 0,
-    /// by `order_by`, the least value first, NaN last; of equal ones the lowest-numbered
-    TREEFORM_ORDER_LOWEST = 1,
-    /// by `order_by`, the greatest value first, otherwise as `lowest`
-    TREEFORM_ORDER_HIGHEST = 2
-};
-
 /// A vertex property that must agree for two points to be merged.
 typedef struct treeform_weld_condition {
     /// A column of the element "vertex" with one value a row; "x", "y" or "z" for a coordinate;
@@ -62,7 +37,14 @@ typedef struct treeform_weld_condition {
 typedef struct treeform_weld_options {
     size_t size;
     double tolerance;  ///< Euclidean, inclusive; 0: equal coordinates (-0 equals +0)
-    treeform_weld_rule rule;
+    /// The rule that forms groups. By default, the rule `first`: visits points in order, and drops
+    /// a point if an earlier kept point is within the tolerance. The dropped point joins the
+    /// nearest of these kept points, and the earliest of equally near ones. So no two kept points
+    /// are within the tolerance, no point is further than the tolerance from the kept point of its
+    /// group, and welding the kept points again changes nothing. With `chain`, all points linked
+    /// by steps of at most the tolerance are one group. Its earliest point is kept. A point may be
+    /// many tolerances away from that point.
+    int32_t chain;
     /// [V] or empty: points with different labels are never merged; or null
     const uint32_t* label;
     size_t label_count;
@@ -80,13 +62,13 @@ typedef struct treeform_weld_options {
     treeform_weld_keep keep;
     /// for `lowest` and `highest`: a property as in `treeform_weld_condition`
     const char* keep_by;
-    /// The order in which the rule visits points; the first point of a group in this order is
-    /// kept. Other values than `given` need `weld_keep::first`. Kept points stay in the order of
-    /// their numbers.
-    treeform_weld_order order;
-    /// for `lowest` and `highest`: a property as in `treeform_weld_condition`
+    /// A property as in `treeform_weld_condition`: the rule visits points by its values, the least
+    /// first, NaN last, of equal ones the lowest-numbered; the first point of a group in this
+    /// order is kept. Needs `weld_keep::first`. Empty: by point number. Kept points stay in the
+    /// order of their numbers.
     const char* order_by;
-    int32_t only_borders;  ///< merge only points on edges of exactly one face
+    int32_t highest_first;  ///< for `order_by`: the greatest value first
+    int32_t only_borders;   ///< merge only points on edges of exactly one face
     /// split groups that would make non-manifold edges or points
     int32_t keep_manifold;
     int32_t keep_degenerate;  ///< keep faces that repeat a corner
@@ -102,7 +84,7 @@ typedef struct treeform_weld_result {
     treeform_arrays mesh;
     const uint32_t* group_of_point;  ///< [V] groups in the order of their first points
     size_t point_count;
-    /// [G] the first point of each group, ascending: the lowest-numbered, unless `order` is set
+    /// [G] the first point of each group, ascending: the lowest-numbered, unless `order_by` is set
     const uint32_t* first_of_group;
     const uint32_t* point_of_group;  ///< [G] input point that gave its properties
     size_t group_count;

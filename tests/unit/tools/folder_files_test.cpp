@@ -1,5 +1,4 @@
-#include <treeform/mesh/read.hpp>
-#include <treeform/tf.hpp>
+#include "tools/shell/folder_files.hpp"
 
 #include <doctest/doctest.h>
 #include <unistd.h>
@@ -12,14 +11,13 @@
 namespace {
 
 using names = std::vector<std::string>;
-using enum tf::file_content;
 
 /// A folder that goes with the object.
 class touched_folder {
   public:
     touched_folder()
         : path_(std::filesystem::temp_directory_path() /
-                ("io_files_of_test." + std::to_string(::getpid()))) {
+                ("folder_files_test." + std::to_string(::getpid()))) {
         std::filesystem::create_directories(path_);
     }
     touched_folder(const touched_folder&) = delete;
@@ -45,12 +43,13 @@ TEST_CASE("files of a folder: those of a format, by name, and none of what is de
     std::filesystem::create_directories(in / "empty");
     in.touch("deep.obj/d.obj");
     const names folder{in / ""};
-    CHECK(tf::files_of(folder, meshes) == names{in / "a.STL", in / "a10.ply", in / "b.obj"});
-    CHECK(tf::files_of(folder, meshes_and_points) ==
+    const names meshes{"ply", "stl", "obj"}, points{"obj", "ply", "stl", "xyz"};
+    CHECK(tools::files_of(folder, meshes) == names{in / "a.STL", in / "a10.ply", in / "b.obj"});
+    CHECK(tools::files_of(folder, points) ==
           names{in / "a.STL", in / "a10.ply", in / "b.obj", in / "c.xyz"});
     // Files are as they are named, and in the order in which they are.
     const names mixed{"-", in / "notes.txt", in / "deep.obj", "missing.stl", in / "empty"};
-    CHECK(tf::files_of(mixed, meshes) ==
+    CHECK(tools::files_of(mixed, meshes) ==
           names{"-", in / "notes.txt", in / "deep.obj/d.obj", "missing.stl", in / "empty"});
-    CHECK(tf::files_of({}, meshes).empty());
+    CHECK(tools::files_of({}, meshes).empty());
 }
