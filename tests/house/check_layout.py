@@ -20,7 +20,7 @@ MORE_MEMBERS = {
     # options, results and settings, which callers read by name
     "common_options": 40, "repair_statistics": 34, "boolean_settings": 20, "cloud_survey": 20,
     "deviation_result": 21, "placement": 22, "weld_stream_options": 19, "align_result": 17,
-    "place_settings": 17, "scene": 16,
+    "place_settings": 17, "repair_options": 16, "scene": 16,
     # the values of a LAS point, each with its model
     "context": 27, "point_item": 19, "first_point_item": 17,
     # operations of many steps

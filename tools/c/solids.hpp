@@ -52,8 +52,8 @@ inline treeform_code give(tf::repaired_file&& repaired, treeform_repair_result**
     return code;
 }
 
-/// The same of each part of a file, or of all as one, with its attributes. The mesh of the file is taken as
-/// it is read.
+/// The same of each part of a file, or of all as one, with its attributes. The mesh of the file is
+/// taken as it is read.
 inline tf::repaired_file repair_file(const tf::mesh_file& file, const tf::repair_options& options) {
     return tf::repair_file(usable_input(file).source(), options);
 }
