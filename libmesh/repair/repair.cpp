@@ -27,6 +27,7 @@
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/self_intersections.hpp>
 
 #include <algorithm>
 #include <utility>
