@@ -22,12 +22,12 @@
 
 namespace treeform {
 
-/// A file that cannot be read or written, or the folder of work in tiles; `what()` names the path,
-/// the line or byte, and the reason: "part.obj:17: vertex index 0 (OBJ counts from 1)".
+/// A file that cannot be read or written, or work in tiles that cannot go on; `what()` names the
+/// path, the line or byte, and the reason: "part.obj:17: vertex index 0 (OBJ counts from 1)".
 class TREEFORM_API io_error : public std::runtime_error {
   public:
     enum class kind : std::uint8_t {
-        file,    ///< a file that is not of the kinds below cannot be read or written
+        file,    ///< it cannot be opened, read or written, or its content is wrong
         blocks,  ///< no file of points, or none that can be read in blocks: `read` takes all of it
         folder,  ///< of work in tiles, as all that follow: it cannot be made or written to
         folder_in_use,   ///< another process uses it
@@ -116,8 +116,8 @@ struct value_range {
 
 /// How to read.
 struct read_options {
-    /// Of XYZ, PTS and CSV: names for columns, such as {"x", "easting"}; what the heading calls it,
-    /// or its number, from 1. Those for x, y and z are the coordinates.
+    /// Of XYZ, PTS and CSV: names for columns, each with what the heading calls the column, or its
+    /// number, from 1: {"x", "easting"}. Those for x, y and z are the coordinates.
     std::vector<std::pair<std::string, std::string>> columns{};
     bool drop_nan = false;  ///< `mesh_file::drop_non_finite`, which a warning says; of `read` alone
 };

@@ -35,7 +35,7 @@ struct write_options {
     /// Columns of points to omit; "normal", "uv" or "color" for all columns of that kind, also of
     /// corners.
     std::vector<std::string> drop{};
-    /// Of points: new names for columns, such as {"height", "z_value"}.
+    /// Of points: new names for columns, each with the one that the column has.
     std::vector<std::pair<std::string, std::string>> rename{};
     /// For LAS and LAZ; none: those of the file, else chosen by `write`.
     std::optional<std::array<double, 3>> las_scale{};

@@ -31,8 +31,8 @@ TREEFORM_C_API treeform_code treeform_read_mesh(const char* path, treeform_mesh*
 typedef struct treeform_read_options {
     size_t size;
     const char* format;  ///< null: by content
-    /// [column_count] Of XYZ, PTS and CSV: names for columns, such as {"x", "easting"}; what the
-    /// heading calls it, or its number, from 1. Those for x, y and z are the coordinates.
+    /// [column_count] Of XYZ, PTS and CSV: names for columns, each with what the heading calls the
+    /// column, or its number, from 1: {"x", "easting"}. Those for x, y and z are the coordinates.
     const treeform_named_column* columns;
     size_t column_count;
     /// `mesh_file::drop_non_finite`, which a warning says; of `treeform_read` alone
@@ -236,7 +236,7 @@ typedef struct treeform_write_options {
     /// kind, also of corners.
     const char* const* drop;
     size_t drop_count;
-    /// [rename_count] Of points: new names for columns, such as {"height", "z_value"}.
+    /// [rename_count] Of points: new names for columns, each with the one that the column has.
     const treeform_named_column* rename;
     size_t rename_count;
     /// [3] For LAS and LAZ; `TREEFORM_NONE`: those of the file, else chosen by `treeform_write`;
