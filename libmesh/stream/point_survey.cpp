@@ -102,7 +102,7 @@ class sampler {
 
 mesh_file source_of(std::string format) {
     mesh_file source{.stored_as = precision::float32, .format = std::move(format)};
-    source.attributes.obtain("vertex", 0);
+    static_cast<void>(source.attributes.obtain("vertex", 0));
     return source;
 }
 

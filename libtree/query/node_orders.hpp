@@ -57,7 +57,8 @@ struct top_k_sorted {
     template <class Entry, std::size_t>
     class frontier {
       public:
-        explicit frontier(const top_k_sorted& order = {}) : k_(order.k) { stack_.reserve(256); }
+        frontier() { stack_.reserve(256); }
+        explicit frontier(const top_k_sorted& order) : frontier() { k_ = order.k; }
 
         void open() { bottom_ = stack_.size(); }
         void push(const Entry& entry) { stack_.push_back(entry); }
@@ -81,7 +82,7 @@ struct top_k_sorted {
 
       private:
         std::vector<Entry> stack_;
-        std::size_t k_;
+        std::size_t k_ = 0;
         std::size_t bottom_ = 0;
     };
 };
