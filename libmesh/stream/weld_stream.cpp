@@ -227,7 +227,7 @@ struct stream_weld::state {
     std::optional<detail::stream::tile_faces> faces{};  ///< of a mesh
     std::optional<detail::stream::tiles_welded> welded{};
     std::optional<detail::stream::kept_rows> rows{};
-    weld_stream_result made{};  ///< but for the survey
+    weld_stream_result made{};  ///< all fields except the survey
 };
 
 stream_weld::stream_weld(cloud_inputs inputs, weld_stream_options options)

@@ -296,8 +296,8 @@ class Deviation(Result):
         `highest`.
     band_counts: With a band: points below, within and above it. Both ends are within.
     there_at_most: Bound of the distance from any point of the surface `a` to `b`: the maximum, over
-        its faces, of the largest corner distance plus the longest edge / sqrt(3). For a cloud
-        `max`, but for rounding.
+        its faces, of the largest corner distance plus the longest edge / sqrt(3). For a cloud it is
+        `max`, rounded up.
     back_max: With `both_ways`, the largest distance of a vertex of `b` from `a`. The larger of this
         and `max` is the Hausdorff distance of the points.
     back_at_most: With `both_ways`, a bound of the distance from any point of the surface `b` to

@@ -52,8 +52,8 @@ struct deviation_result {
     double lowest = 0.0;      ///< the least signed distance
     double highest = 0.0;     ///< the greatest signed distance
     /// Bound of the distance from any point of the surface `a` to `b`: the maximum, over its faces,
-    /// of the largest corner distance plus the longest edge / sqrt(3). For a cloud `max`, but for
-    /// rounding.
+    /// of the largest corner distance plus the longest edge / sqrt(3). For a cloud it
+    /// is `max`, rounded up.
     double there_at_most = 0.0;
     /// With `both_ways`, the largest distance of a vertex of `b` from `a`. The larger of this and
     /// `max` is the Hausdorff distance of the points.

@@ -253,8 +253,8 @@ typedef struct treeform_deviation_result {
     double lowest;   ///< the least signed distance
     double highest;  ///< the greatest signed distance
     /// Bound of the distance from any point of the surface `a` to `b`: the maximum, over its
-    /// faces, of the largest corner distance plus the longest edge / sqrt(3). For a cloud `max`,
-    /// but for rounding.
+    /// faces, of the largest corner distance plus the longest edge / sqrt(3). For a cloud it is
+    /// `max`, rounded up.
     double there_at_most;
     /// With `both_ways`, a bound of the distance from any point of the surface `b` to `a`. The
     /// larger of this and `there_at_most` bounds the Hausdorff distance of the surfaces.
