@@ -96,7 +96,7 @@ const element* attributes::find(std::string_view element_name) const {
     return named(elements, element_name);
 }
 
-element& attributes::obtain(std::string_view element_name, std::size_t rows) {
+element& attributes::find_or_add(std::string_view element_name, std::size_t rows) {
     if (const element* found = find(element_name)) return const_cast<element&>(*found);
     elements.push_back({.name = std::string(element_name), .rows = rows});
     return elements.back();

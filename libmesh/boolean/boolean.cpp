@@ -241,7 +241,7 @@ near_result labeled_of(mesh_view mesh, std::span<const std::uint32_t> is_guess,
     const auto labels = detail::boolean::label_cells(
         pieces, cells, count, guesses, [&] { return options.progress && !options.progress(0.6); });
     if (!labels) return {stopped_result()};
-    counts = {count - 1, labels->dropped_area, labels->turned_area};
+    counts = {count - 1, labels->dropped_area, labels->flipped_area};
     detail::boolean::chosen_surface chosen{
         detail::round::faces_around(pieces, cells, labels->inside),
         detail::boolean::dispositions_of(operands.all(), cut.near, disposition::dropped)};
@@ -413,8 +413,8 @@ boolean_result subtract(const mesh_ref& a, const mesh_ref& b, const boolean_opti
 
 boolean_result symmetric_difference(const mesh_ref& a, const mesh_ref& b,
                                     const boolean_options& options) {
-    return evaluate("symmetric_difference", std::array{a, b}, boolean_expression::xor_of(2),
-                    options);
+    return evaluate("symmetric_difference", std::array{a, b},
+                    boolean_expression::symmetric_difference_of(2), options);
 }
 
 boolean_result clip(const mesh_refs& operands, std::uint32_t sheet,

@@ -241,7 +241,7 @@ boolean_expression boolean_expression::difference_of(std::size_t operand_count) 
     return {operand_count, minus};
 }
 
-boolean_expression boolean_expression::xor_of(std::size_t operand_count) {
+boolean_expression boolean_expression::symmetric_difference_of(std::size_t operand_count) {
     return {operand_count, exclude};
 }
 

@@ -74,7 +74,7 @@ labeled_cells counted(const cell_faces& known, std::vector<std::uint8_t> inside)
         if (in_front == is_behind)
             result.dropped_area += area;
         else if (f.times != 0.0 && in_front == (f.times > 0.0))
-            result.turned_area += area;
+            result.flipped_area += area;
     }
     return result;
 }

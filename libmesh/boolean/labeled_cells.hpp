@@ -18,7 +18,7 @@ namespace treeform::detail::boolean {
 struct labeled_cells {
     std::vector<std::uint8_t> inside;  ///< [C] 0 for the unbounded one
     double dropped_area = 0.0;         ///< of given faces with the same label on both sides
-    double turned_area = 0.0;          ///< of given faces with the inside in front
+    double flipped_area = 0.0;         ///< of given faces with the inside in front
 };
 
 /// The labels with the least disagreement. None where `stop` says so.

@@ -27,7 +27,7 @@ struct resolved_operand {
 struct label_counts {
     std::uint64_t cells = 0;  ///< bounded ones
     double dropped_area = 0.0;
-    double turned_area = 0.0;
+    double flipped_area = 0.0;
 };
 
 struct labeled_result {

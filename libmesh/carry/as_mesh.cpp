@@ -92,7 +92,7 @@ usable_mesh as_mesh(mesh_file file) {
     usable_mesh result;
     const std::size_t before = file.mesh.faces.size();
     result.triangle_of_face = drop_unusable_faces(file.mesh);
-    result.dropped = before - file.mesh.faces.size();
+    result.non_finite = before - file.mesh.faces.size();
     detail::weld::joined_faces joined = detail::weld::join_faces(file.mesh);
     if (joined.changed) file.mesh.faces = std::move(joined.faces);
     for (point3& p : file.mesh.points)  // behind the join, or a 0 of ours might stand for another
@@ -108,7 +108,7 @@ usable_mesh usable_part(mesh given, std::vector<std::uint32_t> stored_face,
     const mesh_defects defects = find_defects(part.mesh);
     const std::vector<std::uint32_t> unusable = unusable_faces(defects);
     part.degenerate = defects.degenerate_faces.size();
-    part.dropped = unusable.size();
+    part.non_finite = unusable.size();
     if (!unusable.empty() || !defects.nonfinite_points.empty())
         keep_faces(part, all_but(part.mesh.faces.size(), unusable));
     if (part.mesh.faces.empty()) return part;

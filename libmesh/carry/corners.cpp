@@ -246,7 +246,7 @@ void carry_corners(mesh_file& file, std::span<const carry_source> inputs,
     corner_values& corners = file.attributes.corners;
     corners.texture_of_corner = carried(inputs, file.mesh, made, corners.texture);
     if (const column* list = double_list(inputs); list && !corners.texture_of_corner.empty())
-        file.attributes.obtain("face", file.mesh.faces.size()).columns.push_back(*list);
+        file.attributes.find_or_add("face", file.mesh.faces.size()).columns.push_back(*list);
     corners.normal_of_corner = carried(inputs, file.mesh, made, corners.normals);
     corners.has_w = std::any_of(inputs.begin(), inputs.end(), [](const carry_source& input) {
         return input.file->attributes.corners.has_w;

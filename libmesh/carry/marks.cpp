@@ -51,9 +51,9 @@ void face_marks::color(mesh_file& file, const usable_mesh& looked_at) const {
         file.indexed = true;
     }
     using detail::attribute::set_colors;
-    element& vertices = file.attributes.obtain("vertex", file.mesh.points.size());
+    element& vertices = file.attributes.find_or_add("vertex", file.mesh.points.size());
     set_colors(vertices, marks_of_vertices(file.mesh, classes), mark_colors);
-    element& faces = file.attributes.obtain("face", file.mesh.faces.size());
+    element& faces = file.attributes.find_or_add("face", file.mesh.faces.size());
     set_colors(faces, classes, mark_colors);
     faces.set(column::of<std::int32_t>("tf_class", kinds));
     faces.set(column::of<std::int32_t>("tf_region", regions));

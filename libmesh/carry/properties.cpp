@@ -271,14 +271,14 @@ void carry_all(mesh_file& file, const carry_sources& sources, const carried_elem
     const mesh& surface = file.mesh;
     if (const auto of_points = properties_of(inputs, "vertex"); sources.has_vertex_values()) {
         const std::vector<mixture> mixtures = mixtures_of(inputs, surface, made);
-        element& rows = file.attributes.obtain("vertex", surface.points.size());
+        element& rows = file.attributes.find_or_add("vertex", surface.points.size());
         for (const property& p : of_points)
             rows.columns.push_back(make_values(
                 p, mixtures.size(), [&](std::size_t row) { return value_of(p, mixtures[row]); }));
         if (any_has_normals(inputs)) carry_normals(rows, inputs, surface, made, mixtures);
     }
     if (const auto of_faces = properties_of(inputs, "face"); !of_faces.empty()) {
-        element& rows = file.attributes.obtain("face", surface.faces.size());
+        element& rows = file.attributes.find_or_add("face", surface.faces.size());
         for (const property& p : of_faces)
             rows.columns.push_back(make_values(p, surface.faces.size(), [&](std::size_t row) {
                 const auto [operand, index] = made.face_source[row];

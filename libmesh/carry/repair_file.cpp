@@ -18,10 +18,10 @@ void add(repair_statistics& sum, const repair_statistics& part) {
     sum.repeated += part.repeated;
     sum.closed_edges += part.closed_edges;
     sum.split_edges += part.split_edges;
-    sum.gap = std::max(sum.gap, part.gap);
-    sum.widest = std::max(sum.widest, part.widest);
+    sum.gap_limit = std::max(sum.gap_limit, part.gap_limit);
+    sum.widest_closed = std::max(sum.widest_closed, part.widest_closed);
     sum.flipped += part.flipped;
-    sum.turned += part.turned;
+    sum.turned_outward += part.turned_outward;
     sum.strays += part.strays;
     sum.holes += part.holes;
     sum.hole_edges += part.hole_edges;
@@ -32,7 +32,7 @@ void add(repair_statistics& sum, const repair_statistics& part) {
     sum.removed += part.removed;
     sum.labeled_cells += part.labeled_cells;
     sum.dropped_area += part.dropped_area;
-    sum.turned_area += part.turned_area;
+    sum.flipped_area += part.flipped_area;
     sum.split_vertices += part.split_vertices;
     sum.detached += part.detached;
     sum.touching += part.touching;

@@ -48,7 +48,7 @@ mesh_file described(const mesh_file& file) {
 void append_texture_numbers(mesh_file& scene, const mesh_file& one, std::size_t faces) {
     const column* const more = texture_numbers(one);
     if (more == nullptr || scene.attributes.texture_files.empty()) return;
-    element& rows = scene.attributes.obtain("face", 0);
+    element& rows = scene.attributes.find_or_add("face", 0);
     rows.rows += faces;
     if (rows.columns.empty()) return rows.columns.push_back(*more);
     auto& values = rows.columns[0].values;

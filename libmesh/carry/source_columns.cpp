@@ -32,7 +32,7 @@ void set_source_columns(mesh_file& file, const std::string& name,
         meshes.push_back(source.operand);
         faces.push_back(source.index);
     }
-    element& rows = file.attributes.obtain("face", file.mesh.faces.size());
+    element& rows = file.attributes.find_or_add("face", file.mesh.faces.size());
     rows.columns.push_back(column::of<std::uint32_t>(name + "_mesh", meshes));
     rows.columns.push_back(column::of<std::uint32_t>(name + "_face", faces));
     for (std::size_t i = 0; i < inputs.size(); ++i)

@@ -48,7 +48,7 @@ class renumberer {
             warn(name, std::to_string(wrong) + (wrong == 1 ? " face has a" : " faces have a") +
                            " " + number_name + " that names no texture file; -1 there");
         const bool was_there = given != nullptr;
-        element& faces = file.attributes.obtain("face", file.stored_faces);
+        element& faces = file.attributes.find_or_add("face", file.stored_faces);
         if (faces.set(column::of<std::int32_t>(number_name, numbers)) && !was_there)
             warn(name, std::string("lists ") + number_name + " of faces are replaced by numbers");
     }

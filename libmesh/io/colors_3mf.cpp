@@ -29,7 +29,7 @@ void add_color_columns(mesh_file& file, const char* element_name,
     constexpr const char* names[] = {"red", "green", "blue", "alpha"};
     const bool opaque = std::all_of(colors.begin(), colors.end(),
                                     [](std::uint32_t c) { return (c & 0xffU) == 0xffU; });
-    element& e = file.attributes.obtain(element_name, colors.size());
+    element& e = file.attributes.find_or_add(element_name, colors.size());
     for (unsigned channel = 0; channel < (opaque ? 3U : 4U); ++channel) {
         std::vector<std::uint8_t> values(colors.size());
         std::transform(colors.begin(), colors.end(), values.begin(), [&](std::uint32_t c) {

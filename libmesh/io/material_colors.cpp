@@ -125,7 +125,7 @@ void add_material_colors(mesh_file& file, const std::filesystem::path& path) {
     const bool opaque =
         std::all_of(colors.begin(), colors.end(), [](const rgba& c) { return c[3] == 255; });
     constexpr std::array<const char*, 4> channels{"red", "green", "blue", "alpha"};
-    element& faces = file.attributes.obtain("face", colors.size());
+    element& faces = file.attributes.find_or_add("face", colors.size());
     for (std::size_t c = 0; c < (opaque ? 3U : 4U); ++c) {
         std::vector<std::uint8_t> values(colors.size());
         std::transform(colors.begin(), colors.end(), values.begin(),

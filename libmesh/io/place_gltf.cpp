@@ -237,7 +237,7 @@ class placer_gltf {
         store_colors_of_faces();
         if (normals_.empty() && texture_.empty() && colors_.empty()) return;
         const std::size_t count = file_.mesh.points.size();
-        auto& columns = file_.attributes.obtain("vertex", count).columns;
+        auto& columns = file_.attributes.find_or_add("vertex", count).columns;
         for (std::size_t k = 0; k < 3 && !normals_.empty(); ++k)
             columns.push_back(float_column(std::array{"nx", "ny", "nz"}[k], count,
                                            [&](std::size_t i) { return normals_[i][k]; }));
@@ -270,7 +270,7 @@ class placer_gltf {
         if (std::ranges::none_of(materials_, has_color)) return;
         const bool is_opaque =
             std::ranges::all_of(materials_, [&](std::size_t m) { return color_of(m)[3] >= 1.0; });
-        auto& columns = file_.attributes.obtain("face", materials_.size()).columns;
+        auto& columns = file_.attributes.find_or_add("face", materials_.size()).columns;
         bool is_rounded = false;
         for (std::size_t k = 0; k < (is_opaque ? 3U : 4U); ++k) {
             std::vector<std::uint8_t> values(materials_.size());

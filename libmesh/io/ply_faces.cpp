@@ -55,7 +55,7 @@ class ply_faces {
 
     /// The points of the part, and what is to be reported of them.
     void put_points(face_rows& faces, const file_part& part) {
-        const std::uint64_t count = *rows_.count;
+        const std::uint64_t count = rows_.count;
         const std::uint64_t first = part.first(count);
         const std::uint64_t last = part.last(count);
         const std::uint64_t step = count / sample_size + 1;

@@ -27,7 +27,7 @@ class point_blocks {
     point_blocks& operator=(const point_blocks&) = delete;
 
     [[nodiscard]] const mesh_file& header() const { return rows_.head; }
-    [[nodiscard]] std::optional<std::uint64_t> count() const { return rows_.count; }
+    [[nodiscard]] std::uint64_t count() const { return rows_.count; }
     bool read(point_block& block, std::size_t most);
     bool read(row_block& block, std::size_t most) {
         return rows_.behind && rows_.behind(block, most, rows_.head.warnings);

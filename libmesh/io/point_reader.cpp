@@ -22,7 +22,7 @@ point_reader::point_reader(point_reader&&) noexcept = default;
 point_reader& point_reader::operator=(point_reader&&) noexcept = default;
 
 const mesh_file& point_reader::header() const { return state_->blocks.header(); }
-std::optional<std::uint64_t> point_reader::count() const { return state_->blocks.count(); }
+std::uint64_t point_reader::count() const { return state_->blocks.count(); }
 bool point_reader::read(std::vector<point3>& points, element& properties, std::size_t most) {
     detail::io::point_block block{std::move(points), std::move(properties)};
     const bool some = state_->blocks.read(block, most);

@@ -35,7 +35,7 @@ using byte_getter = std::function<void(std::uint64_t at, std::span<std::byte> by
 struct point_rows {
     /// Everything but the points; the element "vertex", if any, has columns without values.
     mesh_file head{};
-    std::optional<std::uint64_t> count{};
+    std::uint64_t count = 0;
     std::uint64_t left_out = 0;  ///< points that were passed over
     /// Appends the next points, at most `most` of them, and their rows to the columns of
     /// `vertices`, which are those of the head; returns how many. Zero at the end, where `warnings`

@@ -200,7 +200,7 @@ write_result point_writer::commit() {
 
 bool point_writer::has_parts() const { return !state_->rows.finish || state_->rows.finish_part; }
 
-std::uint64_t point_writer::points_together() const { return state_->rows.together; }
+std::uint64_t point_writer::part_granularity() const { return state_->rows.together; }
 
 bool point_writer::has_shared_values() const {
     return static_cast<bool>(state_->rows.share_values);
@@ -223,17 +223,17 @@ std::uint64_t point_writer::end_part() {
     return *s.points_end - s.head_size;
 }
 
-void point_writer::leave_room(std::uint64_t bytes) { state_->out->skip(bytes); }
+void point_writer::skip_bytes(std::uint64_t bytes) { state_->out->skip(bytes); }
 
-std::string point_writer::tell_part() {
-    return state_->rows.tell_part ? state_->rows.tell_part() : std::string();
+std::string point_writer::part_summary() {
+    return state_->rows.part_summary ? state_->rows.part_summary() : std::string();
 }
 
 detail::io::written_part point_writer::commit_part(write_result& result,
-                                                   const std::vector<std::string>& told) {
+                                                   const std::vector<std::string>& summaries) {
     state& s = *state_;
     if (!has_parts()) throw std::logic_error(s.file->name() + ": is not written in parts");
-    const std::uint64_t behind = s.rows.finish_part ? s.rows.finish_part(told) : 0;
+    const std::uint64_t behind = s.rows.finish_part ? s.rows.finish_part(summaries) : 0;
     s.out->flush();
     const std::uint64_t end = s.points_end.value_or(s.out->size() - behind);
     const detail::io::written_part made{s.head_size, end - s.head_size,

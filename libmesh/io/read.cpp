@@ -63,7 +63,7 @@ namespace {
             {"concave-faces", std::to_string(concave) + (concave == 1 ? " face is" : " faces are") +
                                   " not convex: some triangles of the fan from the first "
                                   "corner lie on each other"});
-    const std::size_t dropped = how.options.drop_nan ? file.drop_non_finite() : 0;
+    const std::size_t dropped = how.options.drop_non_finite ? file.drop_non_finite() : 0;
     if (dropped > 0)
         file.warnings.push_back({"non-finite", std::to_string(dropped) +
                                                    (dropped == 1 ? " point" : " points") +

@@ -220,7 +220,7 @@ class obj_reader {
                 {"vertex-colors", "only some vertices have a color; none was kept"});
             return;
         }
-        element& vertices = file_.attributes.obtain("vertex", count);
+        element& vertices = file_.attributes.find_or_add("vertex", count);
         std::vector<double> channel(count);
         const char* const names[] = {"red", "green", "blue"};
         for (std::size_t c = 0; c < 3; ++c) {
@@ -237,7 +237,7 @@ class obj_reader {
         const auto add = [&](const char* name, const auto& value) {
             std::vector<double> values(count);
             for (std::size_t v = 0; v < count; ++v) values[v] = value(v);
-            file_.attributes.obtain("vertex", count)
+            file_.attributes.find_or_add("vertex", count)
                 .columns.push_back(column::of<double>(name, values));
         };
         if (count > 0 && corners.texture.size() == count) {

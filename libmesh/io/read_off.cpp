@@ -207,7 +207,7 @@ class off_reader {
         for (std::size_t i = 0; bytes && i < extras.values.size(); ++i)
             bytes = i % width >= colors ||
                     (extras.whole[i % width] && extras.values[i] >= 0 && extras.values[i] <= 255);
-        element& e = file_.attributes.obtain(name, extras.rows);
+        element& e = file_.attributes.find_or_add(name, extras.rows);
         std::vector<double> values(extras.rows);
         for (std::size_t c = 0; c < width; ++c) {
             for (std::size_t row = 0; row < extras.rows; ++row)
@@ -225,7 +225,7 @@ class off_reader {
         column c = column::of<double>("off_color", faces_extra_.values);
         c.list_length = faces_extra_.widest < 256 ? scalar_type::uint8 : scalar_type::uint32;
         c.list_begin = std::move(faces_extra_.begin);
-        file_.attributes.obtain("face", faces_extra_.rows).columns.push_back(std::move(c));
+        file_.attributes.find_or_add("face", faces_extra_.rows).columns.push_back(std::move(c));
     }
 
     text text_;

@@ -85,7 +85,7 @@ class facet_bits {
     }
     void store(mesh_file& file) const {
         if (used_)
-            file.attributes.obtain("face", file.stored_faces)
+            file.attributes.find_or_add("face", file.stored_faces)
                 .columns.push_back(column::of<std::uint16_t>(bits_name, bits_));
     }
 
@@ -176,14 +176,14 @@ point_rows open_stl_points(const source& in, std::uint64_t first) {
     rows.head.stored_as = precision::float32;
     rows.head.format = "stl-binary";
     rows.head.attributes.header.assign(in.begin(), 80);
-    element& faces = rows.head.attributes.obtain("face", count);
+    element& faces = rows.head.attributes.find_or_add("face", count);
     faces.columns.push_back({.name = bits_name, .type = scalar_type::uint16});
     const element declared = faces;
     rows.count = std::uint64_t{3} * count;
     rows.left_out = first;
     const char* const facets = in.begin() + header_bytes;
-    rows.append = [&in, facets, next = first, end = *rows.count](auto& points, element&,
-                                                                 std::size_t most, auto&) mutable {
+    rows.append = [&in, facets, next = first, end = rows.count](auto& points, element&,
+                                                                std::size_t most, auto&) mutable {
         const std::uint64_t some = std::min<std::uint64_t>(most, end - next);
         for (std::uint64_t i = 0; i < some; ++i, ++next)
             points.push_back(corners_of(facets + record_bytes * (next / 3))[next % 3]);

@@ -97,27 +97,27 @@ class las_writer {
     }
 
     /// The chunks, as numbers of 32 bits.
-    std::string tell_part() {
+    std::string part_summary() {
         put_pending();
-        std::string told;
+        std::string summary;
         for (const laz::chunk& c : chunks_)
             for (const std::uint32_t n : {c.points, c.bytes}) {
                 std::array<char, 4> bytes;
                 base::store<std::endian::little>(bytes.data(), n);
-                told.append(bytes.data(), bytes.size());
+                summary.append(bytes.data(), bytes.size());
             }
-        return told;
+        return summary;
     }
 
     /// What follows the points gets its offset when all of them are there.
-    std::uint64_t finish_part(const std::vector<std::string>& told) {
+    std::uint64_t finish_part(const std::vector<std::string>& summaries) {
         put_pending();
         const std::uint64_t end_of_points = job_.out.size();
         at_ = first_point_ + count_ * plan_.record_size;
         if (is_packed()) {
             at_ = first_point_ + 8;
             chunks_.clear();
-            for (const std::string& part : told)
+            for (const std::string& part : summaries)
                 for (std::size_t i = 0; i + 8 <= part.size(); i += 8) {
                     const auto number = [&](std::size_t at) {
                         return base::load<std::uint32_t, std::endian::little>(part.data() + at);
@@ -253,11 +253,13 @@ void write_all(const write_job& job, bool packed) {
                             with_name(out, [&] { writer->put_points(points, vertices); });
                         },
                     .finish = [writer, &out] { with_name(out, [&] { writer->finish(); }); }};
-    sink.finish_part = [writer, &out](const std::vector<std::string>& told) {
-        return with_name(out, [&] { return writer->finish_part(told); });
+    sink.finish_part = [writer, &out](const std::vector<std::string>& summaries) {
+        return with_name(out, [&] { return writer->finish_part(summaries); });
     };
     if (!packed) return sink;
-    sink.tell_part = [writer, &out] { return with_name(out, [&] { return writer->tell_part(); }); };
+    sink.part_summary = [writer, &out] {
+        return with_name(out, [&] { return writer->part_summary(); });
+    };
     sink.together = laz_chunk;
     return sink;
 }

@@ -56,9 +56,9 @@ struct point_sink {
         behind{};                    ///< rows of other elements, if any can come
     std::function<void()> finish{};  ///< none: nothing is left to do
     /// Finishes a file that has only some of the points; returns the number of bytes behind them.
-    /// `told` is what `tell_part` gave for each part.
-    std::function<std::uint64_t(const std::vector<std::string>& told)> finish_part{};
-    std::function<std::string()> tell_part{};  ///< none: nothing
+    /// `summaries` is what `part_summary` gave for each part.
+    std::function<std::uint64_t(const std::vector<std::string>& summaries)> finish_part{};
+    std::function<std::string()> part_summary{};  ///< none: nothing
     /// Of values that do not stand point by point: they are put there from now on. None: others do.
     std::function<void(const detail::io::shared_values& place)> share_values{};
     std::uint64_t together = 1;  ///< parts but the last have a multiple of so many points

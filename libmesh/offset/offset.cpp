@@ -149,8 +149,8 @@ offset_result surface_at(mesh_view given, double distance, wanted_side side, boo
     }
     const auto [least, greatest] = detail::offset::bounds_of_distance(
         result.mesh, around, slack_share * step, progress.part(0.6, 0.7));
-    result.least = least;
-    result.greatest = greatest;
+    result.least_distance = least;
+    result.greatest_distance = greatest;
     if (!progress.cancelled()) certify(result, progress.part(0.7, 0.9));
     if (progress.cancelled() || result.certificate.status == status::cancelled)
         return ended(status::cancelled, options);

@@ -87,7 +87,7 @@ body_file& body_set::add(mesh_file content, std::string label, std::string name)
     std::vector<std::uint32_t> usable =
         file.cloud ? finite_points(content.mesh) : usable_faces(content.mesh);
     const std::size_t all = file.cloud ? content.mesh.points.size() : content.mesh.faces.size();
-    file.left_out = all - usable.size();
+    file.non_finite = all - usable.size();
     if (!usable.empty()) {
         shapes.push_back(
             file.cloud ? cloud_of(content.mesh, usable)

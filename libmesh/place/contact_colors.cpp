@@ -107,7 +107,7 @@ void placement::color(mesh_file& file, std::span<const mesh_relation> relations,
     const bool colors = !(keep_colors && has_colors(file));
     if (!cloud && colors && halo > 0.0) add_halo(file.mesh, halo, of_row);
     if (!cloud) of_row = by_stored_face(file, of_row);
-    element& rows = file.attributes.obtain(cloud ? "vertex" : "face", of_row.size());
+    element& rows = file.attributes.find_or_add(cloud ? "vertex" : "face", of_row.size());
     if (colors) detail::attribute::set_colors(rows, of_row, colors_of_classes);
     std::vector<std::int32_t> numbers;
     for (const std::uint8_t row : of_row) numbers.push_back(row > tint ? 0 : row);

@@ -231,7 +231,7 @@ std::optional<deviation_result> deviation_from(const prepared_mesh& a, const pre
         r.faces[found.order[i]] = found.face[i];
     }
     enter_moments(r);
-    r.there_at_most = bound_of(from, r.distances);
+    r.max_bound = bound_of(from, r.distances);
     r.histogram = histogram_of(r, options.bins);
     if (options.band) r.band_counts = counts_in(*options.band, r.distances);
     if (options.both_ways && !from.faces.empty()) {
@@ -245,7 +245,7 @@ std::optional<deviation_result> deviation_from(const prepared_mesh& a, const pre
         for (std::size_t i = 0; i < used.size(); ++i)
             distances[used[back.order[i]]] = back.distance[i];
         r.back_max = largest_of(distances);
-        r.back_at_most = bound_of(to, distances);
+        r.back_max_bound = bound_of(to, distances);
     }
     work.reach(1.0);
     return r;

@@ -49,7 +49,7 @@ void deviation_result::color(mesh_file& file, std::span<const double> distances,
             "treeform::deviation_result::color: a distance for each point is needed");
     if (!(low <= 0.0 && 0.0 <= high))
         throw std::invalid_argument("treeform::deviation_result::color: 0 is not from low to high");
-    element& rows = file.attributes.obtain("vertex", distances.size());
+    element& rows = file.attributes.find_or_add("vertex", distances.size());
     std::array<std::vector<std::uint8_t>, 3> channels;
     for (auto& one : channels) one.reserve(distances.size());
     for (const double d : distances) {

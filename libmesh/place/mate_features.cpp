@@ -179,7 +179,7 @@ class feature_mover {
             at.points.assign(moving_.view().points.begin(), moving_.view().points.end());
             return at;
         }
-        at.end = placement_end::stays;
+        at.end = placement_end::unchanged;
         at.matrix = seat;
         at.certificate.max_displacement =
             detail::max_displacement(moving_.view().points, seat, points);

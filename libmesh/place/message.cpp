@@ -92,7 +92,7 @@ std::string placement::message(std::span<const std::string> names) const {
                               : "nothing is in the way";
         case placement_end::too_far:
             return too_far(*this);
-        case placement_end::no_coordinates:
+        case placement_end::not_representable:
             if (effort.cut > 0)
                 return "no separating translation was found within " +
                        counted(effort.bound, "pair", "pairs") + " of faces";

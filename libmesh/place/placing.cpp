@@ -92,7 +92,7 @@ placement placing::finished() {
         known.max_displacement =
             detail::max_displacement(prepared_.view().points, result_.matrix, result_.points);
     switch (result_.end) {
-        case placement_end::no_coordinates:
+        case placement_end::not_representable:
             known.status = status::not_certified;
             break;
         case placement_end::out_of_range:
@@ -160,7 +160,7 @@ bool placing::stuck_at_start() {
     }
 }
 
-void placing::stay() { settle({}, {0.0, 0.0, -1.0}, 0.0, placement_end::stays); }
+void placing::stay() { settle({}, {0.0, 0.0, -1.0}, 0.0, placement_end::unchanged); }
 
 /// Writes the place down: `end` is what it is then, if it can be written.
 void placing::settle(const chosen_parts& known, const point3& motion, double time,
@@ -174,12 +174,12 @@ void placing::settle(const chosen_parts& known, const point3& motion, double tim
                          .close_in = close_in,
                          .effort = effort,
                          .progress = work_.part(0.6, 0.85)};
-    if (result_.bed && end != placement_end::stays && !forward) options.floor = result_.bed;
+    if (result_.bed && end != placement_end::unchanged && !forward) options.floor = result_.bed;
     auto settled = snap_to_representable(prepared_, parts.parts, motion, time, options);
     over();
     result_.statistics.backed_off = settled.backed_off;
     if (!settled.good) {
-        result_.end = placement_end::no_coordinates;
+        result_.end = placement_end::not_representable;
         return;
     }
     result_.end = end;
@@ -321,7 +321,7 @@ void placing::leave(const chosen_parts& parts, base::effort& effort) {
 }
 
 void placing::forget_place() {
-    result_.end = placement_end::stays;
+    result_.end = placement_end::unchanged;
     result_.contacts.clear();
     result_.contact_count = 0;
     result_.points.assign(prepared_.view().points.begin(), prepared_.view().points.end());

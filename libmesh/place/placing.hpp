@@ -61,7 +61,7 @@ class placing {
     void separate();
     /// The place is where the mesh is, if that can be written.
     void stay();
-    void measure() { result_.end = placement_end::stays; }
+    void measure() { result_.end = placement_end::unchanged; }
 
   private:
     struct stopped {};

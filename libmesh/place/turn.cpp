@@ -61,7 +61,7 @@ class turning {
             return ended(placement_end::starts_too_near);
         if (start == mesh_relation::touching && options_.clearance > 0.0)
             return ended(placement_end::starts_touching);
-        if (start == mesh_relation::touching) return settle(0.0, placement_end::stays);
+        if (start == mesh_relation::touching) return settle(0.0, placement_end::unchanged);
         return search();
     }
 
@@ -136,7 +136,7 @@ class turning {
             if (at == 0.0) break;  // where it came from
             unit = unit == 0.0 ? unit_of(points) : 2.0 * unit;
         }
-        return ended(placement_end::no_coordinates);
+        return ended(placement_end::not_representable);
     }
 
     /// The angle that moves the largest coordinate by about a unit in its last place.
@@ -173,10 +173,11 @@ class turning {
     [[nodiscard]] placement ended(placement_end end) {
         result_.end = cancelled() ? placement_end::cancelled : end;
         result_.certificate.precision = options_.precision;
-        result_.certificate.status = cancelled()                            ? status::cancelled
-                                     : end == placement_end::no_coordinates ? status::not_certified
-                                     : end == placement_end::out_of_range   ? status::out_of_range
-                                                                            : status::no_place;
+        result_.certificate.status = cancelled() ? status::cancelled
+                                     : end == placement_end::not_representable
+                                         ? status::not_certified
+                                     : end == placement_end::out_of_range ? status::out_of_range
+                                                                          : status::no_place;
         return std::move(result_);
     }
 

@@ -70,7 +70,7 @@ class repairer {
         if (options_.fill && !options_.sheet) fill();
         closed_.emplace(mesh_, turned_as_one_, known_edges());
         // What is outer is outward by its label, and a cavity of what is open looks like no cavity.
-        if (options_.orient && !is_by_labels()) did_.turned = closed_->turn_outward();
+        if (options_.orient && !is_by_labels()) did_.turned_outward = closed_->turn_outward();
         measure();
         if (is_by_labels())
             make_labeled_surface();
@@ -176,13 +176,13 @@ class repairer {
             if (fewest == 0) break;
             working_mesh tried = mesh_;
             const closed_cracks closed = detail::repair::close_cracks(tried, gap);
-            did_.gap = std::max(did_.gap, gap);
+            did_.gap_limit = std::max(did_.gap_limit, gap);
             if (closed.open_edges >= fewest) continue;
             fewest = closed.open_edges;
             best = std::move(tried);
             did_.closed_edges = closed.closed_edges;
             did_.split_edges = closed.split_edges;
-            did_.widest = closed.widest;
+            did_.widest_closed = closed.widest;
         }
         if (fewest == tally_.border) return;
         mesh_ = std::move(best);
@@ -321,7 +321,7 @@ class repairer {
             detail::boolean::resolve_by_labels(mesh_.view(), is_guess, how_to_resolve());
         did_.labeled_cells = labeled.counts.cells;
         did_.dropped_area = labeled.counts.dropped_area;
-        did_.turned_area = labeled.counts.turned_area;
+        did_.flipped_area = labeled.counts.flipped_area;
         count(guesses_.used(labeled.resolved.is_left));
         take(std::move(labeled.resolved));
     }

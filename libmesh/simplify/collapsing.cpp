@@ -430,8 +430,8 @@ simplify_result simplifying::finish() {
     }
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
         if (!tree_.contains(f)) continue;
-        result_.there_at_most = std::max(result_.there_at_most, proof_.there(f));
-        result_.back_at_most = std::max(result_.back_at_most, proof_.back(f));
+        result_.input_to_result_bound = std::max(result_.input_to_result_bound, proof_.there(f));
+        result_.result_to_input_bound = std::max(result_.result_to_input_bound, proof_.back(f));
         result_.mesh.faces.push_back(
             {number[faces_[f][0]], number[faces_[f][1]], number[faces_[f][2]]});
         result_.face_source.push_back(origin_[f].face);

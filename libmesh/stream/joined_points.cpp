@@ -20,7 +20,7 @@ mesh_file file_of(const mesh_file& header, io::point_block points) {
     file.warnings.clear();
     file.mesh.points = std::move(points.points);
     if (!points.properties.columns.empty())
-        file.attributes.obtain("vertex", 0) = std::move(points.properties);
+        file.attributes.find_or_add("vertex", 0) = std::move(points.properties);
     return file;
 }
 
@@ -52,9 +52,8 @@ joined_points::joined_points(const cloud_inputs& inputs, bool as_las, const comm
     for (std::size_t i = 0; i < inputs.paths.size(); ++i) {
         open(i);
         formats_.push_back(reader_->header().format);
-        const auto count = reader_->count();
-        counts_.push_back(count.value_or(0));
-        count_ = count_ && count ? std::optional(*count_ + *count) : std::nullopt;
+        counts_.push_back(reader_->count());
+        count_ += counts_.back();
         if (inputs.paths.size() == 1) {
             head_ = reader_->header();
             return;
@@ -145,7 +144,7 @@ void joined_points::fit(io::point_block& block) {
         const std::vector<std::string> names(2);
         mesh_file file = join(std::move(both), names, true);
         block.points = std::move(file.mesh.points);
-        block.properties = std::move(file.attributes.obtain("vertex", 0));
+        block.properties = std::move(file.attributes.find_or_add("vertex", 0));
     }
     if (!is_rounded()) return;
     single_ = fits_single(block.points);

@@ -31,7 +31,7 @@ class joined_points {
 
     /// Of all files together, without points.
     [[nodiscard]] const mesh_file& header() const { return head_; }
-    [[nodiscard]] std::optional<std::uint64_t> count() const { return count_; }
+    [[nodiscard]] std::uint64_t count() const { return count_; }
 
     [[nodiscard]] bool lacks_las_grid() const { return as_las_ && !head_.las; }
     void set_las_grid(las_header grid) { head_.las = std::move(grid); }
@@ -79,9 +79,9 @@ class joined_points {
     const cloud_inputs& inputs_;
     bool as_las_;
     mesh_file head_{};
-    std::optional<std::uint64_t> count_{0};
+    std::uint64_t count_ = 0;
     std::vector<std::string> formats_{};
-    std::vector<std::uint64_t> counts_{};  ///< of files, where they are known
+    std::vector<std::uint64_t> counts_{};  ///< of files
     std::vector<std::optional<io::record_index>>
         known_{};  ///< of files whose records were looked at
     std::vector<std::filesystem::path> unpacked_{};

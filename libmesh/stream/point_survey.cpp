@@ -102,7 +102,7 @@ class sampler {
 
 mesh_file source_of(std::string format) {
     mesh_file source{.stored_as = precision::float32, .format = std::move(format)};
-    static_cast<void>(source.attributes.obtain("vertex", 0));
+    static_cast<void>(source.attributes.find_or_add("vertex", 0));
     return source;
 }
 
@@ -111,7 +111,7 @@ bool is_single(const mesh_file& source) { return source.stored_as == precision::
 std::uint64_t points_of(const mesh_file& source) { return source.attributes.find("vertex")->rows; }
 
 void count_points(mesh_file& source, std::uint64_t points, bool single) {
-    source.attributes.obtain("vertex", 0).rows += static_cast<std::size_t>(points);
+    source.attributes.find_or_add("vertex", 0).rows += static_cast<std::size_t>(points);
     if (!single) source.stored_as = precision::float64;
 }
 
@@ -208,7 +208,7 @@ point_survey survey(joined_points& points, const communicator& all, const share&
             chosen.consider(id, p);
             if (tolerance) places.consider(cube_of(p, *tolerance), p);
         }
-        const auto count = static_cast<double>(points.count().value_or(s.points));
+        const auto count = static_cast<double>(points.count());
         pace.show("survey", static_cast<double>(s.points) / count);
     }
     s.warnings = points.warnings();

@@ -42,7 +42,7 @@ void points_out::write(const io::point_block& block) {
 void points_out::start_part(const work_folder& folder, const mesh_file& header,
                             const std::string& name, std::uint64_t mine) {
     if (all_ == nullptr) return;
-    const std::uint64_t together = writer_.points_together();
+    const std::uint64_t together = writer_.part_granularity();
     if (together > 1) leading_.emplace(folder, *all_, "leading." + name, header, mine, together);
     if (writer_.has_shared_values()) share_values(folder.file("values." + name), mine);
 }
@@ -66,7 +66,7 @@ void points_out::write(tile_faces& faces, bool all) {
         const std::uint64_t mine = writer_.end_part();
         const std::uint64_t points = all_->sum(mine);
         // That of the first one becomes the whole: the points of others are ahead of its rows.
-        if (all_->is_root()) writer_.leave_room(points - mine);
+        if (all_->is_root()) writer_.skip_bytes(points - mine);
     }
     faces.give(writer_, all, all_ == nullptr);
 }
@@ -75,7 +75,7 @@ write_result points_out::commit() {
     if (all_ == nullptr) return writer_.commit();
     if (leading_) leading_->give([&](const io::point_block& block) { write_to_file(block); });
     state_writer chunks;
-    chunks.text(writer_.tell_part());
+    chunks.text(writer_.part_summary());
     std::vector<std::string> parts;
     for (state_reader& one : all_->exchange(chunks)) parts.push_back(one.text());
     write_result result;

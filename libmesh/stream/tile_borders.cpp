@@ -161,11 +161,9 @@ bool tile_steps::is_outer(const point3& p, const share& tiles,
            !std::ranges::all_of(halos, [&](std::uint32_t t) { return tiles.has(t); });
 }
 
-/// By rank, and by number; rank 0 of all where others read nothing.
+/// By rank, and by number.
 share tile_steps::assigned_to(std::size_t rank) const {
-    const std::uint64_t count = survey_.cloud.points;
-    if (is_divided()) return communicator_.share_of(count, rank);
-    return rank == 0 ? share{0, count} : share{count, count};
+    return communicator_.share_of(survey_.cloud.points, rank);
 }
 
 /// Each receives its points: the dropped ones, and those that others follow.
@@ -246,7 +244,7 @@ void tile_steps::sum_up(tiles_welded& w, const kept_points& kept, const kept_poi
 }
 
 void tile_steps::gather_first(tiles_welded& w) const {
-    if (communicator_.is_alone() || !is_divided()) return;
+    if (communicator_.is_alone()) return;
     w.drops.clear();
     const std::uint64_t count = survey_.cloud.points;
     w.points = communicator_.is_root() ? share{0, count} : share{count, count};

@@ -73,7 +73,7 @@ class output_survey {
     [[nodiscard]] std::optional<precision> describe_types(mesh_file& head) const {
         if (axes_ == std::array<bool, 3>{}) return std::nullopt;
         const precision as = head.stored_as;
-        element& e = head.attributes.obtain("vertex", 0);
+        element& e = head.attributes.find_or_add("vertex", 0);
         for (column& c : e.columns)
             if (io::is_axis(c) && outgrown_[io::axis_number(c.role)])
                 c.type = head.stored_as == precision::float32 ? scalar_type::float32
@@ -146,9 +146,9 @@ class giving_back {
             mesh_file head = removed_head();  // parts of points, whatever is behind them
             if (!head.las) head.las.emplace();
             const point_writer writer(part("none"), head, 0, points_out::options_of(*to));
-            return writer.has_parts() && !(has_lists && writer.points_together() > 1);
+            return writer.has_parts() && !(has_lists && writer.part_granularity() > 1);
         };
-        return !all_.is_alone() && steps_.is_divided() && !asked_.map && has_parts(asked_.welded) &&
+        return !all_.is_alone() && !asked_.map && has_parts(asked_.welded) &&
                has_parts(asked_.removed);
     }
     [[nodiscard]] bool wants_map() const { return asked_.map || !asked_.map_path.empty(); }
@@ -187,10 +187,10 @@ class giving_back {
         if (faces_ != nullptr) faces_->describe(head_, drops_nothing());
         if (has_means() && !rows_->single()) head_.stored_as = precision::float64;
         if (!asked_.label.empty())
-            made_.label_replaced = head_.attributes.obtain("vertex", 0)
+            made_.label_replaced = head_.attributes.find_or_add("vertex", 0)
                                        .set({.name = asked_.label, .type = scalar_type::uint32});
         if (asked_.withhold)
-            head_.attributes.obtain("vertex", 0)
+            head_.attributes.find_or_add("vertex", 0)
                 .set({.name = "withheld", .type = scalar_type::uint8});
     }
 

@@ -167,9 +167,8 @@ tile_steps::planned tile_steps::plan_for_least_memory() const {
 }
 
 void tile_steps::check_before_survey() {
-    const auto points = source_.count();
-    const std::uint64_t least =
-        points ? weld_stream_options::memory_to_stream(source_.header(), *points) : 0;
+    const std::uint64_t points = source_.count();
+    const std::uint64_t least = weld_stream_options::memory_to_stream(source_.header(), points);
     const std::string of_tiles = " for the tiles in " + folder_.path().string();
     if (!task_.options.shared && finds_tiles()) {
         const bool all_finished = survey_.cloud.unfinished.empty();
@@ -181,7 +180,7 @@ void tile_steps::check_before_survey() {
     if (least <= task_.memory) return;
     if (!needs_survey()) fail_for_memory(least);
     if (task_.memory >= base_memory && !has_plan()) return;
-    const std::uint64_t enough = std::max(least, needs_of_one_tile(*points).tiles);
+    const std::uint64_t enough = std::max(least, needs_of_one_tile(points).tiles);
     fail_for_memory(
         enough,
         enough == least ? "" : " in any case, and at least " + in_megabytes(least) + " is needed");

@@ -299,7 +299,7 @@ std::optional<std::string> tile_search::share_counts(const std::optional<std::st
         firsts_.push_back(triangles);
         triangles += given.triangles;
         searched += given.searched;
-        part.dropped += given.part.dropped;
+        part.non_finite += given.part.non_finite;
         part.degenerate += given.part.degenerate;
         base::add_to_box(survey_.bounds, given.bounds);
         survey_.header.warnings = std::move(given.header.warnings);  // the last one has them all
@@ -307,7 +307,7 @@ std::optional<std::string> tile_search::share_counts(const std::optional<std::st
     }
     survey_.triangles = triangles;
     survey_.searched = searched;
-    survey_.part.dropped = part.dropped;
+    survey_.part.non_finite = part.non_finite;
     survey_.part.degenerate = part.degenerate;
     if (triangles > std::numeric_limits<std::uint32_t>::max())
         throw std::length_error(
@@ -373,7 +373,7 @@ void tile_search::look_at(const std::vector<io::placed_triangle>& block,
     }
     if (!bounds_known_) base::add_to_box(survey_.bounds, bounding_box(m.points));
     const mesh_defects defects = find_defects(m);
-    survey_.part.dropped += defects.nonfinite_faces.size();
+    survey_.part.non_finite += defects.nonfinite_faces.size();
     survey_.part.degenerate += defects.degenerate_faces.size();
     searched = drop_unusable_faces(m);
     if (defects.nonfinite_faces.empty()) {

@@ -19,7 +19,7 @@ std::string name_of_found(std::size_t tile) { return std::to_string(tile) + ".fo
 /// The numbers of a survey or of counters, in the order in which both are stored and loaded.
 template <class Survey, class Visit>
 void each_number(Survey& s, const Visit& visit) {
-    for (auto* n : {&s.stored_faces, &s.triangles, &s.searched, &s.points, &s.part.dropped,
+    for (auto* n : {&s.stored_faces, &s.triangles, &s.searched, &s.points, &s.part.non_finite,
                     &s.part.degenerate})
         visit(*n);
 }

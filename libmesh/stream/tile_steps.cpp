@@ -120,9 +120,7 @@ std::filesystem::path tile_steps::points_file(std::size_t t, std::size_t part) c
 
 share tile_steps::read_by(std::size_t rank) const {
     if (communicator_.is_alone()) return {};
-    const auto count = source_.count();
-    if (!count) return rank == 0 ? share{} : share{0, 0};
-    return communicator_.share_of(*count, rank);
+    return communicator_.share_of(source_.count(), rank);
 }
 
 share tile_steps::tiles_of(std::size_t rank, bool unfinished) const {

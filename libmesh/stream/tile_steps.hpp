@@ -106,8 +106,6 @@ class tile_steps {
     /// \throws io_error with what would be enough, where memory is not
     void check_before_borders() const;
     [[nodiscard]] tiles_welded weld_borders();
-    /// Whether each rank reads its points, and is assigned them.
-    [[nodiscard]] bool is_divided() const { return source_.count().has_value(); }
     /// Tells rank 0 of all points, and the others of none.
     void gather_first(tiles_welded& w) const;
 
@@ -243,7 +241,7 @@ class tile_steps {
                                                  const kept_points& by_rank) const;
     [[nodiscard]] share assigned_to(std::size_t rank) const;
     [[nodiscard]] std::size_t owner_of(std::uint64_t point) const {
-        return is_divided() ? communicator_.owner_of(point, survey_.cloud.points) : 0;
+        return communicator_.owner_of(point, survey_.cloud.points);
     }
     /// Of the points with these ranks.
     [[nodiscard]] row_chain numbers_by_rank(const share& some = {}) const;

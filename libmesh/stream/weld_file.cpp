@@ -111,7 +111,7 @@ void file_weld_result::withhold(mesh_file& file) const {
     const std::vector<std::uint32_t>& group_of = welded.groups.group_of_point;
     if (group_of.size() != file.mesh.points.size())
         throw std::invalid_argument("treeform::withhold: the result of another number of points");
-    element& vertices = file.attributes.obtain("vertex", group_of.size());
+    element& vertices = file.attributes.find_or_add("vertex", group_of.size());
     const column* const before = vertices.find("withheld");
     const bool has_flags = before != nullptr && !before->list_length;
     std::vector<std::uint8_t> flags(group_of.size());
@@ -122,8 +122,8 @@ void file_weld_result::withhold(mesh_file& file) const {
     vertices.set(column::of<std::uint8_t>("withheld", flags));
 }
 
-std::optional<std::uint64_t> count_still_within(const mesh_file& welded,
-                                                const weld_options& options, precision written_as) {
+std::optional<std::uint64_t> count_mergeable(const mesh_file& welded, const weld_options& options,
+                                             precision written_as) {
     if (options.only_borders || options.keep_manifold) return std::nullopt;
     std::vector<point3> rounded;
     points_view points = welded.mesh.points;

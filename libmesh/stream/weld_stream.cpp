@@ -116,7 +116,7 @@ mesh_file cloud_inputs::outline(const treeform::communicator& ranks) const {
     const cloud_inputs all = named(*this);
     const detail::stream::joined_points points(all, false, detail::stream::communicator(ranks));
     mesh_file header = points.header();
-    header.attributes.obtain("vertex", 0).rows = static_cast<std::size_t>(points.count().value());
+    header.attributes.find_or_add("vertex", 0).rows = static_cast<std::size_t>(points.count());
     return header;
 }
 
@@ -160,9 +160,9 @@ struct stream_weld::state {
     }
 
     /// Of what was written, which is another cloud where points are not as they were.
-    void count_still_within(const weld_stream_outputs& outputs) {
+    void count_mergeable(const weld_stream_outputs& outputs) {
         if (!outputs.welded || outputs.withhold || !outputs.label.empty()) return;
-        made.still_within = 0;
+        made.mergeable = 0;
         const weld_stream_options& o = task.options;
         detail::stream::state_writer mine;
         mine.real(made.welded ? made.welded->max_displacement : 0.0);
@@ -200,7 +200,7 @@ struct stream_weld::state {
         twice.state_->faces.reset();
         const weld_stream_result result = run(twice, {});
         if (result.status == status::cancelled) throw detail::stream::cancelled{};
-        made.still_within = result.survey.points - result.kept;
+        made.mergeable = result.survey.points - result.kept;
         if (all.is_root()) fs::remove(whole);
     }
 
@@ -216,7 +216,6 @@ struct stream_weld::state {
 
     detail::stream::tile_task task;
     detail::stream::communicator all;
-    detail::stream::communicator lone{treeform::communicator{}};
     detail::stream::joined_points source;
     detail::stream::point_keys keys;
     detail::stream::cancellable_progress pace;
@@ -280,10 +279,8 @@ status stream_weld::weld() {
             s.steps.weld_tiles();
         }
         s.welded.emplace(s.steps.weld_borders());
-        const bool is_divided = s.steps.is_divided();
-        if (s.task.options.keep != weld_keep::first && (is_divided || s.all.is_root()))
-            s.rows.emplace(s.pace, s.folder, is_divided ? s.all : s.lone, s.task, s.steps,
-                           *s.welded);
+        if (s.task.options.keep != weld_keep::first)
+            s.rows.emplace(s.pace, s.folder, s.all, s.task, s.steps, *s.welded);
         s.made.kept = survey().points - s.welded->dropped;
         s.made.statistics.groups = s.welded->groups;
         s.made.statistics.non_finite = survey().non_finite;
@@ -298,7 +295,7 @@ status stream_weld::write(const weld_stream_outputs& outputs) {
         detail::stream::give_back(s.pace, s.task, outputs, s.steps, *s.welded,
                                   s.rows ? &*s.rows : nullptr, s.faces ? &*s.faces : nullptr,
                                   s.folder, s.made);
-        s.count_still_within(outputs);
+        s.count_mergeable(outputs);
     });
 }
 

@@ -101,7 +101,8 @@ void carry_points(points_view points, const attributes& properties, const weld_o
     detail::weld::take_means(points, members, places);
     const element* vertices = properties.find("vertex");
     if (vertices == nullptr) return;
-    detail::weld::take_means(*vertices, members, result.attributes.obtain("vertex", places.size()));
+    detail::weld::take_means(*vertices, members,
+                             result.attributes.find_or_add("vertex", places.size()));
 }
 
 }  // namespace
@@ -124,7 +125,7 @@ weld_result weld(const mesh_ref& given, const attributes& properties, const weld
         detail::weld::manifold_groups split = detail::weld::split_to_manifold(mesh, result.groups);
         result.groups = std::move(split.groups);
         if (!order.empty()) detail::weld::put_earliest_first(order, result.groups);
-        statistics.left_alone = split.split_up;
+        statistics.kept_apart = split.split_up;
     }
     statistics.groups = detail::weld::count_groups_of_several(result.groups);
     statistics.non_finite = count_non_finite(mesh.points);

@@ -19,7 +19,7 @@ namespace {
 template <std::size_t D>
 struct self_traversal {
     const tree<D>& t;
-    const node_marks<D>* settled;
+    const node_marks<D>* skipped;
     candidate_sink& sink;
     search_statistics seen{};
 
@@ -48,7 +48,7 @@ struct self_traversal {
 
     /// All pairs among the primitives below one node.
     void self(unsigned level, std::size_t a) {
-        if (settled != nullptr && (*settled)(level, a)) return;
+        if (skipped != nullptr && (*skipped)(level, a)) return;
         const wide_node<D>& node = t.level(level)[a];
         const std::size_t count = t.children(level, a);
         ++seen.nodes;
@@ -84,13 +84,13 @@ struct self_traversal {
 
 /// The overlapping node pairs of the level below, in the order the serial search meets them.
 template <std::size_t D>
-void descend(const tree<D>& t, const node_marks<D>* settled, unsigned level,
+void descend(const tree<D>& t, const node_marks<D>* skipped, unsigned level,
              std::span<const node_pair> pairs, std::vector<node_pair>& below) {
     const auto push = [&](std::size_t a, std::size_t b) {
         below.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)});
     };
     for (const auto [a, b] : pairs) {
-        if (a == b && settled != nullptr && (*settled)(level, a)) continue;
+        if (a == b && skipped != nullptr && (*skipped)(level, a)) continue;
         const wide_node<D>& node_a = t.level(level)[a];
         const wide_node<D>& node_b = t.level(level)[b];
         for (std::size_t i = 0; i < t.children(level, a); ++i) {
@@ -106,10 +106,10 @@ void descend(const tree<D>& t, const node_marks<D>* settled, unsigned level,
 }
 
 template <std::size_t D>
-search_statistics search_items(const tree<D>& t, const node_marks<D>* settled, unsigned level,
+search_statistics search_items(const tree<D>& t, const node_marks<D>* skipped, unsigned level,
                                std::span<const node_pair> items, block_visitor visit) {
     candidate_sink sink(visit);
-    self_traversal<D> traversal{t, settled, sink};
+    self_traversal<D> traversal{t, skipped, sink};
     for (std::size_t i = 0; i < items.size() && !sink.stopped(); ++i)
         traversal.visit(level, items[i]);
     sink.flush();
@@ -117,22 +117,22 @@ search_statistics search_items(const tree<D>& t, const node_marks<D>* settled, u
     return traversal.seen;
 }
 
-void descend_2(const tree<2>& t, const node_marks<2>* settled, unsigned level,
+void descend_2(const tree<2>& t, const node_marks<2>* skipped, unsigned level,
                std::span<const node_pair> pairs, std::vector<node_pair>& below) {
-    descend(t, settled, level, pairs, below);
+    descend(t, skipped, level, pairs, below);
 }
-void descend_3(const tree<3>& t, const detail::node_marks<3>* settled, unsigned level,
+void descend_3(const tree<3>& t, const detail::node_marks<3>* skipped, unsigned level,
                std::span<const node_pair> pairs, std::vector<node_pair>& below) {
-    descend(t, settled, level, pairs, below);
+    descend(t, skipped, level, pairs, below);
 }
-search_statistics search_items_2(const tree<2>& t, const node_marks<2>* settled, unsigned level,
+search_statistics search_items_2(const tree<2>& t, const node_marks<2>* skipped, unsigned level,
                                  std::span<const node_pair> items, block_visitor visit) {
-    return search_items(t, settled, level, items, visit);
+    return search_items(t, skipped, level, items, visit);
 }
-search_statistics search_items_3(const tree<3>& t, const detail::node_marks<3>* settled,
+search_statistics search_items_3(const tree<3>& t, const detail::node_marks<3>* skipped,
                                  unsigned level, std::span<const node_pair> items,
                                  block_visitor visit) {
-    return search_items(t, settled, level, items, visit);
+    return search_items(t, skipped, level, items, visit);
 }
 
 }  // namespace
@@ -149,22 +149,22 @@ HWY_EXPORT(descend_3);
 HWY_EXPORT(search_items_2);
 HWY_EXPORT(search_items_3);
 
-void descend(const tree<2>& t, const node_marks<2>* settled, unsigned level,
+void descend(const tree<2>& t, const node_marks<2>* skipped, unsigned level,
              std::span<const node_pair> pairs, std::vector<node_pair>& below) {
-    HWY_DYNAMIC_DISPATCH(descend_2)(t, settled, level, pairs, below);
+    HWY_DYNAMIC_DISPATCH(descend_2)(t, skipped, level, pairs, below);
 }
-void descend(const tree<3>& t, const detail::node_marks<3>* settled, unsigned level,
+void descend(const tree<3>& t, const detail::node_marks<3>* skipped, unsigned level,
              std::span<const node_pair> pairs, std::vector<node_pair>& below) {
-    HWY_DYNAMIC_DISPATCH(descend_3)(t, settled, level, pairs, below);
+    HWY_DYNAMIC_DISPATCH(descend_3)(t, skipped, level, pairs, below);
 }
-search_statistics search_items(const tree<2>& t, const node_marks<2>* settled, unsigned level,
+search_statistics search_items(const tree<2>& t, const node_marks<2>* skipped, unsigned level,
                                std::span<const node_pair> items, block_visitor visit) {
-    return HWY_DYNAMIC_DISPATCH(search_items_2)(t, settled, level, items, visit);
+    return HWY_DYNAMIC_DISPATCH(search_items_2)(t, skipped, level, items, visit);
 }
-search_statistics search_items(const tree<3>& t, const detail::node_marks<3>* settled,
+search_statistics search_items(const tree<3>& t, const detail::node_marks<3>* skipped,
                                unsigned level, std::span<const node_pair> items,
                                block_visitor visit) {
-    return HWY_DYNAMIC_DISPATCH(search_items_3)(t, settled, level, items, visit);
+    return HWY_DYNAMIC_DISPATCH(search_items_3)(t, skipped, level, items, visit);
 }
 
 // Where the search is cut: at the first level with enough pairs of nodes, in pieces of a few. Both
@@ -176,13 +176,13 @@ constexpr std::size_t items_per_chunk = 16;
 }  // namespace detail
 
 template <std::size_t D>
-self_search<D>::self_search(const tree<D>& tree, const detail::node_marks<D>* settled)
-    : tree_(&tree), settled_(settled) {
+self_search<D>::self_search(const tree<D>& tree, const detail::node_marks<D>* skipped)
+    : tree_(&tree), skipped_(skipped) {
     if (tree.empty()) return;
     items_ = {{0, 0}};
     while (!tree.is_leaf_level(level_) && items_.size() < detail::enough_items) {
         std::vector<detail::node_pair> below;
-        detail::descend(tree, settled, level_, items_, below);
+        detail::descend(tree, skipped, level_, items_, below);
         if (below.empty()) break;
         items_ = std::move(below);
         ++level_;
@@ -199,7 +199,7 @@ search_statistics self_search<D>::visit(
     std::size_t chunk, detail::function_ref<bool(const candidate_block&)> visit) const {
     const std::size_t begin = chunk * detail::items_per_chunk;
     const std::size_t count = std::min(detail::items_per_chunk, items_.size() - begin);
-    return detail::search_items(*tree_, settled_, level_, std::span(items_).subspan(begin, count),
+    return detail::search_items(*tree_, skipped_, level_, std::span(items_).subspan(begin, count),
                                 visit);
 }
 

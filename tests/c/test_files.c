@@ -143,7 +143,7 @@ static void test_columns(void) {
     treeform_read_options_init(&how, sizeof how);
     how.columns = columns;
     how.column_count = 3;
-    how.drop_nan = 1;
+    how.drop_non_finite = 1;
     OK(treeform_read_as(path, &how, &file));
     treeform_write_options_init(&options, sizeof options);
     options.rename = rename;
@@ -187,7 +187,7 @@ static void test_parts(void) {
     const treeform_box box = {{-10, -10, -10}, {10, 10, 0}};
     OK(treeform_read("data/two_spheres.stl", NULL, &file));
     OK(treeform_as_mesh(file, &part));
-    CHECK(part->mesh.face_count == 640 && part->mesh.point_count == 1920 && part->dropped == 0);
+    CHECK(part->mesh.face_count == 640 && part->mesh.point_count == 1920 && part->non_finite == 0);
     OK(treeform_read_mesh("data/two_spheres.stl", &mesh));
     OK(treeform_mesh_arrays(mesh, &arrays));
     CHECK(arrays.face_count == 640 && arrays.point_count == 1920);

@@ -152,7 +152,7 @@ static void test_deviation(void) {
     CHECK(result->count == 3 && result->is_signed == 1 && result->distances[0] == 0.25);
     CHECK(result->distances[1] == -0.25 && result->distances[2] == 0.0 && result->max == 0.25);
     for (i = 0; i < 3; ++i) CHECK(result->band_counts[i] == 1 && result->side_counts[i] == 1);
-    CHECK(result->bins == 40 && near(result->there_at_most, 0.25) && result->back_max > 0.0);
+    CHECK(result->bins == 40 && near(result->max_bound, 0.25) && result->back_max > 0.0);
     treeform_free(result);
     options.band_low = 0.2;
     INVALID("", treeform_deviation(cloud, fixed, 1, &options, &result));

@@ -47,7 +47,7 @@ static void test_simplified(void) {
     treeform_simplify_result* made = NULL;
     treeform_simplify_options_init(&options, sizeof options);
     OK(treeform_simplify(mesh, 0.01, &options, &made));
-    CHECK(made && made->mesh.face_count == 12 && made->there_at_most <= 0.01);
+    CHECK(made && made->mesh.face_count == 12 && made->input_to_result_bound <= 0.01);
     CHECK(made && made->vertex_source[0] == 0 && made->face_of_new_vertex[0] == UINT32_MAX);
     treeform_free(made);
     INVALID("max_distance", treeform_simplify(mesh, -1, NULL, &made));

@@ -101,15 +101,16 @@ static void test_weld_files(void) {
 }
 
 /* A team of one, which hears itself; and one that fails. */
-static int hear_myself(const void* told, size_t count, treeform_hear hear, void* listener,
+static int receive_own(const void* sent, size_t count, treeform_receive receive, void* listener,
                        void* calls) {
     ++*(int*)calls;
-    hear(told, count, listener);
+    receive(sent, count, listener);
     return 0;
 }
 
-static int fail(const void* told, size_t count, treeform_hear hear, void* listener, void* calls) {
-    (void)told, (void)count, (void)hear, (void)listener;
+static int fail(const void* sent, size_t count, treeform_receive receive, void* listener,
+                void* calls) {
+    (void)sent, (void)count, (void)receive, (void)listener;
     ++*(int*)calls;
     return 1;
 }
@@ -138,7 +139,7 @@ static void test_teams(void) {
     INVALID("exchange", treeform_weld_stream(inputs, 1, output, &options, &result));
     team.size = 1;
     team.rank = 0;
-    team.exchange = hear_myself; /* alone, there is nothing to tell */
+    team.exchange = receive_own; /* alone, there is nothing to tell */
     OK(treeform_weld_stream(inputs, 1, output, &options, &result));
     CHECK(calls == 1 && result->kept == 1000);
     treeform_free(result);
@@ -211,9 +212,8 @@ static void test_blocks(void) {
     treeform_file_view* view = NULL;
     treeform_written* written = NULL;
     uint64_t count = 0, blocks = 0, points = 0;
-    int32_t known = 0;
     OK(treeform_point_reader_create(write_grid("blocks.xyz"), NULL, &reader));
-    OK(treeform_point_reader_header(reader, &header, &count, &known));
+    OK(treeform_point_reader_header(reader, &header, &count));
     OK(treeform_point_writer_create(path_in_work("blocks.ply"), header, 1000, NULL, &writer));
     INVALID("most is 0", treeform_point_reader_next(reader, 0, &block));
     for (;;) {

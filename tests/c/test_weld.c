@@ -91,7 +91,7 @@ static void test_file(void) {
     options.same_count = 1;
     OK(treeform_weld_file(file, &options, &result));
     CHECK(result->mesh.point_count == 3 && result->point_of_group[1] == 1);
-    OK(treeform_count_still_within(result->file, &options, TREEFORM_FLOAT32, &count, &known));
+    OK(treeform_count_mergeable(result->file, &options, TREEFORM_FLOAT32, &count, &known));
     CHECK(known == 1 && count == 0);
     OK(treeform_withhold(file, result));
     OK(treeform_file_look(file, &view));

@@ -109,7 +109,7 @@ intersection/float     pairs   intersection {a} {b} --matrix 2:{m} -o out.ply --
                                --ascii
 difference/stl         pairs   difference {a} {b} --matrix 2:{m} -o out.stl --ascii
 difference/open        pairs   difference {a} {b} --matrix 2:{m} -o out.ply --accept-open
-xor/off                pairs   xor {a} {b} --matrix 2:{m} -o out.off
+symmetric-difference/off pairs  symmetric-difference {a} {b} --matrix 2:{m} -o out.off
 split/ply              pairs   split {a} {b} --matrix 2:{m} -o out.ply --curves curves.ply
 expr=b-a/glb           pairs   --expr b-a {a} {b} --matrix 2:{m} -o out.glb --source s
 simplify/obj           pairs   union {a} {b} --matrix 2:{m} --simplify -o out.obj
@@ -119,7 +119,7 @@ inside=positive        pairs   difference {a} {b} --matrix 2:{m} --inside positi
 check/pair             pairs   --check {a} {b} --matrix 2:{m}
 page                   pairs   union {a} {b} --matrix 2:{m} -n --html page.html --png p.png --png-size \
                                320x240 --view all
-dry                    pairs   xor {a} {b} -n
+dry                    pairs   symmetric-difference {a} {b} -n
 self/stl               all     union {f} -o out.stl
 self/ply               small   union {f} -o out.ply --precision double
 self/obj               small   union {f} -o out.obj --max-move 0
@@ -135,14 +135,14 @@ self/simplify-plain    few     union {f} --no-attributes --simplify -o out.obj
 self/threads           few     union {f} -j 1 -o one.ply ; union {f} -j 5 -o five.ply
 with-box/ply           made    difference {f} made/box.obj -o out.ply --ascii --source s
 with-box/obj           made    union made/box.obj {f} -o out.obj
-with-box/glb           made    xor {f} made/box.obj -o out.glb
+with-box/glb           made    symmetric-difference {f} made/box.obj -o out.glb
 with-box/split         made    split {f} made/box.obj -o out.ply --ascii
 with-box/simplify      made    difference {f} made/box.obj -o out.ply --ascii --simplify --source s
 with-box/plain         made    difference {f} made/box.obj -o out.ply --ascii --no-attributes
 union                  triples union {a} {b} {c} -o out.ply --source s
 intersection           triples intersection {a} {b} {c} -o out.stl
 difference             triples difference {a} {b} {c} -o out.obj --curves curves.ply
-xor                    triples xor {a} {b} {c} -o out.ply --precision double
+symmetric-difference   triples symmetric-difference {a} {b} {c} -o out.ply --precision double
 split                  triples split {a} {b} {c} -o out.ply
 expr=(a-b)*c           triples --expr (a-b)*c {a} {b} {c} -o out.stl --simplify
 expr=(a+b)-c           triples --expr (a|b)-c {a} {b} {c} -o out.ply -v

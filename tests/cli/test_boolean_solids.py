@@ -13,7 +13,8 @@ class Solids(BooleanTest):
 
     def test_each_operation_has_its_volume(self):
         for words, expected in ((["union"], 15), (["intersection"], 1), (["difference"], 7),
-                                (["xor"], 14), (["--expr", "b-a"], 7), (["--expr", "a+b"], 15)):
+                                (["symmetric-difference"], 14), (["--expr", "b-a"], 7),
+                                (["--expr", "a+b"], 15)):
             entry = self.made(*words, "a.obj", "b.obj")
             self.assertEqual(entry["output"]["volume"], expected)
             self.assertEqual(volume(*self.solid("out.obj")), expected)

@@ -37,8 +37,9 @@ class Usage(BooleanTest):
         self.assertTrue(run.text.startswith("Usage: tf-boolean OP [OPTIONS] INPUT..."))
         self.assertEqual([line for line in run.text.splitlines() if len(line) > 80], [])
         self.assertNotIn("--in-place", run.text)
-        for word in ("union", "intersection", "difference", "xor", "split", "--expr", "--matrix",
-                     "--inside", "--check", "--accept-open", "--simplify", "--max-move",
+        for word in ("union", "intersection", "difference", "symmetric-difference", "split",
+                     "--expr", "--matrix", "--inside", "--check", "--accept-open", "--simplify",
+                     "--max-move",
                      "--source", "--no-attributes", "--curves", "--min-volume", "--gap",
                      "Common options:", "Examples:", "Exit status:"):
             self.assertIn(word, run.text)
@@ -178,8 +179,8 @@ class Usage(BooleanTest):
     def test_threads_do_not_show(self):
         written = set()
         for threads in (1, 2, 8):
-            self.run_tool("xor", "a.obj", "b.obj", "c.obj", "-o", "out.ply", "-f", "-j", threads,
-                          status=0)
+            self.run_tool("symmetric-difference", "a.obj", "b.obj", "c.obj", "-o", "out.ply",
+                          "-f", "-j", threads, status=0)
             written.add(self.read_bytes("out.ply"))
         self.assertEqual(len(written), 1)
 

@@ -10,8 +10,8 @@ TOOLS = {name: os.environ["TF_" + name.upper()]
 MODES = {"place": {"drop": "drop", "lay": "lay", "slide": "slide", "mate": "mate", "turn": "turn",
                    "clear": "separate", "arrange": "pack", "fit": "align", "measure": "measure",
                    "clash": "clash", "check": "check"},
-         "boolean": {mode: mode for mode in ("union", "intersection", "difference", "xor",
-                                             "split")},
+         "boolean": {mode: mode for mode in ("union", "intersection", "difference",
+                                             "symmetric-difference", "split")},
          "cut": {mode: mode for mode in ("half", "section", "isolines", "pieces", "parts", "info",
                                          "simplify",
                                          "offset", "hollow", "thicken")}}

@@ -83,7 +83,8 @@ class Mend(ToolTest):
         entry = self.mended(rooms, "-o", "house.obj")
         self.assertEqual(volume(*obj_mesh(self.read("house.obj"))), 4)
         did = entry["repair"]["steps"]["resolve"]
-        self.assertEqual((did["labeled_cells"], did["dropped_area"], did["turned_area"]), (4, 4, 0))
+        self.assertEqual((did["labeled_cells"], did["dropped_area"], did["flipped_area"]),
+                         (4, 4, 0))
         self.assertIn("4 cells labeled inside or outside (area 4 dropped)",
                       self.run_tool(rooms, "-n", status=0).text)
         self.run_tool("house.obj", "--check", status=0)

@@ -182,10 +182,10 @@ class Attributes(WeldTest):
 
     def test_points_that_are_none_are_dropped_first(self):
         self.write("in.xyz", "1 2 3\nnan 2 3\n1 2 inf\n4 5 6\n")
-        entry = self.entry("in.xyz", "--drop-nan", "-o", "out.xyz", status=0)
+        entry = self.entry("in.xyz", "--drop-non-finite", "-o", "out.xyz", status=0)
         self.assertEqual(self.numbers("out.xyz"), [(1, 2, 3), (4, 5, 6)])
         self.assertEqual([w["code"] for w in entry["warnings"]], ["non-finite"])
-        self.run_tool("in.xyz", "--drop-nan", "--map", "m.csv", "-o", "o.xyz", status=2)
+        self.run_tool("in.xyz", "--drop-non-finite", "--map", "m.csv", "-o", "o.xyz", status=2)
 
     def test_las_of_other_systems_or_times_is_joined_only_when_asked(self):
         points = self.colored(9)

@@ -140,17 +140,17 @@ class Meshes(WeldTest):
         write(self.path("fan.obj"), fan)
         entry = self.entry("fan.obj", "-o", "out.obj", status=0)
         self.assertEqual(entry["nonmanifold_edges"], {"before": 0, "after": 1})
-        self.assertEqual(entry["left_alone"], None)
+        self.assertEqual(entry["kept_apart"], None)
         self.assertIn("nonmanifold", [w["code"] for w in entry["warnings"]])
         entry = self.entry("fan.obj", "--keep-manifold", "-o", "apart.obj", status=0)
         self.assertEqual(entry["nonmanifold_edges"], {"before": 0, "after": 0})
-        self.assertGreater(entry["left_alone"], 0)
+        self.assertGreater(entry["kept_apart"], 0)
         self.assertEqual(entry["warnings"], [])
 
     def test_keep_manifold_closes_a_soup_all_the_same(self):
         write(self.path("cube.stl"), cube())
         entry = self.entry("cube.stl", "--keep-manifold", "-o", "out.obj", status=0)
-        self.assertEqual((entry["points"]["out"], entry["left_alone"]), (8, 0))
+        self.assertEqual((entry["points"]["out"], entry["kept_apart"]), (8, 0))
 
     def test_faces_that_turn_over_are_counted(self):
         points = [(0, 0, 0), (10, 0, 0), (5, 0.1, 0), (5, -1, 0), (5, -0.3, 0)]

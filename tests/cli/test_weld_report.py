@@ -12,7 +12,7 @@ FILE = {"input": str, "exit": int, "error": type(None), "format": str, "sha256":
         "precision_in": str, "sources": list, "tiles": type(None), "points": dict, "faces": dict,
         "polygons": dict,
         "box": dict, "skipped": dict, "tolerance": dict, "rule": str, "keep": str, "order": str,
-        "same": list, "displacement": dict, "nonmanifold_edges": dict, "left_alone": type(None),
+        "same": list, "displacement": dict, "nonmanifold_edges": dict, "kept_apart": type(None),
         "output": (dict, type(None)), "map": type(None), "removed": type(None),
         "label": type(None), "withheld": type(None), "warnings": list}
 

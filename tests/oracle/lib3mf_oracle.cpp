@@ -31,7 +31,7 @@ namespace {
 
 void set_bytes(tf::mesh_file& file, const char* element, std::size_t rows, const char* name,
                const std::vector<std::uint8_t>& values) {
-    file.attributes.obtain(element, rows).set(tf::column::of<std::uint8_t>(name, values));
+    file.attributes.find_or_add(element, rows).set(tf::column::of<std::uint8_t>(name, values));
 }
 
 #ifdef TREEFORM_LIB3MF

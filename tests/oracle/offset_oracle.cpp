@@ -51,7 +51,7 @@ void check_by_cgal(const tf::mesh& mesh) {
 /// By trying all faces; those without area are their edges.
 double distance_to(const tf::mesh& mesh, const tf::point3& p) {
     const kernel::Point_3 q = of_cgal(p);
-    double least = std::numeric_limits<double>::infinity();
+    double least_distance = std::numeric_limits<double>::infinity();
     for (const tf::face& f : mesh.faces) {
         const std::array t{of_cgal(mesh.points[f[0]]), of_cgal(mesh.points[f[1]]),
                            of_cgal(mesh.points[f[2]])};
@@ -87,8 +87,8 @@ void check(const tf::offset_result& made, const tf::mesh& of, bool outer_stays,
     if (made.certificate.status == tf::status::vanished) return;
     REQUIRE_MESSAGE(made.certificate, made.certificate.message());
     check_by_cgal(made.mesh);
-    CHECK(made.least >= made.distance - 2 * made.resolution);
-    CHECK(made.greatest <= made.distance + 2 * made.resolution);
+    CHECK(made.least_distance >= made.distance - 2 * made.resolution);
+    CHECK(made.greatest_distance <= made.distance + 2 * made.resolution);
     test::random source(test::stress_seed());
     const auto box = *tf::bounding_box(made.mesh.points);
     const double tiny = 1e-12 * box.diagonal();
@@ -97,7 +97,7 @@ void check(const tf::offset_result& made, const tf::mesh& of, bool outer_stays,
         const double d = distance_to(of, on_face(made.mesh, source));
         CAPTURE(d);
         const bool outer = outer_stays && d <= tiny;
-        CHECK((outer || (d >= made.least - tiny && d <= made.greatest + tiny)));
+        CHECK((outer || (d >= made.least_distance - tiny && d <= made.greatest_distance + tiny)));
         tf::point3 p = on_face(of, source);
         for (std::size_t k = 0; k < 3; ++k) p[k] += source.in(-2, 2) * made.distance;
         const double away = distance_to(of, p);

@@ -62,15 +62,15 @@ void check_simplified(const tf::mesh& mesh, double distance, tf::precision preci
     const tf::simplify_result made = tf::simplify(mesh, distance, {.precision = precision});
     CHECK_MESSAGE(made.certificate, made.certificate.message());
     CHECK(made.mesh.faces.size() <= mesh.faces.size());
-    CHECK(made.there_at_most <= distance);
-    CHECK(made.back_at_most <= distance);
+    CHECK(made.input_to_result_bound <= distance);
+    CHECK(made.result_to_input_bound <= distance);
     const simplified_surface before = surface_of(mesh), after = surface_of(made.mesh);
     CHECK(CGAL::is_closed(after) == CGAL::is_closed(before));
     CHECK_FALSE(processing::does_self_intersect(after));
     // What CGAL computes is rounded, too.
     const double rounding = 1e-12 * simplified_diagonal(mesh);
-    CHECK(furthest(before, after) <= made.there_at_most + rounding);
-    CHECK(furthest(after, before) <= made.back_at_most + rounding);
+    CHECK(furthest(before, after) <= made.input_to_result_bound + rounding);
+    CHECK(furthest(after, before) <= made.result_to_input_bound + rounding);
 }
 
 }  // namespace

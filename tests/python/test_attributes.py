@@ -32,7 +32,7 @@ def columns(mesh):
 @pytest.mark.parametrize("verb, letters", [
     (lambda a, b: tf.union(a, b), "union"), (lambda a, b: tf.difference(a, b), "difference"),
     (lambda a, b: tf.intersection(a, b, simplify=True), "intersection"),
-    (lambda a, b: a ^ b, "xor")])
+    (lambda a, b: a ^ b, "symmetric-difference")])
 def test_set_operations_carry_what_the_tool_does(tmp_path, verb, letters):
     paths = [tmp_path / f"{name}.ply" for name in ("a", "b", "out")]
     tf.write(paths[0], A)

@@ -54,7 +54,7 @@ def test_objects_of_one_mesh_are_the_operands(tmp_path):
     tf.write(tmp_path / "all.3mf", [CUBE, small, beside])
     mesh = tf.read(tmp_path / "all.3mf")
     for verb, word in ((tf.difference, "difference"), (tf.intersection, "intersection"),
-                       (tf.symmetric_difference, "xor"), (tf.union, "union")):
+                       (tf.symmetric_difference, "symmetric_difference"), (tf.union, "union")):
         made = verb(mesh)
         assert np.isclose(made.mesh.volume, verb(CUBE, small, beside).mesh.volume), word
         if word != "union":

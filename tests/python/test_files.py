@@ -248,7 +248,7 @@ def test_hostile_files_are_read_or_refused():
 def test_columns_are_what_they_are_said_to_be(tmp_path):
     path = tmp_path / "t.csv"
     path.write_text("id;E;N;H\n7;1;2;3\n8;4;nan;6\n9;7;8;9\n")
-    cloud = tf.read(path, columns={"x": "E", "y": "N", "z": 4}, drop_nan=True)
+    cloud = tf.read(path, columns={"x": "E", "y": "N", "z": 4}, drop_non_finite=True)
     assert cloud.vertices.tolist() == [[1, 2, 3], [7, 8, 9]]
     tf.write(tmp_path / "t.las", cloud, rename={"id": "number"}, las_scale=(0.5, 0.5, 0.5),
              las_offset=(1, 2, 3))

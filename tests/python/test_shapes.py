@@ -10,7 +10,7 @@ from support import CUBE, SHEET, SPHERES
 def test_solids_are_grown_shrunk_and_hollowed():
     grown = tf.offset(CUBE, 0.25, resolution=0.1)
     assert grown.certificate and grown.mesh.is_solid and 2.9 < grown.mesh.volume < 3.2
-    assert 0.2 < grown.least <= grown.greatest < 0.3
+    assert 0.2 < grown.least_distance <= grown.greatest_distance < 0.3
     assert tf.offset(CUBE, -0.25, resolution=0.1).mesh.volume == pytest.approx(0.125, rel=0.1)
     shell = tf.hollow(CUBE, 0.1, resolution=0.05)
     drained = tf.hollow(CUBE, 0.1, drains=[[0.5, 0.5, 0, 0.2]], resolution=0.05)
@@ -34,7 +34,7 @@ def test_a_surface_is_made_thick():
 def test_fewer_faces_stay_within_the_distance():
     fewer = tf.simplify(SPHERES, 0.05)
     assert fewer.certificate and len(fewer.mesh.faces) < len(SPHERES.faces)
-    assert max(fewer.there_at_most, fewer.back_at_most) <= 0.05
+    assert max(fewer.input_to_result_bound, fewer.result_to_input_bound) <= 0.05
     assert len(fewer.face_source) == len(fewer.mesh.faces)
     assert tf.deviation(SPHERES, fewer.mesh).max <= 0.05
     heights = tf.Attributes()

@@ -17,7 +17,7 @@ namespace test {
 inline tf::attributes vertex_columns(
     const std::vector<std::pair<std::string, std::vector<double>>>& list) {
     tf::attributes a;
-    tf::element& e = a.obtain("vertex", list.front().second.size());
+    tf::element& e = a.find_or_add("vertex", list.front().second.size());
     for (const auto& [name, values] : list)
         e.columns.push_back(tf::column::of<double>(name, values));
     return a;

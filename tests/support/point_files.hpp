@@ -33,7 +33,7 @@ inline tf::mesh_file cloud(std::size_t count, bool single) {
         red.push_back(static_cast<std::uint8_t>(random()));
         id.push_back(static_cast<std::int32_t>(random()));
     }
-    tf::element& e = file.attributes.obtain("vertex", count);
+    tf::element& e = file.attributes.find_or_add("vertex", count);
     e.columns.push_back(tf::column::of<float>("intensity", intensity));
     e.columns.push_back(tf::column::of<std::uint8_t>("red", red));
     e.columns.push_back(tf::column::of<std::int32_t>("id", id));

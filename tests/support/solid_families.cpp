@@ -28,7 +28,7 @@ double whole(random& source, std::size_t below) { return static_cast<double>(sou
 std::vector<expression> all_of_two() { return {{"a+b", 2}, {"a*b", 2}, {"a-b", 2}, {"a^b", 2}}; }
 
 std::vector<expression> all_of(std::size_t operands) {
-    return {expression::union_of(operands), expression::xor_of(operands)};
+    return {expression::union_of(operands), expression::symmetric_difference_of(operands)};
 }
 
 tf::mesh turned_box(random& source) {

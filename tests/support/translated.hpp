@@ -64,7 +64,7 @@ inline std::vector<double> translated_numbers(const tf::mesh_file& file, std::st
 
 template <class T>
 void add_translated(tf::mesh_file& file, const char* name, std::vector<T> values) {
-    file.attributes.obtain("vertex", file.mesh.points.size())
+    file.attributes.find_or_add("vertex", file.mesh.points.size())
         .columns.push_back(tf::column::of<T>(name, values));
 }
 

@@ -74,8 +74,8 @@ BOUND = [
                    "to.face_in_file = faces_in_file(kept, from.part).data();"),
             Member("uint64_t degenerate", "triangles without area",
                    "to.degenerate = from.part.degenerate;"),
-            Member("uint64_t dropped", "triangles that are not finite",
-                   "to.dropped = from.part.dropped;")]}),
+            Member("uint64_t non_finite", "triangles that are not finite",
+                   "to.non_finite = from.part.non_finite;")]}),
     # solids.h
     Bound("boolean_options"),
     Bound("operand_volumes", "volumes", "part"),
@@ -153,7 +153,7 @@ BOUND = [
         Member("size_t column_count"),
         Member("int32_t mixed", "join LAS of other reference systems or time types, which are then "
                "the first's")]}),
-    Bound("weld_stream_result", leave="left_alone removed label_replaced las_moved", custom={
+    Bound("weld_stream_result", leave="kept_apart removed label_replaced las_moved", custom={
         "survey": [Member(f"{type} {name}", doc, f"to.{name} = from.survey.{name};")
                    for type, name, doc in (
                        ("uint64_t", "points", ""),
@@ -164,11 +164,11 @@ BOUND = [
             "to.max_displacement = from.statistics.max_displacement + from.survey.las_moved;")],
         "welded": [Member("const char* format", "of the output",
                           'to.format = from.welded ? from.welded->format.c_str() : "";')],
-        "still_within": [
-            Member("uint64_t still_within", "points that would be merged if the output were welded",
-                   "to.still_within = from.still_within.value_or(0);"),
-            Member("int32_t still_within_known", "",
-                   "to.still_within_known = from.still_within.has_value();")]}),
+        "mergeable": [
+            Member("uint64_t mergeable", "points that would be merged if the output were welded",
+                   "to.mergeable = from.mergeable.value_or(0);"),
+            Member("int32_t mergeable_known", "",
+                   "to.mergeable_known = from.mergeable.has_value();")]}),
     # placement.h
     Bound("placement_options", "place_options"),
     Bound("placement_contact", "contact", "part", custom={"fixed": [

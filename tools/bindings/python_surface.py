@@ -184,9 +184,9 @@ RESULTS = [
                    Attribute("mesh", "Mesh", "Only the faces that meet others, in the order of the "
                              "file.", "mesh_object(std::move(from.part.mesh), py::none(), "
                              "py::none())"),
-                   Attribute("dropped", "int", "Triangles with a coordinate that is not finite, "
+                   Attribute("non_finite", "int", "Triangles with a coordinate that is not finite, "
                                                "left "
-                             "out.", "py::cast(from.part.dropped)")],
+                             "out.", "py::cast(from.part.non_finite)")],
                "found": [
                    column("pairs", "", "", "found.pairs", "std::array{one.a, one.b}"),
                    column("kinds", "", "", "found.pairs", "one.kind"),
@@ -245,7 +245,7 @@ RESULTS = [
                                       "faces.", "mesh_object(std::move(from.mesh), py::none(), "
                                       "with_attributes(data, std::move(from.attributes)))")]}),
     Result("weld_stream_result", "WeldStreamResult", "_weld", doc="What `weld_stream` has done.",
-           leave="welded removed label_replaced las_moved still_within",
+           leave="welded removed label_replaced las_moved mergeable",
            custom={"survey": [
                Attribute("points", "int", "Points of the inputs.", "py::cast(from.survey.points)"),
                Attribute("tolerance", "float", "As a length.", "py::cast(from.survey.tolerance)"),
@@ -315,9 +315,9 @@ RESULTS = [
            true="bool(self.certificate)",
            doc="Where a mesh goes. True where it has a place; else `message` says why not.",
            leave="clearance bed below_bed max_travel statistics",
-           docs={"end": "Why it ended there: 'contact', 'bed', 'stays', 'moved_apart', "
+           docs={"end": "Why it ended there: 'contact', 'bed', 'unchanged', 'moved_apart', "
                         "'nothing_met', 'too_far', 'starts_penetrating', 'starts_too_near', "
-                        "'starts_touching', 'starts_below_bed', 'no_coordinates', "
+                        "'starts_touching', 'starts_below_bed', 'not_representable', "
                         "'too_many_steps', 'out_of_range'.",
                  "certificate": "What was checked about the coordinates."},
            custom={

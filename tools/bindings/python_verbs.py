@@ -38,12 +38,12 @@ _WELD = {
 _FIXED = "a fixed body, or a list of them."
 
 #: A set operation by its name.
-def _operation(name: str, operation: str, what: str, leave: str = "gap",
+def _operation(name: str, what: str, leave: str = "gap",
                docs: dict[str, str] = {}) -> Function:  # noqa: B006
     return Function(f"{name}(*meshes: Operands, options: boolean_options) -> BooleanResult",
                     doc=what, leave=leave, docs=_MESHES | _VOLUMES | docs, cpp="boolean",
                     check="solids",
-                    body=f'combined("{operation}", meshes, how, progress)')
+                    body=f'combined("{name}", meshes, how, progress)')
 
 
 def _of_others(own: str) -> str:
@@ -60,7 +60,7 @@ def _placed(signature: str, call: str, own: str = "", **more: dict[str, str]) ->
 
 FUNCTIONS = [
     # _booleans
-    _operation("union", "union", "What is in any of the solids: `union(a, b, ...)`, or `union([a, "
+    _operation("union", "What is in any of the solids: `union(a, b, ...)`, or `union([a, "
                                  "b, ...])` as in trimesh. Of one mesh, the solid that it winds "
                                  "around, without self-intersections. See `boolean`.", "", {
                    "gap": "the widest gap to fill between faces of different solids, where they "
@@ -68,18 +68,18 @@ FUNCTIONS = [
                           "that they stand on, or lie opposite of, as `face_source`; "
                           "`filled_faces` of `statistics` counts the faces at such gaps. No "
                           "volumes then."}),
-    _operation("intersection", "intersection", "What is in all of the solids. Of one mesh that a "
+    _operation("intersection", "What is in all of the solids. Of one mesh that a "
                                                "file of several objects was read to, its objects "
                                                "are the solids, as in `difference`. See "
                                                "`boolean`."),
-    _operation("difference", "difference", "The first solid without all others: `difference(a, b, "
+    _operation("difference", "The first solid without all others: `difference(a, b, "
                                            "c)`, or `difference(a, [b, c])`. One mesh that a file "
                                            "of several objects was read to (`attributes.parts`) is "
                                            "the first object without the others, as in tf-boolean; "
                                            "`face_source` and `vertex_source` count in each "
                                            "object. One mesh without such objects is one solid, "
                                            "and nothing is taken from it. See `boolean`."),
-    _operation("symmetric_difference", "xor", "What is in an odd number of the solids. Of one mesh "
+    _operation("symmetric_difference", "What is in an odd number of the solids. Of one mesh "
                                               "that a file of several objects was read to, its "
                                               "objects are the solids, as in `difference`. See "
                                               "`boolean`."),
@@ -296,7 +296,8 @@ FUNCTIONS = [
                            "that they have in the file, and vertices, too, in other formats.",
                    "columns": "of XYZ, PTS and CSV, what columns are: {'x': 'E', 'y': 'N', 'z': "
                               "'H'}; a number counts them from 1.",
-                   "drop_nan": "drop points with a NaN or infinite coordinate, and their faces."}),
+                   "drop_non_finite": "drop points with a NaN or infinite coordinate, and their "
+                                      "faces."}),
     Function("write(path: Path | IO[bytes], mesh: PartsLike, options: write_options(format))"
              " -> Written", body="written(path, mesh, format, how, progress)",
              words={"file": "mesh"},

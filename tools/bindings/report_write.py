@@ -32,14 +32,14 @@ class Object:
 
 OBJECTS = [
     Object("join_entry", "repair_statistics",
-           "tetrahedra degenerate repeated closed_edges split_edges gap widest",
+           "tetrahedra degenerate repeated closed_edges split_edges gap_limit widest_closed",
            ("repair.steps.join", "inputs[].repair.join")),
-    Object("orient_entry", "repair_statistics", "flipped turned strays",
+    Object("orient_entry", "repair_statistics", "flipped turned_outward strays",
            ("repair.steps.orient", "inputs[].repair.orient")),
     Object("fill_entry", "repair_statistics", "holes hole_edges=edges filled=faces",
            ("repair.steps.fill", "inputs[].repair.fill")),
     Object("cut_entry", "repair_statistics",
-           "pairs removed split_vertices=separated_points labeled_cells dropped_area turned_area",
+           "pairs removed split_vertices=separated_points labeled_cells dropped_area flipped_area",
            ("repair.steps.resolve", "inputs[].repair.resolve")),
     Object("detach_entry", "repair_statistics", "detached=moved touching",
            ("repair.steps.detach", "inputs[].repair.detach")),

@@ -103,7 +103,7 @@ inline void file_set_column(tf::mesh_file& file, const std::string& element,
         return tf::column::of<T>(name, array(static_cast<const T*>(values), rows, "values"));
     });
     if (element == "face" && file.stored_face.empty()) file.stored_faces = file.mesh.faces.size();
-    file.attributes.obtain(element, rows).set(std::move(column));
+    file.attributes.find_or_add(element, rows).set(std::move(column));
 }
 
 /// Sets texture coordinates `texture` [texture_count][3] and their numbers at each corner of each

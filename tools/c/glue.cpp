@@ -146,16 +146,16 @@ tf::communicator communicator_of(const treeform_communicator* of) {
     if (of->rank >= of->size)
         throw std::invalid_argument("the communicator has " + std::to_string(of->size) +
                                     " processes; the rank is " + std::to_string(of->rank));
-    const auto exchange = [=, size = of->size, data = of->data](const std::string& told) {
+    const auto exchange = [=, size = of->size, data = of->data](const std::string& sent) {
         std::vector<std::string> all;
-        const auto hear = [](const void* bytes, std::size_t count, void* listener) {
+        const auto receive = [](const void* bytes, std::size_t count, void* listener) {
             static_cast<std::vector<std::string>*>(listener)->emplace_back(
                 static_cast<const char*>(bytes), count);
         };
-        if (call(told.data(), told.size(), hear, &all, data) != 0) throw cancelled{};
+        if (call(sent.data(), sent.size(), receive, &all, data) != 0) throw cancelled{};
         if (all.size() != size)
             throw std::invalid_argument("exchange: " + std::to_string(all.size()) + " of " +
-                                        std::to_string(size) + " processes were heard");
+                                        std::to_string(size) + " processes were received");
         return all;
     };
     return {of->rank, of->size, exchange};

@@ -63,7 +63,7 @@ inline tf::solid_defects find_solid_defects_of_file(const tf::mesh_file& file,
                                                     const tf::progress_callback& progress) {
     const usable_input input(file);
     tf::solid_defects found = tf::find_solid_defects(input.source(), progress);
-    found.unusable_faces += input.dropped();
+    found.unusable_faces += input.non_finite();
     return found;
 }
 

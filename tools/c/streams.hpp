@@ -128,13 +128,11 @@ inline tf::point_reader point_reader_create(const std::filesystem::path& path,
     return tf::point_reader(path, format);
 }
 
-/// The file without its points, and their number: `TREEFORM_OK` with `known` 0 where no header says
-/// it.
+/// The file without its points, and their number.
 inline void point_reader_header(const tf::point_reader& reader, treeform_file** header,
-                                std::uint64_t* count, std::int32_t* known) {
+                                std::uint64_t* count) {
     start(header);
-    need(count, "count") = reader.count().value_or(0);
-    need(known, "known") = reader.count().has_value();
+    need(count, "count") = reader.count();
     (void)give(tf::mesh_file(reader.header()), header);
 }
 
@@ -143,7 +141,7 @@ inline void point_reader_header(const tf::point_reader& reader, treeform_file** 
 inline std::optional<tf::mesh_file> point_reader_next(tf::point_reader& reader, std::size_t most) {
     if (most == 0) throw std::invalid_argument("most is 0: no points would be read");
     tf::mesh_file block;
-    tf::element& properties = block.attributes.obtain("vertex", 0);
+    tf::element& properties = block.attributes.find_or_add("vertex", 0);
     if (!reader.read(block.mesh.points, properties, most)) return std::nullopt;
     block.format = reader.header().format;
     block.stored_as = reader.header().stored_as;

@@ -35,12 +35,11 @@ inline tf::weld_result group_points(tf::mesh_view mesh, const tf::weld_options& 
 
 /// How many points of a welded file would be merged if it were written with this precision, read
 /// and welded again; `known` is 0 where points stay apart on purpose.
-inline void count_still_within(const tf::mesh_file& welded, const tf::weld_options& options,
-                               tf::precision written_as, std::uint64_t* count,
-                               std::int32_t* known) {
+inline void count_mergeable(const tf::mesh_file& welded, const tf::weld_options& options,
+                            tf::precision written_as, std::uint64_t* count, std::int32_t* known) {
     (void)need(count, "count");
     (void)need(known, "known");
-    const auto found = tf::count_still_within(welded, options, written_as);
+    const auto found = tf::count_mergeable(welded, options, written_as);
     *count = found.value_or(0);
     *known = found.has_value();
 }

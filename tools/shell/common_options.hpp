@@ -41,7 +41,7 @@ struct common_options {
     bool dry_run = false;
     std::string format;  ///< of the inputs; empty: by content
     name_pairs columns;  ///< of tables of text
-    bool drop_nan = false;
+    bool drop_non_finite = false;
     std::vector<std::string> drop;  ///< columns of points that are not written
     name_pairs rename;              ///< of points that are written
     std::optional<std::array<double, 3>> las_scale;

@@ -65,10 +65,10 @@ std::string repair_summary(const tf::repair_statistics& did) {
     add(did.degenerate, "face without area dropped", "faces without area dropped");
     add(did.repeated, "repeated face dropped", "repeated faces dropped");
     add(did.closed_edges, "crack edge closed", "crack edges closed",
-        " (" + brief(did.widest) + " wide at most)");
+        " (" + brief(did.widest_closed) + " wide at most)");
     add(did.split_edges, "edge split at a vertex", "edges split at vertices");
     add(did.flipped, "face flipped", "faces flipped");
-    add(did.turned, "part turned outward", "parts turned outward");
+    add(did.turned_outward, "part turned outward", "parts turned outward");
     add(did.strays, "stray face dropped", "stray faces dropped");
     add(did.holes, "hole filled", "holes filled",
         " (" + counted(did.hole_edges, "edge", "edges") + ")");

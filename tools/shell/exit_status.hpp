@@ -20,7 +20,7 @@ enum exit_status : int {
     bug = 70         ///< must not happen
 };
 
-[[nodiscard]] constexpr exit_status graver(exit_status a, exit_status b) { return std::max(a, b); }
+[[nodiscard]] constexpr exit_status worse(exit_status a, exit_status b) { return std::max(a, b); }
 
 /// The end of the work on one input, or of the run. `code()` is for scripts and goes to the report;
 /// `what()` is a sentence for people.

@@ -1,8 +1,8 @@
 #include "tools/shell/guard.hpp"
 
+#include "tools/shell/abrupt_exit.hpp"
 #include "tools/shell/console.hpp"
 #include "tools/shell/exit_status.hpp"
-#include "tools/shell/sudden_end.hpp"
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -167,7 +167,7 @@ void guard::state::watch() {
             why = next;
             asked = clock::now();
         } else if ((signalled && next != reason::none) || clock::now() - asked > time_to_end()) {
-            end_suddenly(stopped, text().c_str());
+            exit_abruptly(stopped, text().c_str());
         }
     }
 }

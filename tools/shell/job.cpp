@@ -80,7 +80,8 @@ job::read_ahead job::read_one(const std::string& input) const {
                 input + ": is a folder" + (listed ? ", with no file in it that is read" : ""));
         }
         constexpr std::size_t reading = 0;
-        const tf::read_options how{.columns = options.columns, .drop_nan = options.drop_nan};
+        const tf::read_options how{.columns = options.columns,
+                                   .drop_non_finite = options.drop_non_finite};
         tf::for_chunks(options.detailed() ? 2 : 1, 1, [&](auto, auto, std::size_t task) {
             if (task == reading)
                 found.file = from_pipe ? tf::read(bytes, name_of_input(input), options.format, how)

@@ -2,7 +2,7 @@
 /// \file
 /// Files a tool writes: complete under their name, or not there at all.
 
-#include "tools/shell/sudden_end.hpp"
+#include "tools/shell/abrupt_exit.hpp"
 
 #include <cstdio>
 #include <filesystem>

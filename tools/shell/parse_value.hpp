@@ -23,7 +23,7 @@ struct distance {
     [[nodiscard]] double used(double diagonal) const { return relative ? value * diagonal : value; }
 };
 
-/// "union, xor, split"
+/// "union, symmetric-difference, split"
 [[nodiscard]] std::string listed(std::span<const char* const> words);
 
 /// All of them: \throws failure (bad_usage) naming `option`, the text and what was expected.

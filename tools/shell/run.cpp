@@ -1,8 +1,8 @@
 #include "tools/shell/run.hpp"
 
+#include "tools/shell/abrupt_exit.hpp"
 #include "tools/shell/free_memory.hpp"
 #include "tools/shell/output_file.hpp"
-#include "tools/shell/sudden_end.hpp"
 #include "tools/shell/table.hpp"
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tf.hpp>
@@ -158,7 +158,7 @@ class session {
                          });
             finish(one, result);
             halted = halted || result.status == stopped;
-            worst = graver(worst, result.status);
+            worst = worse(worst, result.status);
             report["files"].push_back(std::move(one.entry));
         }
         json& times = report["seconds"] = json::object();

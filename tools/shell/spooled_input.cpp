@@ -1,6 +1,6 @@
 #include "tools/shell/spooled_input.hpp"
 
-#include "tools/shell/sudden_end.hpp"
+#include "tools/shell/abrupt_exit.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

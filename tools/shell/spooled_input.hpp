@@ -2,8 +2,8 @@
 /// \file
 /// Standard input, where it is read more than once.
 
+#include "tools/shell/abrupt_exit.hpp"
 #include "tools/shell/run.hpp"
-#include "tools/shell/sudden_end.hpp"
 
 #include <filesystem>
 

@@ -14,8 +14,8 @@ usable_input read_usable(job& work) {
     tf::mesh& mesh = input.file.mesh;
     const std::size_t triangles = mesh.faces.size();
     input.triangle_of_face = tf::drop_unusable_faces(mesh);
-    input.left_out = triangles - mesh.faces.size();
-    work.warn_of_non_finite(input.left_out, "face", "faces");
+    input.non_finite = triangles - mesh.faces.size();
+    work.warn_of_non_finite(input.non_finite, "face", "faces");
     if (mesh.faces.empty())
         throw failure(bad_input, "no-triangles",
                       work.name + ": no triangle with finite coordinates");

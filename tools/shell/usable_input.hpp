@@ -16,7 +16,7 @@ namespace tools {
 struct usable_input {
     tf::mesh_file file{};
     std::vector<std::uint32_t> triangle_of_face{};  ///< in the file; empty: the same
-    std::uint64_t left_out = 0;                     ///< triangles with a corner that is not finite
+    std::uint64_t non_finite = 0;                   ///< triangles with a corner that is not finite
 
     [[nodiscard]] tf::carry_source source() const { return {&file, triangle_of_face}; }
 };

@@ -115,7 +115,8 @@ tf::boolean_expression formula_of(const boolean_settings& settings, std::size_t 
     if (settings.operation == "union") return boolean_expression::union_of(operands);
     if (settings.operation == "intersection") return boolean_expression::intersection_of(operands);
     if (settings.operation == "difference") return boolean_expression::difference_of(operands);
-    if (settings.operation == "xor") return boolean_expression::xor_of(operands);
+    if (settings.operation == "symmetric-difference")
+        return boolean_expression::symmetric_difference_of(operands);
     try {
         if (!settings.names.empty()) return {settings.expression, settings.names};
         return {settings.expression, operands};

@@ -16,8 +16,8 @@
 
 namespace tools {
 
-inline constexpr std::array<const char*, 5> operations{"union", "intersection", "difference", "xor",
-                                                       "split"};
+inline constexpr std::array<const char*, 5> operations{"union", "intersection", "difference",
+                                                       "symmetric-difference", "split"};
 
 struct boolean_settings {
     std::string operation{};                  ///< the word, as typed; empty where there is none

@@ -145,8 +145,8 @@ void enter_blank_report(job& work, const cut_settings& s, const usable_input& in
     entry["mode"] = cut_modes[static_cast<std::size_t>(s.mode)];
     entry["vertices"] = input.file.mesh.points.size();
     entry["faces"] = input.file.stored_faces;
-    entry["triangles"] = input.file.mesh.faces.size() + input.left_out;
-    entry["skipped"]["non_finite"] = input.left_out;
+    entry["triangles"] = input.file.mesh.faces.size() + input.non_finite;
+    entry["skipped"]["non_finite"] = input.non_finite;
     entry["planes"] = planes_entry(s);
     entry["max_move"] = {{"given", s.limits.max_move.given},
                          {"used", nullptr},
@@ -234,7 +234,7 @@ void say_info(job& work, const cut_settings& s, const usable_input& input) {
     const auto timing = work.time("check");
     tf::solid_defects defects = tf::find_solid_defects(input.source(), work.progress("check"));
     work.call_ended(defects.status == tf::status::cancelled);
-    defects.unusable_faces += input.left_out;
+    defects.unusable_faces += input.non_finite;
     const auto box = tf::bounding_box(mesh.points);
     const tf::mesh joined = tf::join_equal_points(mesh);
     std::optional<double> volume;

@@ -42,7 +42,7 @@ tf::mesh_file carried(const cut_settings& s, const usable_input& input, cut_off&
     input.source().texture_caps(file, piece.cap);
     if (!s.caps.empty()) {
         std::vector<std::int32_t> cap(piece.cap.begin(), piece.cap.end());  // none is -1
-        file.attributes.obtain("face", file.mesh.faces.size())
+        file.attributes.find_or_add("face", file.mesh.faces.size())
             .set(tf::column::of<std::int32_t>(s.caps, cap));
     }
     return file;

@@ -47,7 +47,8 @@ cut_off shape_of(job& work, const cut_settings& s, const usable_input& input,
                                                  .progress = work.progress("simplify")});
         work.call_ended(made.certificate.status == tf::status::cancelled);
         work.entry["distances"] =
-            distances_entry(s, distance, 0.0, 0.0, std::max(made.there_at_most, made.back_at_most));
+            distances_entry(s, distance, 0.0, 0.0,
+                            std::max(made.input_to_result_bound, made.result_to_input_bound));
         cut_off piece = cut_off_of(std::move(made.mesh), std::move(made.face_source),
                                    std::move(made.vertex_source), std::move(made.certificate));
         piece.face_of_new_vertex = std::move(made.face_of_new_vertex);
@@ -64,7 +65,7 @@ cut_off shape_of(job& work, const cut_settings& s, const usable_input& input,
                                  : tf::thicken(mesh, distance, options);
     work.call_ended(made.certificate.status == tf::status::cancelled);
     work.entry["distances"] =
-        distances_entry(s, distance, made.resolution, made.least, made.greatest);
+        distances_entry(s, distance, made.resolution, made.least_distance, made.greatest_distance);
     if (s.mode == cut_mode::hollow && made.certificate) say_drains(work, s, made);
     return cut_off_of(std::move(made.mesh), {}, {}, std::move(made.certificate));
 }

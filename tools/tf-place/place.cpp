@@ -20,7 +20,7 @@ namespace {
 
 /// Says what is left out. \throws failure (bad_input) when there is nothing to place
 const tf::body_file& checked(job& work, const tf::body_file& file) {
-    work.warn_of_non_finite(file.left_out, file.cloud ? "point" : "face",
+    work.warn_of_non_finite(file.non_finite, file.cloud ? "point" : "face",
                             file.cloud ? "points" : "faces", file.label + ": ");
     if (!file.box)
         throw failure(bad_input, "no-triangles",
@@ -158,7 +158,7 @@ std::string remedy_for(const tf::placement& at) {
     if (at.end == tf::placement_end::starts_penetrating) return "; clear would take it out";
     if (at.end == tf::placement_end::starts_below_bed)
         return "; with --fixed, drop only goes down: drop it without --fixed first";
-    if (at.end == tf::placement_end::no_coordinates &&
+    if (at.end == tf::placement_end::not_representable &&
         at.certificate.precision == tf::precision::float32)
         return "; --precision double, in a format that has it, may find one";
     return {};
@@ -174,7 +174,9 @@ void find_place(job& work, placing& p) {
     }
     work.call_ended();
     p.at.certificate.precision = p.precision;  // also of what was only measured
-    if (!p.at && p.reason.empty()) p.reason = p.at.message(p.fixed.labels()) + remedy_for(p.at);
+    if (p.at || !p.reason.empty()) return;
+    p.reason = p.at.message(p.fixed.labels());
+    p.remedy = remedy_for(p.at);
 }
 
 /// Of what has been looked at: the others are apart, whatever is inside.
@@ -203,7 +205,7 @@ tf::body_set read_all(job& work, const place_settings& settings, const tf::trans
         const tf::body_file& added = add_moving(work, path, std::move(file), start, parts);
         if (added.cloud) refuse(added.label + ": is a cloud of points; arrange takes meshes only");
         about["faces"] = added.content.stored_faces;
-        non_finite += added.left_out;
+        non_finite += added.non_finite;
         for (std::uint64_t copy = 0; copy < counts[i]; ++copy) {
             if (copy > 0) parts.add(tf::mesh_file(added.content), added.label, added.name);
             work.entry["parts"].push_back(about);

@@ -77,6 +77,7 @@ struct placing {
     std::optional<tf::align_result> aligned{};
     std::optional<mating> mated{};
     std::string reason{};       ///< why there is no place, in words
+    std::string remedy{};       ///< then, what else may be done: "; clear would ..."
     tf::transform<3> matrix{};  ///< from the file to the place, with --start
 
     /// A share is of the diagonal of MOVING's box.

@@ -83,8 +83,8 @@ void enter_inputs(json& entry, const tf::body_file& moving, const fixed_meshes& 
     entry["faces"] = moving.content.stored_faces;
     entry["triangles"] = moving.content.mesh.faces.size();
     entry["box"] = moving.box;
-    std::uint64_t non_finite = moving.left_out;
-    for (const tf::body_file& file : fixed.bodies.files) non_finite += file.left_out;
+    std::uint64_t non_finite = moving.non_finite;
+    for (const tf::body_file& file : fixed.bodies.files) non_finite += file.non_finite;
     entry["skipped"]["non_finite"] = non_finite;
 }
 
@@ -107,7 +107,7 @@ void enter_place(json& entry, const placing& p) {
     if (p.settings.mode == place_mode::turn) entry["turn"] = turn_entry(p.settings.turn, at);
     if (p.mated) entry["features"] = mating_entry(*p.mated, at);
     if (!at) {
-        entry["reason"] = p.reason;
+        entry["reason"] = p.reason + p.remedy;
         entry["not_placed"].push_back(entry["input"]);
         return;
     }
@@ -123,13 +123,11 @@ std::string sentence(const placing& p) {
     const tf::placement& at = p.at;
     std::string relation = at.relation_in_words(p.moving, p.fixed);
     if (!at) {
-        std::string text = "not placed: " + p.reason;
-        if (at.at_place != tf::mesh_relation::penetrating || !at.nearest) return text;
         const std::string seen = "penetrating " + p.fixed.label(at.nearest_fixed);
-        constexpr std::string_view where = " at the start";
-        const std::size_t at_end = std::min(text.find(where), text.size() - where.size());
-        return text.insert(at_end + where.size(),
-                           relation.substr(std::min(seen.size(), relation.size())));
+        const bool has_depth = at.at_place == tf::mesh_relation::penetrating && at.nearest;
+        return "not placed: " + p.reason +
+               (has_depth ? relation.substr(std::min(seen.size(), relation.size())) : "") +
+               p.remedy;
     }
     if (p.settings.mode == place_mode::measure) return relation;
     if (p.aligned) return align_sentence(*p.aligned);

@@ -137,7 +137,7 @@ tools::dirty_mesh read_mesh(tools::job& work) {
 exit_status check_only(tools::job& work, const tools::dirty_mesh& input) {
     const auto timing = work.time("check");
     tf::solid_defects found = tf::find_solid_defects(input.source(), work.progress("check"));
-    found.unusable_faces += input.left_out;
+    found.unusable_faces += input.non_finite;
     work.call_ended(found.status == tf::status::cancelled);
     tools::say_defects(work, input, found);
     tools::write_page(work, input, found.message(), !found.any());

@@ -17,7 +17,7 @@ namespace {
 void add_sources(tf::mesh_file& file, const std::string& name,
                  const std::vector<std::uint32_t>& face_source) {
     const std::vector<std::int32_t> sources(face_source.begin(), face_source.end());
-    file.attributes.obtain("face", file.mesh.faces.size())
+    file.attributes.find_or_add("face", file.mesh.faces.size())
         .set(tf::column::of<std::int32_t>(name, sources));
 }
 
@@ -40,9 +40,9 @@ void enter_blank_report(job& work, const dirty_mesh& input, const repair_setting
     json& entry = work.entry;
     entry["vertices"] = input.file.mesh.points.size();
     entry["faces"] = input.file.stored_faces;
-    entry["triangles"] = input.file.mesh.faces.size() + input.left_out;
+    entry["triangles"] = input.file.mesh.faces.size() + input.non_finite;
     entry["volume"] = input.volume;
-    entry["skipped"] = {{"non_finite", input.left_out}};
+    entry["skipped"] = {{"non_finite", input.non_finite}};
     entry["check"] = settings.check;
     for (const char* key : {"defects", "repair", "wrap", "output"}) entry[key] = nullptr;
 }

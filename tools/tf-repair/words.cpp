@@ -91,7 +91,7 @@ std::string objection(const repair_settings& settings, const tf::repaired_file& 
 }
 
 void say_defects(job& work, const dirty_mesh& input, const tf::solid_defects& found) {
-    work.entry["defects"] = {{"non_finite", input.left_out},
+    work.entry["defects"] = {{"non_finite", input.non_finite},
                              {"non_finite_vertices", found.nonfinite_vertices},
                              {"tetrahedra", found.tetrahedra},
                              {"degenerate", found.degenerate},

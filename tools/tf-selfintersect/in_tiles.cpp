@@ -158,10 +158,10 @@ findings search_in_tiles(job& work, const search_settings& settings, const tile_
     if (r.triangles == 0)
         throw failure(bad_input, "no-triangles",
                       work.name + ": no triangles (" + counted(r.points, "point", "points") + ")");
-    if (r.part.dropped == r.triangles)
+    if (r.part.non_finite == r.triangles)
         throw failure(bad_input, "no-triangles",
                       work.name + ": no triangle with finite coordinates");
-    work.warn_of_non_finite(r.part.dropped, "face", "faces");
+    work.warn_of_non_finite(r.part.non_finite, "face", "faces");
     if (r.started_anew)
         work.warn("started-anew", folder.string() +
                                       ": what is there is of no use for this input and these "

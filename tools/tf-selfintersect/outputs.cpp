@@ -52,7 +52,7 @@ void enter_report(job& work, const findings& result, const search_settings& sett
     entry["triangles"] = result.triangles;
     entry["searched"] = result.searched;
     entry["box"] = result.box;
-    entry["skipped"] = {{"non_finite", result.part.dropped},
+    entry["skipped"] = {{"non_finite", result.part.non_finite},
                         {"degenerate", result.part.degenerate},
                         {"filter_calls", result.found.box_pairs},
                         {"exact_calls", result.found.exact_pairs}};

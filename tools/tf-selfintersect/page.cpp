@@ -104,7 +104,7 @@ void add_facts(scene& shown, const findings& result, const search_settings& sett
          {"vertices", grouped(result.points_stored) + " stored, " +
                           grouped(result.part.distinct.value_or(0)) + " distinct"},
          {"box", in_words(result.box->min) + " to " + in_words(result.box->max)},
-         {"left out", counted(result.part.dropped, "face", "faces") + " not finite"},
+         {"left out", counted(result.part.non_finite, "face", "faces") + " not finite"},
          {"degenerate", counted(result.part.degenerate, "face", "faces") + ", " +
                             counted(result.found.counts[degenerate], "pair", "pairs")},
          {"tolerance",

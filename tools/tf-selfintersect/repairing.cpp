@@ -136,7 +136,7 @@ void add_source_faces(tf::mesh_file& file, const findings& result,
         sources.push_back(f == tf::repair_result::none
                               ? -1
                               : static_cast<std::int32_t>(result.part.face_in_file(f)));
-    file.attributes.obtain("face", file.mesh.faces.size())
+    file.attributes.find_or_add("face", file.mesh.faces.size())
         .set(tf::column::of<std::int32_t>("source_face", sources));
 }
 

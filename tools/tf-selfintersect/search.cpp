@@ -67,8 +67,8 @@ findings search(job& work, tf::mesh_file& file, const search_settings& settings,
         result.part =
             tf::usable_part(keep_mesh ? file.mesh : std::move(file.mesh), file.stored_face,
                             part_options_of(work, file, settings, result.tolerance_used));
-        work.warn_of_non_finite(result.part.dropped, "face", "faces");
-        if (result.part.dropped == result.triangles)
+        work.warn_of_non_finite(result.part.non_finite, "face", "faces");
+        if (result.part.non_finite == result.triangles)
             throw failure(bad_input, "no-triangles",
                           work.name + ": no triangle with finite coordinates");
         work.keeper.check();

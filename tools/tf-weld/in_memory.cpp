@@ -76,7 +76,7 @@ tf::mesh_file read_all(job& work, bool mixed) {
 
 /// `file` as it was, with the number of each point's group.
 void label(job& work, tf::mesh_file& file, const welding& w, const std::string& name) {
-    tf::element& vertices = file.attributes.obtain("vertex", file.mesh.points.size());
+    tf::element& vertices = file.attributes.find_or_add("vertex", file.mesh.points.size());
     if (vertices.set(tf::column::of<std::uint32_t>(name, w.result.groups.group_of_point)))
         warn_of_replaced(work, name);
 }

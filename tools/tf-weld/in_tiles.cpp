@@ -187,7 +187,7 @@ class stream_files {
         if (written.removed) work_.warn(written.removed->warnings);
         warn_of_las_grid(work_, "means", written.las_moved);
         if (written.welded)
-            enter_result(work_, request_, *path_, *written.welded, written.still_within);
+            enter_result(work_, request_, *path_, *written.welded, written.mergeable);
     }
 
     job& work_;

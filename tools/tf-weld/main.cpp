@@ -83,8 +83,8 @@ void add_columns(command_line& line, common_options& o, bool& mixed) {
                  "XYZ, PTS, CSV: property A is the column with heading\n"
                  "B or number B, e.g. x=E,y=N,z=H"},
                 [&o](std::string_view text) { o.columns = tools::parse_names("--columns", text); });
-    line.flag(o.drop_nan,
-              {"--drop-nan", "", "drop points with a NaN or infinite coordinate first"});
+    line.flag(o.drop_non_finite,
+              {"--drop-non-finite", "", "drop points with a NaN or infinite coordinate first"});
     line.option({"--drop", "P,...",
                  "do not write these properties of points; normal, uv:\n"
                  "also of corners"},
@@ -150,8 +150,8 @@ void check_request(const command_line& line, const tools::weld_request& r,
     if (!mesh && outputs.removed.empty() &&
         (!o.drop.empty() || !o.rename.empty() || o.las_scale || o.las_offset))
         refuse("--drop, --rename, --las-scale and --las-offset need an output that they apply to");
-    if (o.drop_nan && !outputs.map.empty())
-        refuse("--drop-nan changes the numbers of points; it excludes --map");
+    if (o.drop_non_finite && !outputs.map.empty())
+        refuse("--drop-non-finite changes the numbers of points; it excludes --map");
     if (r.mixed && !o.joined) refuse("--mixed needs --join");
     for (const auto& condition : r.settings.options.same)
         for (const auto& name : r.settings.options.across)

@@ -45,7 +45,7 @@ std::string what_needs_memory(const job& work, const weld_request& request,
     const bool is_mesh = has_rows_behind(header);
     const tf::weld_options& o = request.settings.options;
     if (work.options.shows()) return work.options.html.empty() ? "--png" : "--html";
-    if (work.options.drop_nan) return "--drop-nan";
+    if (work.options.drop_non_finite) return "--drop-non-finite";
     if (o.only_borders) return "--borders";
     if (o.keep_manifold) return "--keep-manifold";
     const bool chooses = o.keep != tf::weld_keep::first;

@@ -121,7 +121,7 @@ void enter_blank_report(job& work, const weld_request& request) {
     entry["same"] = json::array();
     entry["displacement"] = {{"max", nullptr}};
     entry["nonmanifold_edges"] = {{"before", nullptr}, {"after", nullptr}};
-    entry["left_alone"] = nullptr;
+    entry["kept_apart"] = nullptr;
     entry["output"] = nullptr;
     for (const char* key : {"map", "removed", "label", "withheld"}) entry[key] = nullptr;
 }
@@ -147,7 +147,7 @@ void enter_report(job& work, const welding& w, const weld_request& request) {
         entry["same"].push_back({{"property", c.property}, {"tolerance", c.tolerance}});
     entry["displacement"] = {{"max", r.max_displacement}};
     entry["nonmanifold_edges"] = {{"before", r.nonmanifold_before}, {"after", r.nonmanifold_after}};
-    entry["left_alone"] = or_null(request.settings.options.keep_manifold, r.left_alone);
+    entry["kept_apart"] = or_null(request.settings.options.keep_manifold, r.kept_apart);
     entry["map"] = path_entry(request.outputs.map);
     entry["removed"] = work.options.dry_run ? json(nullptr) : path_entry(request.outputs.removed);
     if (!request.outputs.label.empty()) entry["label"] = request.outputs.label;
@@ -227,7 +227,7 @@ void write_result(job& work, pending_outputs& outputs, const tf::mesh_file& weld
                                                 write_options_for(o, form_of(work, welded, path)));
     std::optional<std::uint64_t> again;
     if (!request.outputs.drops_nothing())
-        again = still_within(work, welded, w, request.settings, written.written_as);
+        again = mergeable(work, welded, w, request.settings, written.written_as);
     enter_result(work, request, path, written, again);
     if (written.max_displacement > 0.0 && w.result.statistics.non_finite == 0)
         look_for_folds(work, welded.mesh);

@@ -30,14 +30,14 @@ welding weld(job& work, const tf::mesh_file& file, const weld_settings& settings
     return w;
 }
 
-std::optional<std::uint64_t> still_within(job& work, const tf::mesh_file& welded, const welding& w,
-                                          const weld_settings& settings, tf::precision written_as) {
+std::optional<std::uint64_t> mergeable(job& work, const tf::mesh_file& welded, const welding& w,
+                                       const weld_settings& settings, tf::precision written_as) {
     tf::weld_options options = settings.options;
     options.tolerance = w.tolerance;
     options.same = w.conditions;
     options.keep_seams = false;
     options.progress = work.progress("check");
-    const auto again = tf::count_still_within(welded, options, written_as);
+    const auto again = tf::count_mergeable(welded, options, written_as);
     work.call_ended();
     return again;
 }

@@ -47,10 +47,10 @@ struct welding {
 /// \throws failure (bad_input) when there are no points, or a property is not there; (stopped)
 [[nodiscard]] welding weld(job& work, const tf::mesh_file& file, const weld_settings& settings);
 
-/// `tf::count_still_within` for what `result` is about.
-[[nodiscard]] std::optional<std::uint64_t> still_within(job& work, const tf::mesh_file& welded,
-                                                        const welding& result,
-                                                        const weld_settings& settings,
-                                                        tf::precision written_as);
+/// `tf::count_mergeable` for what `result` is about.
+[[nodiscard]] std::optional<std::uint64_t> mergeable(job& work, const tf::mesh_file& welded,
+                                                     const welding& result,
+                                                     const weld_settings& settings,
+                                                     tf::precision written_as);
 
 }  // namespace tools

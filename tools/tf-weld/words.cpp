@@ -77,7 +77,7 @@ void say_details(job& work, const welding& w) {
     if (w.triangles == 0) return;
     work.out.info(work.name + ": " + counted(r.nonmanifold_after, "edge", "edges") +
                   " of more than two faces, " + grouped(r.nonmanifold_before) + " before; " +
-                  counted(r.left_alone, "group", "groups") + " left apart to stay manifold");
+                  counted(r.kept_apart, "group", "groups") + " left apart to stay manifold");
 }
 
 }  // namespace tools

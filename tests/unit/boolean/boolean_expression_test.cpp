@@ -84,7 +84,7 @@ TEST_CASE("expression: the named operations are the formulas they stand for") {
     CHECK(table(boolean_expression::union_of(3)) == table("a+b+c", 3));
     CHECK(table(boolean_expression::intersection_of(3)) == table("a*b*c", 3));
     CHECK(table(boolean_expression::difference_of(3)) == table("a-b-c", 3));
-    CHECK(table(boolean_expression::xor_of(3)) == "01101001");
+    CHECK(table(boolean_expression::symmetric_difference_of(3)) == "01101001");
     CHECK(table(boolean_expression::union_of(1)) == "01");
     CHECK(table(boolean_expression::union_of(0)) == "0");
 }

@@ -29,7 +29,7 @@ TEST_CASE("as_mesh: equal corners become the lowest of them, under the numbers o
     CHECK(m.mesh.points.size() == 6);
     CHECK(m.mesh.faces == std::vector<tf::face>{{0, 1, 2}, {1, 4, 2}});
     CHECK(m.triangle_of_face.empty());
-    CHECK(m.dropped == 0);
+    CHECK(m.non_finite == 0);
     CHECK(m.face_in_file(1) == 1);
 }
 
@@ -41,7 +41,7 @@ TEST_CASE(
     const tf::usable_mesh m = tf::as_mesh(file);
     CHECK(m.mesh.faces == std::vector<tf::face>{{1, 2, 3}, {3, 2, 1}});
     CHECK(m.triangle_of_face == std::vector<std::uint32_t>{1, 3});
-    CHECK(m.dropped == 2);
+    CHECK(m.non_finite == 2);
     CHECK(m.face_in_file(0) == 1);
     CHECK(m.face_in_file(1) == 2);
     // Ready for what refuses a NaN; the 0 that stands for it joins nothing.
@@ -66,7 +66,7 @@ TEST_CASE("usable_part: a box cuts the search down, and faces keep the way back 
     CHECK(part.mesh.faces.size() == 1);
     CHECK(part.triangle(0) == 2);
     CHECK(part.face_in_file(0) == 7);
-    CHECK(part.dropped == 1);
+    CHECK(part.non_finite == 1);
     CHECK(part.component == std::vector<std::uint32_t>{1});
     CHECK(tf::usable_part(file.mesh, {}, {.tolerance = 0.0}).mesh.faces.size() == 2);
 }

@@ -126,7 +126,7 @@ TEST_CASE("repair_file: coplanar faces are merged, but not where that would mix 
     };
     const tf::carry_source source{&file, {}};
     const auto set = [&](const char* element, const std::vector<std::int32_t>& values) {
-        file.attributes.obtain(element, values.size())
+        file.attributes.find_or_add(element, values.size())
             .set(tf::column::of<std::int32_t>("number", values));
     };
     CHECK(faces_made() == 12);
@@ -151,7 +151,7 @@ TEST_CASE("repair_file: parts of one value each are merged, each in itself") {
     tf::mesh_file file = scene({{"a", pair}, {"b", test::moved(pair, {5, 0, 0})}});
     std::vector<std::int32_t> numbers(48, 1);
     std::fill(numbers.begin() + 24, numbers.end(), 2);
-    file.attributes.obtain("face", 48).set(tf::column::of<std::int32_t>("number", numbers));
+    file.attributes.find_or_add("face", 48).set(tf::column::of<std::int32_t>("number", numbers));
     const tf::repaired_file made = tf::repair_file({&file});
     CHECK(made.file.mesh.faces.size() == 24);
     CHECK(std::ranges::count(made.is_left, 0) == 8);

@@ -51,7 +51,7 @@ void check_same(const tf::stream_search_result& a, const tf::stream_search_resul
     CHECK(a.part.mesh.points == b.part.mesh.points);
     CHECK(a.part.mesh.faces == b.part.mesh.faces);
     CHECK(a.part.triangle_of_face == b.part.triangle_of_face);
-    CHECK(a.part.dropped == b.part.dropped);
+    CHECK(a.part.non_finite == b.part.non_finite);
     CHECK(a.part.degenerate == b.part.degenerate);
     CHECK(a.stored_faces == b.stored_faces);
     CHECK(a.triangles == b.triangles);

@@ -36,7 +36,7 @@ struct told {
     std::vector<tf::face_pair> pairs{};
     std::array<std::uint64_t, tf::pair_kind_count> counts{};
     std::vector<std::vector<std::uint32_t>> regions{};
-    std::uint64_t dropped = 0;
+    std::uint64_t non_finite = 0;
     std::uint64_t degenerate = 0;
     std::optional<tf::box3> bounds{};
     friend bool operator==(const told&, const told&) = default;
@@ -45,7 +45,7 @@ struct told {
 told told_of(const tf::usable_mesh& part, const tf::intersection_result& found,
              const std::optional<tf::box3>& bounds) {
     told t{.counts = found.counts,
-           .dropped = part.dropped,
+           .non_finite = part.non_finite,
            .degenerate = part.degenerate,
            .bounds = bounds};
     for (const tf::face_pair& p : found.pairs)
@@ -132,7 +132,7 @@ TEST_CASE(
         o.faces_per_tile = faces;
         const told found = in_tiles(path, o);
         CHECK(found == in_memory(path, o));
-        CHECK(found.dropped == 1);
+        CHECK(found.non_finite == 1);
         CHECK(found.degenerate == 1);
         CHECK(found.pairs.size() == 3);
         CHECK(found.bounds == tf::box3{{0, 0, -1}, {9, 9, 9}});

@@ -28,7 +28,7 @@ tf::mesh_file glb_square() {
 
 template <class T>
 void add_to_points(tf::mesh_file& file, const char* name, const std::vector<T>& values) {
-    file.attributes.obtain("vertex", file.mesh.points.size())
+    file.attributes.find_or_add("vertex", file.mesh.points.size())
         .columns.push_back(tf::column::of<T>(name, values));
 }
 
@@ -181,7 +181,7 @@ TEST_CASE("glb: colors of faces and numbers of faces go by parts, too") {
     file.mesh.faces = {{0, 1, 2}, {0, 2, 3}, {1, 2, 3}, {0, 1, 3}};
     file.stored_faces = 4;
     file.attributes.parts = {{.object = "a", .first_face = 0}, {.object = "b", .first_face = 2}};
-    auto& columns = file.attributes.obtain("face", 4).columns;
+    auto& columns = file.attributes.find_or_add("face", 4).columns;
     for (const char* const name : {"red", "green", "blue"})
         columns.push_back(
             tf::column::of<std::uint8_t>(name, std::vector<std::uint8_t>{255, 0, 0, 255}));
@@ -200,7 +200,7 @@ TEST_CASE("glb: what it has no place for is named") {
     tf::mesh_file file = glb_square();
     add_to_points<float>(file, "quality", {1, 2, 3, 4});
     add_to_points<std::int32_t>(file, "label", {1, 2, 3, 4});
-    file.attributes.obtain("face", 2).columns.push_back(
+    file.attributes.find_or_add("face", 2).columns.push_back(
         tf::column::of<float>("heat", std::vector<float>{1, 2}));
     CHECK(through_glb(file).warnings ==
           texts{"columns-dropped: glb does not hold these properties, which are left out: quality, "

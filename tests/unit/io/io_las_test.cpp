@@ -232,7 +232,7 @@ TEST_CASE("LAS: extra bytes have the names and types of their record") {
 TEST_CASE("LAS: points of other formats get the smallest format that holds them") {
     tf::mesh_file file;
     file.mesh.points = {{1000.125, 2000.25, -3.5}, {1000.5, 2000.75, 4.0}};
-    tf::element& vertices = file.attributes.obtain("vertex", 2);
+    tf::element& vertices = file.attributes.find_or_add("vertex", 2);
     CHECK(written_las(file)[104] == 0);
     const std::vector<std::uint8_t> shades{255, 3};
     for (const char* name : {"red", "green", "blue"})
@@ -428,7 +428,7 @@ TEST_CASE("LAZ: parts of whole chunks with a joined head and all chunks are the 
             if (format == 7) las.add_extended("LASF_Spec", 65535, std::string(1000, 'w'));
             const tf::mesh_file file = read_las(las.file(
                 test::las_points(test::las_family::scan, format, las.record_size, count, format)));
-            std::vector<std::string> told;
+            std::vector<std::string> summaries;
             std::vector<tf::point_writer> writers;
             for (std::size_t r = 0; r + 1 < cuts.size(); ++r) {
                 tf::detail::io::point_block block;
@@ -442,15 +442,15 @@ TEST_CASE("LAZ: parts of whole chunks with a joined head and all chunks are the 
                     writers.emplace_back(std::filesystem::path(path.string() + std::to_string(r)),
                                          file, count, tf::write_options{.format = "laz"});
                 REQUIRE(writer.has_parts());
-                CHECK(writer.points_together() == 50'000);
+                CHECK(writer.part_granularity() == 50'000);
                 writer.write(block.points, block.properties);
-                told.push_back(writer.tell_part());
+                summaries.push_back(writer.part_summary());
             }
             std::vector<std::string> heads;
             std::string points;
             for (std::size_t r = 0; r < writers.size(); ++r) {
                 tf::write_result result;
-                const tf::detail::io::written_part part = writers[r].commit_part(result, told);
+                const tf::detail::io::written_part part = writers[r].commit_part(result, summaries);
                 std::ifstream in(path.string() + std::to_string(r), std::ios::binary);
                 const std::string bytes(std::istreambuf_iterator<char>(in), {});
                 if (part.points > 0) heads.push_back(bytes.substr(0, part.head));

@@ -139,7 +139,7 @@ TEST_CASE(
     "mesh translation: over all pairs of formats, colors of faces stay or are named as lost") {
     for (const std::string prefix : {"", "diffuse_"}) {
         tf::mesh_file given = folded_sheet();
-        auto& columns = given.attributes.obtain("face", 2).columns;
+        auto& columns = given.attributes.find_or_add("face", 2).columns;
         const std::vector<std::uint8_t> red{10, 255}, green{20, 0}, blue{30, 128};
         columns.push_back(tf::column::of<std::uint8_t>(prefix + "red", red));
         columns.push_back(tf::column::of<std::uint8_t>(prefix + "green", green));
@@ -193,7 +193,7 @@ TEST_CASE("mesh translation: STL says how many points it leaves out") {
 
 TEST_CASE("mesh translation: STL as text says that attributes of faces are left out") {
     tf::mesh_file given = folded_sheet();
-    given.attributes.obtain("face", 2).columns.push_back(
+    given.attributes.find_or_add("face", 2).columns.push_back(
         tf::column::of<std::uint16_t>("stl_attribute", std::vector<std::uint16_t>{7, 8}));
     CHECK(put_translated(given, "stl").warnings.empty());
     CHECK(is_named_in(put_translated(given, "stl", {.ascii = true}).warnings, "stl_attribute"));
@@ -226,7 +226,7 @@ TEST_CASE("mesh translation: GLB: colors of faces are those of materials, to the
         ramp.push_back(static_cast<std::uint8_t>(value));
     }
     given.stored_faces = 256;
-    auto& columns = given.attributes.obtain("face", 256).columns;
+    auto& columns = given.attributes.find_or_add("face", 256).columns;
     for (const char* name : {"red", "green", "blue", "alpha"})
         columns.push_back(tf::column::of<std::uint8_t>(name, ramp));
     const tf::mesh_file back = test::passed_through(given, "glb");

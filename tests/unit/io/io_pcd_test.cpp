@@ -87,7 +87,7 @@ std::string xyz_head(std::size_t points, const std::string& data) {
 tf::mesh_file rich() {
     tf::mesh_file file;
     file.mesh.points = {{0.5, -0.0, 3}, {NAN, NAN, NAN}, {1e300, 5e-324, -7}};
-    tf::element& e = file.attributes.obtain("vertex", 3);
+    tf::element& e = file.attributes.find_or_add("vertex", 3);
     const auto add = [&]<class T>(const char* name, T) {
         const T values[] = {std::numeric_limits<T>::min(), std::numeric_limits<T>::max(), T{1}};
         e.columns.push_back(tf::column::of<T>(name, values));

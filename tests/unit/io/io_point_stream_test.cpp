@@ -59,7 +59,7 @@ tf::mesh_file read_by(std::size_t most, const fs::path& path) {
     tf::mesh_file file = reader.header();
     tf::element none{.name = "vertex"};
     const bool has_columns = file.attributes.find("vertex") != nullptr;
-    tf::element& vertices = has_columns ? file.attributes.obtain("vertex", 0) : none;
+    tf::element& vertices = has_columns ? file.attributes.find_or_add("vertex", 0) : none;
     for (tf::column& c : vertices.columns)
         if (c.list_length) c.list_begin.assign(1, 0);
     tf::detail::io::point_block block;
@@ -179,7 +179,7 @@ TEST_CASE("point streams: lists and rows without coordinates alone pass through"
         for (const std::size_t most : std::vector<std::size_t>{1, 2, 3})
             CHECK(read_by(most, again).attributes == whole.attributes);
         tf::point_reader reader(again);
-        tf::point_writer writer(here.folder / "c.ply", reader.header(), *reader.count(),
+        tf::point_writer writer(here.folder / "c.ply", reader.header(), reader.count(),
                                 {.ascii = ascii});
         tf::detail::io::point_block block;
         while (reader.read(block.points, block.properties, 2))
@@ -284,7 +284,7 @@ const char* const mesh_text =
 void copy_by(std::size_t most, const fs::path& from, const fs::path& to, bool ascii,
              bool with_points = true) {
     tf::point_reader reader(from, {}, 0, true);
-    tf::point_writer writer(to, reader.header(), *reader.count(), {.ascii = ascii}, 5);
+    tf::point_writer writer(to, reader.header(), reader.count(), {.ascii = ascii}, 5);
     tf::detail::io::point_block points;
     while (with_points && reader.read(points.points, points.properties, most))
         writer.write(points.points, points.properties);
@@ -338,7 +338,7 @@ TEST_CASE("point streams: of a file in parts, each has some points, and some of 
             const std::uint64_t bytes = writer.end_part();
             CHECK_THROWS_AS(writer.write(points.points, points.properties), std::invalid_argument);
             const std::uint64_t room = first == 0 ? 1000 : 0;
-            writer.leave_room(room);
+            writer.skip_bytes(room);
             do writer.write(rows);
             while (first > 0 && reader.read(rows, 100));
             tf::write_result result;

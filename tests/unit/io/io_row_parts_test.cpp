@@ -31,7 +31,7 @@ tf::mesh_file triangles_and_edges(std::uint32_t count) {
     for (std::uint32_t i = 0; i < count; ++i) file.mesh.faces.push_back({i, i + 1, i + 2});
     std::vector<std::int32_t> ends;
     for (std::uint32_t i = 0; i < count / 2; ++i) ends.push_back(static_cast<std::int32_t>(i));
-    tf::element& edges = file.attributes.obtain("edge", ends.size());
+    tf::element& edges = file.attributes.find_or_add("edge", ends.size());
     edges.set(tf::column::of<std::int32_t>("vertex1", ends));
     return file;
 }

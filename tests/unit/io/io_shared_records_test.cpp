@@ -45,7 +45,7 @@ std::vector<std::optional<io::record_index>> look(const std::vector<fs::path>& p
 /// All that a reader gives from a point on.
 std::string read_shared(const fs::path& path, std::uint64_t first, const io::record_index* known) {
     io::point_blocks reader(path, {}, first, io::row_use::none, known);
-    std::string all = std::to_string(reader.count().value_or(0));
+    std::string all = std::to_string(reader.count());
     tf::detail::io::point_block block;
     while (reader.read(block, 50))
         for (std::size_t i = 0; i < block.points.size(); ++i) {

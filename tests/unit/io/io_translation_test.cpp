@@ -318,7 +318,7 @@ TEST_CASE("translation: extra bytes with a scale are values, and come back as th
     CHECK(read_translated(again, "las").las->records == file.las->records);
     // One that is no step is rounded, which is said.
     tf::mesh_file between = file;
-    auto& vertices = between.attributes.obtain("vertex", 5);
+    auto& vertices = between.attributes.find_or_add("vertex", 5);
     (void)vertices.set(
         tf::column::of<double>("hag", std::vector<double>{100.004, 101, 98.5, 100, 100}));
     const translated_file rounded = put_translated(between, "las");
@@ -400,7 +400,7 @@ TEST_CASE("translation: points that are no points are dropped, with their faces"
         "property float z\nproperty uchar label\nelement face 3\n"
         "property list uchar int vertex_indices\nproperty uchar color\nend_header\n"
         "0 0 0 1\nnan 0 0 2\n1 0 0 3\n0 1 0 4\n1 1 0 5\n3 0 1 2 6\n4 0 2 4 3 7\n3 2 4 3 8\n";
-    const tf::mesh_file file = read_translated(ply, "ply", {.drop_nan = true});
+    const tf::mesh_file file = read_translated(ply, "ply", {.drop_non_finite = true});
     CHECK(file.warnings.at(0).code == "non-finite");
     CHECK(translated_numbers(file, "label") == std::vector<double>{1, 3, 4, 5});
     CHECK(file.stored_faces == 2);

@@ -169,7 +169,7 @@ TEST_CASE("stl: header, names of solids and attribute bits come back") {
     CHECK(read_again(written(file, "stl", true), "a.stl").attributes.parts ==
           file.attributes.parts);
     const std::vector<std::uint16_t> bits{0, 0, 65535, 7};
-    file.attributes.obtain("face", 4).columns.push_back(
+    file.attributes.find_or_add("face", 4).columns.push_back(
         tf::column::of<std::uint16_t>("stl_attribute", bits));
     file.attributes.header = "HEADER" + std::string(73, '*') + '\0';
     const std::string bytes = written(file, "stl");
@@ -230,7 +230,7 @@ TEST_CASE("glb: coordinates, one primitive a color, and an offset that loses not
         p = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
     const std::vector<std::uint8_t> red{255, 0, 255, 0};
     const std::vector<std::uint8_t> none(4, 0);
-    auto& columns = file.attributes.obtain("face", 4).columns;
+    auto& columns = file.attributes.find_or_add("face", 4).columns;
     columns.push_back(tf::column::of<std::uint8_t>("red", red));
     columns.push_back(tf::column::of<std::uint8_t>("green", none));
     columns.push_back(tf::column::of<std::uint8_t>("blue", none));
@@ -250,7 +250,7 @@ TEST_CASE("glb: coordinates, one primitive a color, and an offset that loses not
 
 TEST_CASE("glb: whole numbers of faces are in the order of the faces") {
     tf::mesh_file file = tetrahedron(3);
-    auto& columns = file.attributes.obtain("face", 4).columns;
+    auto& columns = file.attributes.find_or_add("face", 4).columns;
     columns.push_back(tf::column::of<std::uint32_t>("id", std::vector<std::uint32_t>{4, 5, 6, 7}));
     columns.push_back(tf::column::of<float>("heat", std::vector<float>{4, 5, 6, 7}));
     columns.push_back(tf::column::of<std::int8_t>("sign", std::vector<std::int8_t>{1, -1, 1, 1}));
@@ -305,7 +305,7 @@ TEST_CASE("writing: data that cannot be meant is refused") {
     file.stored_face = {0, 1, 1, 2};  // triangles 1 and 2 are no fan
     CHECK_THROWS_AS((void)written(file, "ply"), std::invalid_argument);
     file = tetrahedron(6);
-    file.attributes.obtain("face", 4).columns.push_back(
+    file.attributes.find_or_add("face", 4).columns.push_back(
         tf::column::of<double>("x", std::span<const double>()));
     CHECK_THROWS_AS((void)written(file, "ply"), std::invalid_argument);
 }
@@ -314,7 +314,8 @@ TEST_CASE("polygons: splitting repeats the rows of faces and renumbers parts") {
     tf::mesh_file file = read_again(
         "o a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 1 2 3\no b\nf 2 3 4\n", "a.obj");
     const std::vector<int> numbers{10, 20, 30};
-    file.attributes.obtain("face", 3).columns.push_back(tf::column::of<std::int32_t>("n", numbers));
+    file.attributes.find_or_add("face", 3).columns.push_back(
+        tf::column::of<std::int32_t>("n", numbers));
     file.split_polygons();
     const std::vector<int> expected{10, 10, 20, 30};
     CHECK(file.attributes.elements[0].columns[0] == tf::column::of<std::int32_t>("n", expected));

@@ -36,10 +36,10 @@ using drain = std::pair<tf::point3, double>;
 tf::mesh checked(const tf::offset_result& made) {
     REQUIRE(made.certificate);
     CHECK(test::is_clean_solid(made.mesh));
-    CHECK(made.least <= made.distance * 1.0001);
-    CHECK(made.greatest >= made.distance * 0.9999);
-    CHECK(made.least >= made.distance - 2 * made.resolution);
-    CHECK(made.greatest <= made.distance + 2 * made.resolution);
+    CHECK(made.least_distance <= made.distance * 1.0001);
+    CHECK(made.greatest_distance >= made.distance * 0.9999);
+    CHECK(made.least_distance >= made.distance - 2 * made.resolution);
+    CHECK(made.greatest_distance <= made.distance + 2 * made.resolution);
     return made.mesh;
 }
 
@@ -56,10 +56,10 @@ void check_bounds(const tf::offset_result& made, const tf::mesh& of) {
         least = std::min(least, near->distance);
         greatest = std::max(greatest, near->distance);
     }
-    CHECK(least >= made.least * (1 - 1e-12));
-    CHECK(greatest <= made.greatest * (1 + 1e-12));
+    CHECK(least >= made.least_distance * (1 - 1e-12));
+    CHECK(greatest <= made.greatest_distance * (1 + 1e-12));
     // Each bound is near to what is there.
-    CHECK(greatest >= made.greatest - 0.5 * made.resolution);
+    CHECK(greatest >= made.greatest_distance - 0.5 * made.resolution);
 }
 
 /// An n x n height map over the unit square.
@@ -102,7 +102,7 @@ TEST_CASE("a finer resolution is nearer to the distance on a ball") {
     for (const double resolution : {0.1, 0.05, 0.025}) {
         const auto made = tf::offset(ball, 0.25, {.resolution = resolution});
         checked(made);
-        const double error = made.greatest - made.least;
+        const double error = made.greatest_distance - made.least_distance;
         CHECK(error < before);
         before = error;
     }
@@ -188,8 +188,8 @@ TEST_CASE("without a resolution, cells are a share of the distance within a budg
         const auto made = tf::offset(cube, d);
         checked(made);
         CHECK(made.mesh.faces.size() < 250'000);
-        CHECK(made.greatest < 1.02 * d);
-        CHECK(made.least > 0.96 * d);
+        CHECK(made.greatest_distance < 1.02 * d);
+        CHECK(made.least_distance > 0.96 * d);
     }
     // As fine as 32-bit coordinates allow there, where that is coarser.
     const tf::offset_options rough{.precision = tf::precision::float32};

@@ -40,7 +40,7 @@ TEST_CASE("bodies: equal corners are one, faces that are not finite are left out
     tf::mesh_file file = file_of(test::unjoined(box(1, 1, 1)));
     file.mesh.points[3].x = std::numeric_limits<double>::quiet_NaN();
     tf::body_set found;
-    CHECK(found.add(file).left_out == 1);
+    CHECK(found.add(file).non_finite == 1);
     REQUIRE(found.shapes.size() == 1);
     CHECK(found.shapes[0].view().points.size() == 8);
     CHECK(found.shapes[0].view().faces.size() == 11);
@@ -57,7 +57,7 @@ TEST_CASE("bodies: a file without faces is a cloud of its finite points") {
     const tf::body_file& file =
         found.add_parts(file_of({{{0, 0, 0}, {std::nan(""), 0, 0}, {1, 1, 1}}, {}}));
     REQUIRE(file.cloud);
-    CHECK(file.left_out == 1);
+    CHECK(file.non_finite == 1);
     CHECK(file.box->max == tf::point3{1, 1, 1});
     CHECK(found.shapes[0].is_cloud());
     CHECK(found.triangle(0, 1) == 2);

@@ -71,9 +71,9 @@ TEST_CASE("deviation: points outside, inside and on a box") {
     CHECK(found.worst == 3);
     CHECK(found.lowest == -0.25);
     CHECK(found.highest == 3.0);
-    CHECK(found.there_at_most == 3.0);
+    CHECK(found.max_bound == 3.0);
     CHECK_FALSE(found.back_max.has_value());  // there are no faces to look back to
-    CHECK_FALSE(found.back_at_most.has_value());
+    CHECK_FALSE(found.back_max_bound.has_value());
     CHECK(found.band_counts == std::array<std::uint64_t, 3>{0, 2, 2});
 }
 
@@ -114,9 +114,9 @@ TEST_CASE("deviation: points of `b` that no face uses change nothing on the way 
     for (tf::face& f : more.faces)
         for (std::uint32_t& corner : f) corner += 5;
     const auto expected = found_for(a, b), found = found_for(a, more);
-    REQUIRE((expected.back_max && expected.back_at_most));
+    REQUIRE((expected.back_max && expected.back_max_bound));
     CHECK(found.back_max == expected.back_max);
-    CHECK(found.back_at_most == expected.back_at_most);
+    CHECK(found.back_max_bound == expected.back_max_bound);
 }
 
 TEST_CASE("deviation: each distance and side is that of the point alone") {
@@ -167,7 +167,7 @@ TEST_CASE(
     CHECK(none.histogram.at(0) == b.points.size());
     const auto far = found_for(moved(b, {100, 0, 0}), b);
     CHECK(far.max <= 100.0);
-    CHECK(far.there_at_most > far.max);
+    CHECK(far.max_bound > far.max);
     CHECK(*far.back_max <= 100.0);
     CHECK(far.lowest > 97.9);
 }
@@ -186,7 +186,7 @@ TEST_CASE("deviation: no point of a face is further away than the bound says") {
                 for (std::size_t k = 0; k < 3; ++k)
                     p[k] = a.points[f[0]][k] + u * (a.points[f[1]][k] - a.points[f[0]][k]) +
                            v * (a.points[f[2]][k] - a.points[f[0]][k]);
-                REQUIRE(tf::closest_point(solid, p)->distance <= found.there_at_most + 1e-12);
+                REQUIRE(tf::closest_point(solid, p)->distance <= found.max_bound + 1e-12);
             }
     }
 }

@@ -230,7 +230,7 @@ TEST_CASE("mate features: a shaft that goes through its bore stays in the middle
     const auto on_shaft = tf::find_features(shaft, feature_kind::axis)[0];
     const auto found = tf::mate_features(shaft, bore, on_shaft, in_bore);
     check_features(shaft, bore, found);
-    CHECK(found.end == tf::placement_end::stays);
+    CHECK(found.end == tf::placement_end::unchanged);
     CHECK(std::abs(found.offset) < 1e-12);
     CHECK(found.at_place == tf::mesh_relation::separate);
     // One that is too thick stops outside.

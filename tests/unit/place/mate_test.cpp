@@ -61,7 +61,7 @@ TEST_CASE("mate: of nothing there is no way, and what meets stays") {
     among.add(moved(box(1, 1, 1), {1, 0, 0}));
     const auto touching = tf::mate(a, among.prepared);
     REQUIRE(touching);
-    CHECK(touching.end == placement_end::stays);
+    CHECK(touching.end == placement_end::unchanged);
     CHECK(touching.nearest_fixed == 1);
     CHECK(touching.at_place == tf::mesh_relation::touching);
     CHECK(touching.travel == 0.0);

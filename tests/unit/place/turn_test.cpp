@@ -174,7 +174,7 @@ TEST_CASE("turn: what touches at the start stays, what penetrates has no place")
     const tf::mesh box = test::box(1, 1, 1);
     const auto touching = tf::turn(box, test::moved(box, {1, 0, 0}), {}, up);
     REQUIRE(touching);
-    CHECK(touching.end == tf::placement_end::stays);
+    CHECK(touching.end == tf::placement_end::unchanged);
     CHECK(touching.points == box.points);
     CHECK(touching.angle == 0.0);
     CHECK(tf::turn(box, test::moved(box, {1, 0, 0}), {}, up, {.clearance = 1}).end ==

@@ -116,8 +116,8 @@ TEST_CASE("repair: cracks are zipped, however the faces are turned") {
     CHECK(result.mesh.faces.size() == ball.faces.size());
     CHECK(tf::signed_volume(result.mesh) == doctest::Approx(tf::signed_volume(ball)).epsilon(1e-4));
     CHECK(result.statistics.closed_edges > ball.faces.size());
-    CHECK(result.statistics.widest <= 4e-5);
-    CHECK(result.statistics.widest > 0.0);
+    CHECK(result.statistics.widest_closed <= 4e-5);
+    CHECK(result.statistics.widest_closed > 0.0);
     CHECK(result.statistics.flipped == 1);
     CHECK(result.statistics.filled == 0);
     // A crack wider than the gap stays one.
@@ -133,7 +133,7 @@ TEST_CASE("repair: an edge is split at the vertices that lie on it") {
     const tf::repair_result result = tf::repair(dirty);
     require_solid(result, 8.0);
     CHECK(result.statistics.split_edges == 1);
-    CHECK(result.statistics.widest == 0.0);
+    CHECK(result.statistics.widest_closed == 0.0);
     CHECK(result.mesh.faces.size() == 14);
 }
 
@@ -156,7 +156,7 @@ TEST_CASE("repair: a cavity stays one where the filling of a hole passes through
     dirty = test::together(dirty, test::inside_out(inner));
     const tf::repair_result result = tf::repair(dirty);
     REQUIRE_MESSAGE(result.certificate, result.certificate.message());
-    CHECK(result.statistics.turned == 0);
+    CHECK(result.statistics.turned_outward == 0);
     const double full = tf::signed_volume(test::ball(4, 1.0));
     CHECK(tf::signed_volume(result.mesh) < full - 0.8 * tf::signed_volume(inner));
 }

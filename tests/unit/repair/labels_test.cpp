@@ -65,7 +65,7 @@ TEST_CASE("labels: rooms with one wall between two are one solid") {
         CHECK(made.statistics.labeled_cells == x * y * z);
         const double walls = (x - 1.0) * y * z + x * (y - 1.0) * z + x * y * (z - 1.0);
         CHECK(made.statistics.dropped_area == doctest::Approx(walls));
-        CHECK(made.statistics.turned_area == 0.0);
+        CHECK(made.statistics.flipped_area == 0.0);
         CHECK(made.statistics.area_lost == 0.0);
         for (const std::uint32_t f : made.face_source) CHECK(f != tf::repair_result::none);
     }

@@ -45,12 +45,12 @@ TEST_CASE("repair: flipped faces agree again, and an inverted solid is turned") 
     tf::repair_result result = tf::repair(dirty);
     require_solid(result, tf::signed_volume(ball));
     CHECK(result.statistics.flipped == 4);
-    CHECK(result.statistics.turned == 0);
+    CHECK(result.statistics.turned_outward == 0);
     for (tf::face& f : dirty.faces) turn(f);
     result = tf::repair(dirty);
     require_solid(result, tf::signed_volume(ball));
     CHECK(result.statistics.flipped == 4);
-    CHECK(result.statistics.turned == 1);
+    CHECK(result.statistics.turned_outward == 1);
 }
 
 TEST_CASE("repair: a cavity stays one, and a body inside a body is not made one") {
@@ -62,7 +62,7 @@ TEST_CASE("repair: a cavity stays one, and a body inside a body is not made one"
     for (tf::face& f : inner.faces) turn(f);
     result = tf::repair(test::together(outer, inner));
     require_solid(result, rest);
-    CHECK(result.statistics.turned == 0);
+    CHECK(result.statistics.turned_outward == 0);
 }
 
 TEST_CASE("repair: a solid with a cavity, inside out, is turned with it") {
@@ -72,7 +72,7 @@ TEST_CASE("repair: a solid with a cavity, inside out, is turned with it") {
     const tf::mesh hollow = test::together(outer, test::inside_out(inner));
     const tf::repair_result result = tf::repair(test::inside_out(hollow));
     require_solid(result, rest);
-    CHECK(result.statistics.turned == 2);
+    CHECK(result.statistics.turned_outward == 2);
     CHECK(result.mesh.faces == test::inside_out(test::inside_out(hollow)).faces);
 }
 
@@ -166,7 +166,7 @@ TEST_CASE("repair: solids that overlap become one") {
     for (std::size_t f = ball.faces.size(); f < pair.faces.size(); ++f) turn(pair.faces[f]);
     result = tf::repair(pair);
     require_solid(result, joined);
-    CHECK(result.statistics.turned == 1);
+    CHECK(result.statistics.turned_outward == 1);
 }
 
 TEST_CASE("repair: what touches in an edge or a vertex is moved apart, in floats, too") {

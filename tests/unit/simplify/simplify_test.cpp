@@ -124,18 +124,19 @@ class sampled_surface {
 
 void check_distances(const tf::mesh& given, const tf::simplify_result& made) {
     const sampled_surface before(given), after(made.mesh);
-    CHECK(after.furthest(before) <= made.there_at_most + after.spacing);
-    CHECK(before.furthest(after) <= made.back_at_most + before.spacing);
+    CHECK(after.furthest(before) <= made.input_to_result_bound + after.spacing);
+    CHECK(before.furthest(after) <= made.result_to_input_bound + before.spacing);
     const auto far = tf::deviation(given, made.mesh);
     REQUIRE(far);
-    CHECK(far->max <= made.there_at_most * (1 + 1e-12));
-    CHECK(far->back_max.value() <= made.back_at_most * (1 + 1e-12));
+    CHECK(far->max <= made.input_to_result_bound * (1 + 1e-12));
+    CHECK(far->back_max.value() <= made.result_to_input_bound * (1 + 1e-12));
 }
 
 bool same(const tf::simplify_result& a, const tf::simplify_result& b) {
     return a.mesh == b.mesh && a.face_source == b.face_source &&
            a.vertex_source == b.vertex_source && a.face_of_new_vertex == b.face_of_new_vertex &&
-           a.there_at_most == b.there_at_most && a.back_at_most == b.back_at_most;
+           a.input_to_result_bound == b.input_to_result_bound &&
+           a.result_to_input_bound == b.result_to_input_bound;
 }
 
 }  // namespace
@@ -146,8 +147,8 @@ TEST_CASE("A torus stays a clean solid, within the distance both ways") {
         const tf::simplify_result made = tf::simplify(torus, distance);
         MESSAGE(distance << ": " << made.mesh.faces.size() << " faces");
         CHECK(test::is_clean_solid(made.mesh));
-        CHECK(made.there_at_most <= distance);
-        CHECK(made.back_at_most <= distance);
+        CHECK(made.input_to_result_bound <= distance);
+        CHECK(made.result_to_input_bound <= distance);
         if (distance > 0.0) check_distances(torus, made);
         if (distance > 0.05) CHECK(made.mesh.faces.size() < torus.faces.size() / 2);
     }
@@ -238,8 +239,8 @@ TEST_CASE("In float32, all coordinates are, and bounds count what rounding did")
     check_distances(torus, made);
     const tf::simplify_result rounded =
         tf::simplify(torus, 0.0, {.precision = tf::precision::float32});
-    CHECK(rounded.there_at_most > 0.0);
-    CHECK(rounded.there_at_most < 1e-6);
+    CHECK(rounded.input_to_result_bound > 0.0);
+    CHECK(rounded.input_to_result_bound < 1e-6);
 }
 
 TEST_CASE("It stops at as many faces as asked for") {

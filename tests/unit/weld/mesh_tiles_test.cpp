@@ -54,9 +54,9 @@ tf::mesh_file soup(std::uint32_t n) {
             number.push_back(static_cast<std::uint16_t>(number.size()));
         }
     file.stored_faces = number.size();
-    tf::element& vertices = file.attributes.obtain("vertex", file.mesh.points.size());
+    tf::element& vertices = file.attributes.find_or_add("vertex", file.mesh.points.size());
     vertices.set(tf::column::of<std::uint8_t>("red", red));
-    tf::element& faces = file.attributes.obtain("face", number.size());
+    tf::element& faces = file.attributes.find_or_add("face", number.size());
     faces.set(tf::column::of<std::uint16_t>("number", number));
     return file;
 }
@@ -117,18 +117,9 @@ namespace {
 /// What is known of a weld.
 std::vector<std::uint64_t> known(const tf::weld_stream_result& of) {
     const tf::weld_statistics& c = of.statistics;
-    return {of.survey.faces,
-            of.survey.triangles,
-            of.kept,
-            c.groups,
-            of.faces,
-            of.triangles,
-            c.collapsed,
-            c.degenerate,
-            c.flipped,
-            c.nonmanifold_before,
-            c.nonmanifold_after,
-            of.still_within.value()};
+    return {of.survey.faces,     of.survey.triangles, of.kept,      c.groups,  of.faces,
+            of.triangles,        c.collapsed,         c.degenerate, c.flipped, c.nonmanifold_before,
+            c.nonmanifold_after, of.mergeable.value()};
 }
 
 /// Whether teams write the bytes that one writes, and know what it knows.
@@ -167,7 +158,7 @@ tf::mesh_file triangles() {
     file.stored_faces = file.mesh.faces.size();
     std::vector<std::int32_t> ends;
     for (std::int32_t i = 0; i < 300; ++i) ends.push_back(i);
-    tf::element& edges = file.attributes.obtain("edge", ends.size());
+    tf::element& edges = file.attributes.find_or_add("edge", ends.size());
     edges.set(tf::column::of<std::int32_t>("vertex1", ends));
     return file;
 }

@@ -40,7 +40,7 @@ tf::mesh_file shaded_cloud(std::size_t count, test::random& random) {
         file.mesh.points.push_back({random.unit(), random.unit(), random.unit()});
         shade.push_back(0.25F * static_cast<float>(random.below(4)));
     }
-    file.attributes.obtain("vertex", count).set(tf::column::of<float>("shade", shade));
+    file.attributes.find_or_add("vertex", count).set(tf::column::of<float>("shade", shade));
     return file;
 }
 

@@ -151,15 +151,15 @@ TEST_CASE("withhold: flags what is not kept and leaves other flags and points as
     CHECK_THROWS_AS(tf::weld(cloud_of(points)).withhold(other), std::invalid_argument);
 }
 
-TEST_CASE("count_still_within: rounding and the choice of what is kept bring points together") {
+TEST_CASE("count_mergeable: rounding and the choice of what is kept bring points together") {
     const double step = std::numeric_limits<float>::epsilon();
     tf::mesh_file file = cloud_of({{1.0, 0, 0}, {1.0 + step / 4, 0, 0}});
-    CHECK(tf::count_still_within(file, {}, tf::precision::float64) == 0);
-    CHECK(tf::count_still_within(file, {}, tf::precision::float32) == 1);
+    CHECK(tf::count_mergeable(file, {}, tf::precision::float64) == 0);
+    CHECK(tf::count_mergeable(file, {}, tf::precision::float32) == 1);
     file = cloud_of({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}});
     const tf::weld_options mean{.tolerance = 1.0, .keep = tf::weld_keep::mean};
-    CHECK(tf::count_still_within(file, mean, tf::precision::float64) == 1);
-    CHECK_FALSE(tf::count_still_within(file, {.only_borders = true}, tf::precision::float64));
+    CHECK(tf::count_mergeable(file, mean, tf::precision::float64) == 1);
+    CHECK_FALSE(tf::count_mergeable(file, {.only_borders = true}, tf::precision::float64));
 }
 
 TEST_CASE("join: points and faces follow each other, columns go together by name") {

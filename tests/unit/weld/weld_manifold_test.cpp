@@ -98,7 +98,7 @@ TEST_CASE("keep_manifold: two cubes that share an edge come apart as two closed 
         soup_of(test::together(cube, test::moved(cube, {high->x - low->x, high->y - low->y, 0})));
     CHECK(tf::weld(cubes, {}, {}).statistics.nonmanifold_after == 1);
     const auto welded = weld(cubes);
-    CHECK(welded.statistics.left_alone == 2);
+    CHECK(welded.statistics.kept_apart == 2);
     CHECK(welded.mesh.points.size() == 16);
     const auto c = counts(welded.mesh);
     CHECK(c.closed);
@@ -112,7 +112,7 @@ TEST_CASE("keep_manifold: surfaces cut to pieces close as without it") {
         const tf::mesh whole = tf::weld(tf::read(test::data_folder() / name).mesh, {}, {}).mesh;
         test::random source(1);
         const auto welded = weld(test::shuffled(source, soup_of(whole)).mesh);
-        CHECK(welded.statistics.left_alone == 0);
+        CHECK(welded.statistics.kept_apart == 0);
         CHECK(welded.mesh.points.size() == whole.points.size());
         CHECK(counts(welded.mesh).closed);
     }
@@ -124,7 +124,7 @@ TEST_CASE("keep_manifold: surfaces cut to pieces close as without it") {
     for (std::size_t i = 0; i < sphere.faces.size() / 2; ++i)
         for (std::uint32_t& corner : sphere.faces[i]) corner += count;
     const auto welded = weld(sphere);
-    CHECK(welded.statistics.left_alone == 0);
+    CHECK(welded.statistics.kept_apart == 0);
     CHECK(welded.mesh.points.size() == count);
     CHECK(counts(welded.mesh).closed);
 }
@@ -138,12 +138,12 @@ TEST_CASE("keep_manifold: solids that meet in a corner stay apart, and so do coi
     CHECK(counts(tf::weld(both, {}, {}).mesh).nonmanifold_points == 1);
     const auto welded = weld(both);
     CHECK(welded.mesh.points.size() == 8);
-    CHECK(welded.statistics.left_alone == 1);
+    CHECK(welded.statistics.kept_apart == 1);
     CHECK(weld(soup_of(both)).mesh.points.size() == 8);
 
     const tf::mesh twice = test::together(corner, corner);
     CHECK(weld(twice).mesh.points.size() == 8);
-    CHECK(weld(twice).statistics.left_alone == 4);
+    CHECK(weld(twice).statistics.kept_apart == 4);
 }
 
 TEST_CASE("keep_manifold: an inner edge between two borders does not shrink, the others do") {
@@ -162,12 +162,12 @@ TEST_CASE("keep_manifold: an inner edge between two borders does not shrink, the
     CHECK(plain.mesh.points.size() == 7);
     CHECK(counts(plain.mesh).nonmanifold_points == 1);
     CHECK(weld(strip, 0.25).mesh.points.size() == 8);
-    CHECK(weld(strip, 0.25).statistics.left_alone == 1);
+    CHECK(weld(strip, 0.25).statistics.kept_apart == 1);
 
     tf::mesh end = strip;
     std::swap(end.points[1].y, end.points[3].y);  // now at the end of the strip
     CHECK(weld(end, 0.25).mesh.points.size() == 7);
-    CHECK(weld(end, 0.25).statistics.left_alone == 0);
+    CHECK(weld(end, 0.25).statistics.kept_apart == 0);
 }
 
 TEST_CASE("keep_manifold: an edge that must not shrink keeps its equal corners joined") {
@@ -187,7 +187,7 @@ TEST_CASE("keep_manifold: an edge that must not shrink keeps its equal corners j
     }
     const auto welded = weld(strip, 0.25);
     CHECK(welded.mesh.points.size() == 8);
-    CHECK(welded.statistics.left_alone == 1);
+    CHECK(welded.statistics.kept_apart == 1);
     CHECK(welded.statistics.max_displacement == 0.0);
     CHECK(counts(welded.mesh).components_by_edge == 1);
 }
@@ -200,7 +200,7 @@ TEST_CASE("keep_manifold: points without faces go with those that have some") {
     mesh.points.insert(mesh.points.end(), {{0, 0, 0}, {9, 9, 9}, {9, 9, 9}});
     const auto welded = weld(mesh);
     CHECK(welded.groups.group_of_point == ids{0, 0, 1, 2, 3, 0, 4, 4});
-    CHECK(welded.statistics.left_alone == 0);
+    CHECK(welded.statistics.kept_apart == 0);
     const tf::mesh cloud{std::vector<tf::point3>(5), {}};
     CHECK(weld(cloud).mesh.points.size() == 1);
 }
@@ -243,12 +243,12 @@ TEST_CASE("keep_manifold: threads change nothing") {
     for (tf::point3& p : sheet.points) p.x += source.in(-0.6, 0.6);
     const tf::mesh soup = soup_of(sheet);
     const auto once = weld(soup, 0.7);
-    CHECK(once.statistics.left_alone > 0);
+    CHECK(once.statistics.kept_apart > 0);
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
         const auto again = weld(soup, 0.7);
         CHECK(again.mesh == once.mesh);
         CHECK(again.groups.group_of_point == once.groups.group_of_point);
-        CHECK(again.statistics.left_alone == once.statistics.left_alone);
+        CHECK(again.statistics.kept_apart == once.statistics.kept_apart);
     }
 }

@@ -157,8 +157,8 @@ TEST_CASE("weld: an order of whole numbers that no double holds") {
     const std::vector<std::int64_t> time{large + 1, large, -large};
     const std::vector<std::uint64_t> id{~std::uint64_t{0} - 1, ~std::uint64_t{0}, 0};
     tf::attributes properties;
-    properties.obtain("vertex", 3).columns = {tf::column::of<std::int64_t>("time", time),
-                                              tf::column::of<std::uint64_t>("id", id)};
+    properties.find_or_add("vertex", 3).columns = {tf::column::of<std::int64_t>("time", time),
+                                                   tf::column::of<std::uint64_t>("id", id)};
     const auto kept = [&](const char* by, bool highest_first) {
         return tf::weld(cloud.points, properties, {.order_by = by, .highest_first = highest_first})
             .point_of_group;
@@ -185,7 +185,7 @@ TEST_CASE("weld: faces follow points that are kept by an order, split groups kee
     }
 }
 
-TEST_CASE("count_still_within: looks in the order that it was welded in") {
+TEST_CASE("count_mergeable: looks in the order that it was welded in") {
     const double step = std::numeric_limits<float>::epsilon();
     // Once rounded, the middle one is within the tolerance of both others.
     tf::mesh_file file;
@@ -193,10 +193,10 @@ TEST_CASE("count_still_within: looks in the order that it was welded in") {
     file.mesh.points = {{0, 0, 0}, {1.0 + step / 4, 0, 0}, {2.0 + step, 0, 0}};
     file.attributes = vertex_columns({{"rank", {2, 1, 3}}});
     tf::weld_options options{.tolerance = reach};
-    CHECK(tf::count_still_within(file, options, tf::precision::float32) == 1);
+    CHECK(tf::count_mergeable(file, options, tf::precision::float32) == 1);
     options.order_by = "rank";
-    CHECK(tf::count_still_within(file, options, tf::precision::float64) == 0);
-    CHECK(tf::count_still_within(file, options, tf::precision::float32) == 2);
+    CHECK(tf::count_mergeable(file, options, tf::precision::float64) == 0);
+    CHECK(tf::count_mergeable(file, options, tf::precision::float32) == 2);
 }
 
 TEST_CASE("weld: orders that cannot be meant are refused") {

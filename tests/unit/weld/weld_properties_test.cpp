@@ -92,8 +92,8 @@ TEST_CASE("weld: whole numbers that no double holds are told apart") {
     const std::vector<std::int64_t> time{large + 1, large, large + 3};
     const std::vector<std::uint64_t> id{~std::uint64_t{0}, ~std::uint64_t{0} - 1, 0};
     tf::attributes properties;
-    properties.obtain("vertex", 3).columns = {tf::column::of<std::int64_t>("time", time),
-                                              tf::column::of<std::uint64_t>("id", id)};
+    properties.find_or_add("vertex", 3).columns = {tf::column::of<std::int64_t>("time", time),
+                                                   tf::column::of<std::uint64_t>("id", id)};
     const auto groups = [&](const char* name, double tolerance) {
         return tf::weld(cloud, properties, {.same = {{name, tolerance}}}).groups.group_of_point;
     };
@@ -111,7 +111,7 @@ TEST_CASE("weld: whole numbers that no double holds are told apart") {
     CHECK(kept(tf::weld_keep::highest, "time") == ids{2});
     CHECK(kept(tf::weld_keep::highest, "id") == ids{0});
     const std::vector<std::int64_t> below{-1, 0, std::numeric_limits<std::int64_t>::min()};
-    properties.obtain("vertex", 3).columns[0] = tf::column::of<std::int64_t>("time", below);
+    properties.find_or_add("vertex", 3).columns[0] = tf::column::of<std::int64_t>("time", below);
     CHECK(kept(tf::weld_keep::lowest, "time") == ids{2});
     CHECK(groups("time", 1.0) == ids{0, 0, 1});
 }
@@ -218,7 +218,7 @@ TEST_CASE("weld: rows of vertices, faces and edges follow, parts keep their face
     const tf::mesh mesh{{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
                         {{1, 2, 0}, {0, 1, 3}, {0, 2, 4}, {2, 1, 3}, {3, 2, 4}}};
     tf::attributes properties = vertex_columns({{"q", {10, 11, 12, 13, 14}}});
-    tf::element& faces = properties.obtain("face", 5);
+    tf::element& faces = properties.find_or_add("face", 5);
     const std::vector<std::int16_t> material{0, 1, 2, 3, 4};
     faces.columns.push_back(tf::column::of<std::int16_t>("material", material));
     tf::column wedge{
@@ -226,7 +226,7 @@ TEST_CASE("weld: rows of vertices, faces and edges follow, parts keep their face
     wedge.list_begin = {0, 1, 1, 3, 4, 6};
     for (std::uint8_t i = 0; i < 6; ++i) wedge.values.push_back(std::byte{i});
     faces.columns.push_back(wedge);
-    tf::element& edges = properties.obtain("edge", 3);
+    tf::element& edges = properties.find_or_add("edge", 3);
     const std::vector<std::int32_t> ends[] = {{0, 1, -1}, {2, 4, 77}};
     edges.columns.push_back(tf::column::of<std::int32_t>("vertex1", ends[0]));
     edges.columns.push_back(tf::column::of<std::int32_t>("vertex2", ends[1]));

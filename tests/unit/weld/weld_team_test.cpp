@@ -139,7 +139,7 @@ class team_folder : public test::own_folder {
             file.mesh.points.assign(points.begin() + (second ? std::ptrdiff_t(half) : 0),
                                     second ? points.end() : points.begin() + std::ptrdiff_t(half));
             const std::size_t rows = file.mesh.points.size();
-            tf::element& vertices = file.attributes.obtain("vertex", rows);
+            tf::element& vertices = file.attributes.find_or_add("vertex", rows);
             std::vector<float> shade(rows);
             for (float& x : shade) x = 0.25F * static_cast<float>(random.below(4));
             vertices.set(tf::column::of<float>("shade", shade));
@@ -176,7 +176,7 @@ void check_counts(const tf::weld_stream_result& a, const tf::weld_stream_result&
     CHECK(a.survey.box == b.survey.box);
     CHECK(a.survey.single == b.survey.single);
     CHECK(a.survey.warnings.size() == b.survey.warnings.size());
-    CHECK(a.still_within == b.still_within);
+    CHECK(a.mergeable == b.mergeable);
 }
 
 using change = std::function<void(tf::weld_stream_options&)>;
@@ -291,7 +291,7 @@ TEST_CASE("weld_team: text is read from where the share of each begins") {
             file.mesh.points.assign(of_file.begin() + std::ptrdiff_t(random.below(690)),
                                     of_file.end());
             const std::size_t rows = file.mesh.points.size();
-            tf::element& vertices = file.attributes.obtain("vertex", rows);
+            tf::element& vertices = file.attributes.find_or_add("vertex", rows);
             std::vector<float> shade(rows);
             for (float& x : shade) x = 0.25F * static_cast<float>(random.below(4));
             vertices.set(tf::column::of<float>("shade", shade));

@@ -105,7 +105,7 @@ void check_same_weld(const tf::weld_result& a, const tf::weld_result& b) {
     CHECK(a.statistics.nonmanifold_before == b.statistics.nonmanifold_before);
     CHECK(a.statistics.nonmanifold_after == b.statistics.nonmanifold_after);
     CHECK(a.statistics.flipped == b.statistics.flipped);
-    CHECK(a.statistics.left_alone == b.statistics.left_alone);
+    CHECK(a.statistics.kept_apart == b.statistics.kept_apart);
 }
 
 }  // namespace
@@ -268,7 +268,7 @@ TEST_CASE("weld: what cannot be meant is refused by name") {
     properties.elements[0].rows = 4;
     refused(properties, {}, "treeform::weld: column 'q' does not fit element 'vertex'");
     tf::attributes list;
-    list.obtain("vertex", 4).columns = {
+    list.find_or_add("vertex", 4).columns = {
         {.name = "l", .list_length = tf::scalar_type::uint8, .list_begin = {0, 0, 0, 0, 0}}};
     refused(list, {.same = {{"l"}}}, "treeform::weld: the vertex property 'l' has lists of values");
     tf::attributes faces;

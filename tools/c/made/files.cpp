@@ -85,7 +85,7 @@ tf::read_options glue::read(const treeform_read_options& o) {
     tf::read_options how;
     how.columns = columns_of(o.columns, o.column_count, "columns");
 
-    how.drop_nan = o.drop_nan != 0;
+    how.drop_non_finite = o.drop_non_finite != 0;
 
     return how;
 }
@@ -93,7 +93,7 @@ tf::read_options glue::read(const treeform_read_options& o) {
 void treeform_read_options_init(treeform_read_options* options, size_t size) {
     treeform_read_options to{};
     const tf::read_options from;
-    to.drop_nan = from.drop_nan;
+    to.drop_non_finite = from.drop_non_finite;
     glue::init(options, size, to);
 }
 
@@ -156,7 +156,7 @@ void treeform_part_options_init(treeform_part_options* options, size_t size) {
 void glue::fill(keeper& kept, const tf::usable_mesh& from, treeform_part& to) {
     to.mesh = arrays(from.mesh);
     to.triangle_of_face = or_null(from.triangle_of_face);
-    to.dropped = from.dropped;
+    to.non_finite = from.non_finite;
     to.component = or_null(from.component);
     to.degenerate = from.degenerate;
     to.joined = from.joined;

@@ -112,7 +112,7 @@ void glue::fill(keeper& kept, const tf::stream_search_result& from, treeform_sea
     to.mesh = arrays(from.part.mesh);
     to.face_in_file = faces_in_file(kept, from.part).data();
     to.degenerate = from.part.degenerate;
-    to.dropped = from.part.dropped;
+    to.non_finite = from.part.non_finite;
     to.found = &filled<treeform_pairs>(kept, from.found);
     to.stored_faces = from.stored_faces;
     to.triangles = from.triangles;

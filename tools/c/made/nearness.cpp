@@ -105,9 +105,9 @@ void glue::fill(keeper&, const tf::deviation_result& from, treeform_deviation_re
     to.worst = from.worst;
     to.lowest = from.lowest;
     to.highest = from.highest;
-    to.there_at_most = from.there_at_most;
+    to.max_bound = from.max_bound;
     to.back_max = from.back_max.value_or(not_known);
-    to.back_at_most = from.back_at_most.value_or(not_known);
+    to.back_max_bound = from.back_max_bound.value_or(not_known);
     to.histogram = or_null(from.histogram);
     to.bins = from.histogram.size();
     if (from.band_counts)

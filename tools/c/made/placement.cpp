@@ -9,7 +9,7 @@ namespace tf = treeform;
 
 static_assert(TREEFORM_END_CONTACT == static_cast<int>(tf::placement_end::contact));
 static_assert(TREEFORM_END_BED == static_cast<int>(tf::placement_end::bed));
-static_assert(TREEFORM_END_STAYS == static_cast<int>(tf::placement_end::stays));
+static_assert(TREEFORM_END_UNCHANGED == static_cast<int>(tf::placement_end::unchanged));
 static_assert(TREEFORM_END_MOVED_APART == static_cast<int>(tf::placement_end::moved_apart));
 static_assert(TREEFORM_END_NOTHING_MET == static_cast<int>(tf::placement_end::nothing_met));
 static_assert(TREEFORM_END_TOO_FAR == static_cast<int>(tf::placement_end::too_far));
@@ -19,7 +19,8 @@ static_assert(TREEFORM_END_STARTS_TOO_NEAR == static_cast<int>(tf::placement_end
 static_assert(TREEFORM_END_STARTS_TOUCHING == static_cast<int>(tf::placement_end::starts_touching));
 static_assert(TREEFORM_END_STARTS_BELOW_BED ==
               static_cast<int>(tf::placement_end::starts_below_bed));
-static_assert(TREEFORM_END_NO_COORDINATES == static_cast<int>(tf::placement_end::no_coordinates));
+static_assert(TREEFORM_END_NOT_REPRESENTABLE ==
+              static_cast<int>(tf::placement_end::not_representable));
 static_assert(TREEFORM_END_TOO_MANY_STEPS == static_cast<int>(tf::placement_end::too_many_steps));
 static_assert(TREEFORM_END_OUT_OF_RANGE == static_cast<int>(tf::placement_end::out_of_range));
 static_assert(TREEFORM_END_CANCELLED == static_cast<int>(tf::placement_end::cancelled));

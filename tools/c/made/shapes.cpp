@@ -42,8 +42,8 @@ void glue::fill(keeper& kept, const tf::offset_result& from, treeform_offset_res
     to.certificate = &filled<treeform_certificate>(kept, from.certificate);
     to.distance = from.distance;
     to.resolution = from.resolution;
-    to.least = from.least;
-    to.greatest = from.greatest;
+    to.least_distance = from.least_distance;
+    to.greatest_distance = from.greatest_distance;
     to.cells = from.cells;
     to.sealed_cavities = from.sealed_cavities;
     to.blind_drains = or_null(from.blind_drains);
@@ -90,8 +90,8 @@ void glue::fill(keeper& kept, const tf::simplify_result& from, treeform_simplify
     to.refused_by_turning = from.refused_by_turning;
     to.refused_by_distance = from.refused_by_distance;
     to.refused_by_contact = from.refused_by_contact;
-    to.there_at_most = from.there_at_most;
-    to.back_at_most = from.back_at_most;
+    to.input_to_result_bound = from.input_to_result_bound;
+    to.result_to_input_bound = from.result_to_input_bound;
     to.certificate = &filled<treeform_certificate>(kept, from.certificate);
 }
 

@@ -163,10 +163,10 @@ void glue::fill(keeper&, const tf::repair_statistics& from, treeform_repair_stat
     to.repeated = from.repeated;
     to.closed_edges = from.closed_edges;
     to.split_edges = from.split_edges;
-    to.gap = from.gap;
-    to.widest = from.widest;
+    to.gap_limit = from.gap_limit;
+    to.widest_closed = from.widest_closed;
     to.flipped = from.flipped;
-    to.turned = from.turned;
+    to.turned_outward = from.turned_outward;
     to.strays = from.strays;
     to.holes = from.holes;
     to.hole_edges = from.hole_edges;
@@ -177,7 +177,7 @@ void glue::fill(keeper&, const tf::repair_statistics& from, treeform_repair_stat
     to.pairs = from.pairs;
     to.labeled_cells = from.labeled_cells;
     to.dropped_area = from.dropped_area;
-    to.turned_area = from.turned_area;
+    to.flipped_area = from.flipped_area;
     to.removed = from.removed;
     to.covered = from.covered;
     to.left_open = from.left_open;

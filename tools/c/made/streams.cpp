@@ -65,8 +65,8 @@ void glue::fill(keeper&, const tf::weld_stream_result& from, treeform_weld_strea
     to.nonmanifold_after = from.statistics.nonmanifold_after;
     to.flipped = from.statistics.flipped;
     to.format = from.welded ? from.welded->format.c_str() : "";
-    to.still_within = from.still_within.value_or(0);
-    to.still_within_known = from.still_within.has_value();
+    to.mergeable = from.mergeable.value_or(0);
+    to.mergeable_known = from.mergeable.has_value();
 }
 
 treeform_code treeform_weld_stream(const char* const* inputs, size_t count, const char* output,
@@ -139,10 +139,9 @@ treeform_code treeform_point_reader_create(const char* path, const char* format,
 }
 
 treeform_code treeform_point_reader_header(const treeform_point_reader* reader,
-                                           treeform_file** header, uint64_t* count,
-                                           int32_t* known) {
+                                           treeform_file** header, uint64_t* count) {
     return glue::guard(
-        [&] { glue::point_reader_header(glue::content(reader, "reader"), header, count, known); });
+        [&] { glue::point_reader_header(glue::content(reader, "reader"), header, count); });
 }
 
 treeform_code treeform_point_reader_next(treeform_point_reader* reader, size_t most,

@@ -77,7 +77,7 @@ void glue::fill(keeper&, const tf::weld_result& from, treeform_weld_result& to) 
     to.nonmanifold_before = from.statistics.nonmanifold_before;
     to.nonmanifold_after = from.statistics.nonmanifold_after;
     to.flipped = from.statistics.flipped;
-    to.left_alone = from.statistics.left_alone;
+    to.kept_apart = from.statistics.kept_apart;
 }
 
 void glue::fill(keeper&, const tf::file_weld_result& from, treeform_weld_result& to) {
@@ -95,7 +95,7 @@ void glue::fill(keeper&, const tf::file_weld_result& from, treeform_weld_result&
     to.nonmanifold_before = from.statistics.nonmanifold_before;
     to.nonmanifold_after = from.statistics.nonmanifold_after;
     to.flipped = from.statistics.flipped;
-    to.left_alone = from.statistics.left_alone;
+    to.kept_apart = from.statistics.kept_apart;
 }
 
 treeform_code treeform_weld(const treeform_mesh* mesh, const treeform_weld_options* options,
@@ -131,14 +131,14 @@ treeform_code treeform_count_nearly_equal(const treeform_mesh* mesh, double dist
     });
 }
 
-treeform_code treeform_count_still_within(const treeform_file* welded,
-                                          const treeform_weld_options* options,
-                                          treeform_precision written_as, uint64_t* count,
-                                          int32_t* known) {
+treeform_code treeform_count_mergeable(const treeform_file* welded,
+                                       const treeform_weld_options* options,
+                                       treeform_precision written_as, uint64_t* count,
+                                       int32_t* known) {
     return glue::guard([&] {
-        glue::count_still_within(glue::content(welded, "welded"), glue::read(options),
-                                 glue::choice<tf::precision>(written_as, 2, "written_as"), count,
-                                 known);
+        glue::count_mergeable(glue::content(welded, "welded"), glue::read(options),
+                              glue::choice<tf::precision>(written_as, 2, "written_as"), count,
+                              known);
     });
 }
 

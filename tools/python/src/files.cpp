@@ -93,7 +93,7 @@ void set_column(file_data& data, const std::string& element, const std::string& 
         throw std::invalid_argument(name +
                                     ": one value for each row, in an array of one dimension");
     const auto rows = static_cast<std::size_t>(values.size());
-    tf::element& to = data.own().attributes.obtain(element, rows);
+    tf::element& to = data.own().attributes.find_or_add(element, rows);
     if (to.rows != rows)
         throw std::invalid_argument(name + ": " + std::to_string(rows) + " values for " +
                                     std::to_string(to.rows) + " rows");

@@ -14,10 +14,10 @@ inline treeform::communicator communicator_of(const py::object& communicator) {
     made.rank = communicator.attr("rank").cast<std::size_t>();
     made.size = communicator.attr("size").cast<std::size_t>();
     made.exchange = [all = std::make_shared<py::object>(communicator.attr("exchange"))](
-                        const std::string& told) {
-        std::vector<std::string> heard;
-        with_lock([&] { heard = (*all)(py::bytes(told)).cast<std::vector<std::string>>(); });
-        return heard;
+                        const std::string& sent) {
+        std::vector<std::string> received;
+        with_lock([&] { received = (*all)(py::bytes(sent)).cast<std::vector<std::string>>(); });
+        return received;
     };
     return made;
 }

@@ -8,7 +8,8 @@ tf::boolean_expression expression_of(const std::string& operation, const std::st
     if (operation == "union") return tf::boolean_expression::union_of(count);
     if (operation == "intersection") return tf::boolean_expression::intersection_of(count);
     if (operation == "difference") return tf::boolean_expression::difference_of(count);
-    if (operation == "xor") return tf::boolean_expression::xor_of(count);
+    if (operation == "symmetric_difference")
+        return tf::boolean_expression::symmetric_difference_of(count);
     return names.empty() ? tf::boolean_expression(formula, count)
                          : tf::boolean_expression(formula, names);
 }

@@ -255,7 +255,7 @@ def symmetric_difference(*meshes: MeshesLike, inside: str = "nonzero", precision
     1.75
     """
     how = options(_core.BooleanOptions, locals())
-    return checked(combined("xor", meshes, how, progress), check)
+    return checked(combined("symmetric_difference", meshes, how, progress), check)
 
 
 def boolean(expression: str, *operands: MeshesLike, inside: str = "nonzero",

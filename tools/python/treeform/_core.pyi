@@ -211,7 +211,7 @@ class ReadOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
     def __init__(self, *, columns: Optional[Mapping[str, str | int]] = ...,
-                 drop_nan: bool = ...) -> None: ...
+                 drop_non_finite: bool = ...) -> None: ...
 
 class WriteOptions:
     names: tuple[str, ...]

@@ -101,7 +101,8 @@ def _scene_of(parts: Mapping[str, Any]) -> tuple[Mesh, bool]:
 # made of headers:
 #   read Written write
 def read(path: Path | IO[bytes], format: str = "", *, join: bool = True,
-         columns: Columns | None = None, drop_nan: bool = False, progress: Progress = None) -> Mesh:
+         columns: Columns | None = None, drop_non_finite: bool = False,
+         progress: Progress = None) -> Mesh:
     """Reads the file at `path`; "-" is standard input. `format` is an extension without its dot
     ("stl", "obj", "ply", "off", "pcd", "xyz", "csv", "3mf", "glb", ...). If empty, the format is
     detected by content first, then by extension.
@@ -162,7 +163,7 @@ def read(path: Path | IO[bytes], format: str = "", *, join: bool = True,
         the order and the numbers that they have in the file, and vertices, too, in other formats.
     columns: of XYZ, PTS and CSV, what columns are: {'x': 'E', 'y': 'N', 'z': 'H'}; a number counts
         them from 1.
-    drop_nan: drop points with a NaN or infinite coordinate, and their faces.
+    drop_non_finite: drop points with a NaN or infinite coordinate, and their faces.
 
     Raises FileError naming path, line or byte, and reason.
 

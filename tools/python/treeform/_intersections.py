@@ -66,15 +66,15 @@ class FilePairs(FacePairs):
     mesh: Only the faces that meet others, in the order of the file.
     face_in_file: (F,) the number in the file of each face of `mesh`.
     stored_faces: Faces of the file.
-    dropped: Triangles with a coordinate that is not finite, left out.
     tiles: Parts that space was cut into.
+    non_finite: Triangles with a coordinate that is not finite, left out.
     """
 
     mesh: Mesh
     face_in_file: Ids
     stored_faces: int
-    dropped: int
     tiles: int
+    non_finite: int
 # end
 
     @property

@@ -295,13 +295,13 @@ class Deviation(Result):
     histogram: (bins,) how many signed distances are in intervals of equal length from `lowest` to
         `highest`.
     band_counts: With a band: points below, within and above it. Both ends are within.
-    there_at_most: Bound of the distance from any point of the surface `a` to `b`: the maximum, over
-        its faces, of the largest corner distance plus the longest edge / sqrt(3). For a cloud it is
+    max_bound: Bound of the distance from any point of the surface `a` to `b`: the maximum, over its
+        faces, of the largest corner distance plus the longest edge / sqrt(3). For a cloud it is
         `max`, rounded up.
     back_max: With `both_ways`, the largest distance of a vertex of `b` from `a`. The larger of this
         and `max` is the Hausdorff distance of the points.
-    back_at_most: With `both_ways`, a bound of the distance from any point of the surface `b` to
-        `a`. The larger of this and `there_at_most` bounds the Hausdorff distance of the surfaces.
+    back_max_bound: With `both_ways`, a bound of the distance from any point of the surface `b` to
+        `a`. The larger of this and `max_bound` bounds the Hausdorff distance of the surfaces.
     """
 
     distances: Floats
@@ -320,9 +320,9 @@ class Deviation(Result):
     highest: float
     histogram: NDArray[np.uint64]
     band_counts: tuple[int, int, int] | None
-    there_at_most: float
+    max_bound: float
     back_max: float | None
-    back_at_most: float | None
+    back_max_bound: float | None
 
 
 def deviation(a: Body, b: Body, *, band: tuple[float, float] | None = None, bins: int = 40,

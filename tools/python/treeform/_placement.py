@@ -69,9 +69,9 @@ class Placement(MeshResult):
     mesh: The moved mesh, in coordinates that have been checked; where it was, if it has no place.
     matrix: (4, 4) new = M * old: a translation; of `turn` and `mate_features` a turn, too. `points`
         are moved by it and rounded once, except for those that are set on the bed.
-    end: Why it ended there: 'contact', 'bed', 'stays', 'moved_apart', 'nothing_met', 'too_far',
+    end: Why it ended there: 'contact', 'bed', 'unchanged', 'moved_apart', 'nothing_met', 'too_far',
         'starts_penetrating', 'starts_too_near', 'starts_touching', 'starts_below_bed',
-        'no_coordinates', 'too_many_steps', 'out_of_range'.
+        'not_representable', 'too_many_steps', 'out_of_range'.
     message: Half a sentence; empty where there is a place.
     direction: (3,) unit direction of the travel; 0 if there is none.
     travel: A length; for `too_far` the length needed.

@@ -69,28 +69,28 @@ class OffsetResult(MadeMesh):
         as far as the ends of their axes show.
     distance: Asked for, without its sign; of `wrap`, that of its vertices.
     resolution: That was used; of `wrap`, its size.
-    least: Bounds of the distance from any point of the surface made, in its faces too, to the mesh
-        that it is the offset of: all are in [least, greatest]. Of `hollow`, of the cavities'
-        surface; of `thicken`, to the moved surface. Found by branch and bound; each is within a
-        sixteenth of the resolution of what is there. 0 where there is no surface, and of `wrap`.
-    greatest: The upper bound.
     cells: Cells that the surface may pass through.
     sealed_cavities: For `hollow`: cavities without an opening, those of the input included.
     tetrahedra: Of `wrap`: at the end.
     tetrahedra_points: Of `wrap`: of the tetrahedra that were made.
     filled_tetrahedra: Of `wrap`: filled so that it is a manifold.
+    least_distance: Bounds of the distance from any point of the surface made, in its faces too, to
+        the mesh that it is the offset of, the lower one here; of `hollow`, of the cavities'
+        surface; of `thicken`, to the moved surface. Found by branch and bound: each is within a
+        sixteenth of the resolution of the true extreme. 0 where there is no surface, and of `wrap`.
+    greatest_distance: The upper bound.
     """
 
     blind_drains: Ids
     distance: float
     resolution: float
-    least: float
-    greatest: float
     cells: int
     sealed_cavities: int
     tetrahedra: int
     tetrahedra_points: int
     filled_tetrahedra: int
+    least_distance: float
+    greatest_distance: float
 
 
 def offset(mesh: MeshLike, distance: float, *, resolution: float | None = None,
@@ -248,8 +248,8 @@ class SimplifyResult(MadeMesh):
     refused_by_turning: Edges whose collapse would turn a face too far.
     refused_by_distance: Edges whose collapse was not proven within the distance.
     refused_by_contact: Edges whose collapse would make faces meet.
-    there_at_most: Bound of the distance from any input point to the result.
-    back_at_most: Bound of the distance from any point of the result to the input.
+    input_to_result_bound: Bound of the distance from any input point to the result.
+    result_to_input_bound: Bound of the distance from any point of the result to the input.
     vertex_source: (V,) input vertex equal to each vertex; `NONE`: new.
     face_of_new_vertex: (V,) for a new vertex, the nearest input face on its side of seams; else
         `NONE`.
@@ -263,8 +263,8 @@ class SimplifyResult(MadeMesh):
     refused_by_turning: int
     refused_by_distance: int
     refused_by_contact: int
-    there_at_most: float
-    back_at_most: float
+    input_to_result_bound: float
+    result_to_input_bound: float
     vertex_source: Ids
     face_of_new_vertex: Ids
     corner_source: Ids
@@ -309,7 +309,7 @@ def simplify(mesh: MeshLike, max_distance: float, *, face_groups: ArrayLike | No
 
     >>> import treeform
     >>> few = treeform.simplify(treeform.read("data/two_spheres.stl"), 0.05)
-    >>> len(few.mesh.faces) < 500, few.there_at_most <= 0.05
+    >>> len(few.mesh.faces) < 500, few.input_to_result_bound <= 0.05
     (True, True)
     """
     how = options(_core.SimplifyOptions, locals())

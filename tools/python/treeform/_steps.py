@@ -24,7 +24,7 @@ class Communicator(Protocol):
     @property
     def size(self) -> int: ...
 
-    def allgather(self, told: Any, /) -> list[Any]:
+    def allgather(self, sent: Any, /) -> list[Any]:
         """What each of them tells, in the order of the ranks."""
         ...
 
@@ -42,18 +42,18 @@ class _Members:
         self._ended = threading.Event()
         self._ended.set()
 
-    def exchange(self, told: bytes) -> list[bytes]:
+    def exchange(self, sent: bytes) -> list[bytes]:
         if self._failed:
             raise Error("interrupted")
-        heard = self._all((told, None))
-        for rank, (_, fault) in enumerate(heard):
+        received = self._all((sent, None))
+        for rank, (_, fault) in enumerate(received):
             if fault is not None:
                 self._failed = True
                 raise Error(f"process {rank}: {fault}")
-        return [bytes_of for bytes_of, _ in heard]
+        return [bytes_of for bytes_of, _ in received]
 
     def begin(self) -> None:
-        """This one is at work, and may tell something."""
+        """This one is at work, and may send."""
         self._ended.clear()
 
     def end(self) -> None:

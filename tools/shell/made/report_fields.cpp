@@ -14,17 +14,16 @@ json list_of(const std::vector<T>& values, json entry(const T&)) {
 }  // namespace
 
 json join_entry(const tf::repair_statistics& from) {
-    return {{"tetrahedra", from.tetrahedra},
-            {"degenerate", from.degenerate},
-            {"repeated", from.repeated},
-            {"closed_edges", from.closed_edges},
-            {"split_edges", from.split_edges},
-            {"gap", from.gap},
-            {"widest", from.widest}};
+    return {{"tetrahedra", from.tetrahedra},      {"degenerate", from.degenerate},
+            {"repeated", from.repeated},          {"closed_edges", from.closed_edges},
+            {"split_edges", from.split_edges},    {"gap_limit", from.gap_limit},
+            {"widest_closed", from.widest_closed}};
 }
 
 json orient_entry(const tf::repair_statistics& from) {
-    return {{"flipped", from.flipped}, {"turned", from.turned}, {"strays", from.strays}};
+    return {{"flipped", from.flipped},
+            {"turned_outward", from.turned_outward},
+            {"strays", from.strays}};
 }
 
 json fill_entry(const tf::repair_statistics& from) {
@@ -37,7 +36,7 @@ json cut_entry(const tf::repair_statistics& from) {
             {"separated_points", from.split_vertices},
             {"labeled_cells", from.labeled_cells},
             {"dropped_area", from.dropped_area},
-            {"turned_area", from.turned_area}};
+            {"flipped_area", from.flipped_area}};
 }
 
 json detach_entry(const tf::repair_statistics& from) {

@@ -105,8 +105,8 @@ named_assembly read_assembly(job& work) {
         const tf::body_file& added =
             all.set.add_named_parts(std::move(file), name_of_input(path), stem_of(path));
         about["faces"] = added.content.stored_faces;
-        non_finite += added.left_out;
-        work.warn_of_non_finite(added.left_out, added.cloud ? "point" : "face",
+        non_finite += added.non_finite;
+        work.warn_of_non_finite(added.non_finite, added.cloud ? "point" : "face",
                                 added.cloud ? "points" : "faces", added.label + ": ");
         work.entry["inputs"].push_back(std::move(about));
     }

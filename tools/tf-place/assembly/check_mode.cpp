@@ -31,9 +31,9 @@ tf::mesh read_part(job& work, const std::string& path) {
     tf::body_set set;
     const tf::body_file& file = set.add(work.read(path, about), path);
     about["faces"] = file.content.stored_faces;
-    work.warn_of_non_finite(file.left_out, "face", "faces", file.label + ": ");
-    json& left_out = work.entry["skipped"]["non_finite"];
-    left_out = left_out.get<std::uint64_t>() + file.left_out;
+    work.warn_of_non_finite(file.non_finite, "face", "faces", file.label + ": ");
+    json& non_finite = work.entry["skipped"]["non_finite"];
+    non_finite = non_finite.get<std::uint64_t>() + file.non_finite;
     work.entry["inputs"].push_back(std::move(about));
     if (set.shapes.empty()) return {};
     const auto [points, faces] = set.shapes[0].view();

@@ -56,8 +56,8 @@ json deviation_entry(const tf::deviation_result& r, const deviation_settings& se
     entry.update(deviations_entry(r));
     entry.update(
         {{"hausdorff",
-          {{"there", {{"sampled", r.max}, {"at_most", r.there_at_most}}},
-           {"back", r.back_max ? json{{"sampled", *r.back_max}, {"at_most", *r.back_at_most}}
+          {{"there", {{"sampled", r.max}, {"at_most", r.max_bound}}},
+           {"back", r.back_max ? json{{"sampled", *r.back_max}, {"at_most", *r.back_max_bound}}
                                : json(nullptr)}}},
          {"histogram", {{"low", r.lowest}, {"high", r.highest}, {"counts", r.histogram}}},
          {"tolerance_band", band},

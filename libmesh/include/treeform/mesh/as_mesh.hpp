@@ -23,7 +23,7 @@ struct usable_mesh {
     std::vector<std::uint32_t> triangle_of_face{};
     /// [triangles] the face in the file of each triangle; empty: the same numbers.
     std::vector<std::uint32_t> stored_face{};
-    std::uint64_t dropped = 0;  ///< triangles with a coordinate that is not finite
+    std::uint64_t non_finite = 0;  ///< triangles with a coordinate that is not finite
     /// From `usable_part`: [F] the connected component of the whole mesh that each face is in.
     std::vector<std::uint32_t> component{};
     std::uint64_t degenerate = 0;             ///< likewise: triangles that are a segment or a point

@@ -223,7 +223,8 @@ struct attributes {
     [[nodiscard]] TREEFORM_API const element* find(std::string_view element_name) const;
 
     /// The element of that name; when there is none, a new one with `rows` rows, at the end.
-    [[nodiscard]] TREEFORM_API element& obtain(std::string_view element_name, std::size_t rows);
+    [[nodiscard]] TREEFORM_API element& find_or_add(std::string_view element_name,
+                                                    std::size_t rows);
 
     friend bool operator==(const attributes&, const attributes&) = default;
 };

@@ -42,7 +42,7 @@ class TREEFORM_API boolean_expression {
     /// The first operand minus all others.
     [[nodiscard]] static boolean_expression difference_of(std::size_t operand_count);
     /// Points in an odd number of operands.
-    [[nodiscard]] static boolean_expression xor_of(std::size_t operand_count);
+    [[nodiscard]] static boolean_expression symmetric_difference_of(std::size_t operand_count);
 
     [[nodiscard]] std::size_t operand_count() const { return operand_count_; }
 

@@ -54,13 +54,13 @@ struct deviation_result {
     /// Bound of the distance from any point of the surface `a` to `b`: the maximum, over its faces,
     /// of the largest corner distance plus the longest edge / sqrt(3). For a cloud it
     /// is `max`, rounded up.
-    double there_at_most = 0.0;
+    double max_bound = 0.0;
     /// With `both_ways`, the largest distance of a vertex of `b` from `a`. The larger of this and
     /// `max` is the Hausdorff distance of the points.
     std::optional<double> back_max{};
     /// With `both_ways`, a bound of the distance from any point of the surface `b` to `a`. The
-    /// larger of this and `there_at_most` bounds the Hausdorff distance of the surfaces.
-    std::optional<double> back_at_most{};
+    /// larger of this and `max_bound` bounds the Hausdorff distance of the surfaces.
+    std::optional<double> back_max_bound{};
     /// [bins] points by signed distance, in intervals of equal length from `lowest` to `highest`;
     /// the last one includes `highest`.
     std::vector<std::uint64_t> histogram{};

@@ -119,7 +119,8 @@ struct read_options {
     /// Of XYZ, PTS and CSV: names for columns, each with what the heading calls the column, or its
     /// number, from 1: {"x", "easting"}. Those for x, y and z are the coordinates.
     std::vector<std::pair<std::string, std::string>> columns{};
-    bool drop_nan = false;  ///< `mesh_file::drop_non_finite`, which a warning says; of `read` alone
+    bool drop_non_finite =
+        false;  ///< `mesh_file::drop_non_finite`, which a warning says; of `read` alone
 };
 
 /// The content of a file. Points and faces keep the order and the numbers that they have in it:

@@ -52,12 +52,12 @@ struct TREEFORM_API offset_result {
     double distance = 0.0;    ///< asked for, without its sign; of `wrap`, that of its vertices
     double resolution = 0.0;  ///< that was used; of `wrap`, its size
     /// Bounds of the distance from any point of the surface made, in its faces too, to the mesh
-    /// that it is the offset of: all are in [least, greatest]. Of `hollow`, of the cavities'
-    /// surface; of `thicken`, to the moved surface. Found by branch and bound; each is within a
-    /// sixteenth of the resolution of what is there. 0 where there is no surface, and of `wrap`.
-    double least = 0.0;
-    double greatest = 0.0;    ///< the upper bound
-    std::uint64_t cells = 0;  ///< cells that the surface may pass through
+    /// that it is the offset of, the lower one here; of `hollow`, of the cavities' surface; of
+    /// `thicken`, to the moved surface. Found by branch and bound: each is within a sixteenth of
+    /// the resolution of the true extreme. 0 where there is no surface, and of `wrap`.
+    double least_distance = 0.0;
+    double greatest_distance = 0.0;  ///< the upper bound
+    std::uint64_t cells = 0;         ///< cells that the surface may pass through
     /// For `hollow`: cavities without an opening, those of the input included.
     std::uint64_t sealed_cavities = 0;
     /// For `hollow`: numbers of drains that do not lead from outside into a cavity, as far as the

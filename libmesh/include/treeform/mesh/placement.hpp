@@ -25,7 +25,7 @@ namespace treeform {
 enum class placement_end : std::uint8_t {
     contact,             ///< stopped by a fixed mesh, or at the clearance from it
     bed,                 ///< stopped by the bed, or at the clearance above it
-    stays,               ///< it need not move
+    unchanged,           ///< it need not move
     moved_apart,         ///< for `separate`: it was moved out of the fixed meshes
     nothing_met,         ///< no place: it meets nothing, or nothing within `max_travel`
     too_far,             ///< no place: the place is further away than `max_travel`
@@ -33,7 +33,7 @@ enum class placement_end : std::uint8_t {
     starts_too_near,     ///< no place: it is nearer than the clearance at the start
     starts_touching,     ///< no place: it touches at the start, and a clearance is given
     starts_below_bed,    ///< no place: it is below the bed at the start, and there are fixed meshes
-    no_coordinates,      ///< no place in coordinates of the precision
+    not_representable,   ///< no place in coordinates of the precision
     too_many_steps,      ///< undecided, for `turn`: it passes a fixed mesh too closely
     out_of_range,        ///< no place: coordinates overflow the precision
     cancelled            ///< stopped by `progress`; the rest is invalid
@@ -62,9 +62,9 @@ struct body_set;
 /// not move.
 struct placement {
     /// ok: the mesh has a place, and `points` were checked exactly. Otherwise `no_place`,
-    /// `not_certified` (no_coordinates), `out_of_range` or `cancelled`. It lists no faces.
+    /// `not_certified` (not_representable), `out_of_range` or `cancelled`. It lists no faces.
     treeform::certificate certificate{};
-    placement_end end = placement_end::stays;
+    placement_end end = placement_end::unchanged;
     std::vector<point3> points{};  ///< [V] at the place, as they are to be written
     /// new = M * old: a translation; of `turn` and `mate_features` a turn, too. `points` are moved
     /// by it and rounded once, except for those that are set on the bed.
@@ -134,11 +134,11 @@ struct placement {
 /// A file with its names.
 struct body_file {
     mesh_file content{};
-    std::string label{};        ///< name in messages: its path
-    std::string name{};         ///< name of its faces in a scene (`scene_of`)
-    bool cloud = false;         ///< it has no faces
-    std::size_t left_out = 0;   ///< triangles, or points of a cloud, that are not finite
-    std::optional<box3> box{};  ///< box of its bodies; none without a finite face or point
+    std::string label{};         ///< name in messages: its path
+    std::string name{};          ///< name of its faces in a scene (`scene_of`)
+    bool cloud = false;          ///< it has no faces
+    std::size_t non_finite = 0;  ///< triangles, or points of a cloud, that are not finite
+    std::optional<box3> box{};   ///< box of its bodies; none without a finite face or point
 };
 
 /// Files and their bodies, ready for placement. A body is the whole mesh of a file, a part of it,

@@ -71,8 +71,8 @@ class TREEFORM_API point_reader {
     /// CSV) is read once to count its lines and to see whether they are alike. Warnings about the
     /// end of the file are there once `read` has returned false.
     [[nodiscard]] const mesh_file& header() const;
-    /// Number of points in the file, if its header says it.
-    [[nodiscard]] std::optional<std::uint64_t> count() const;
+    /// Number of points in the file.
+    [[nodiscard]] std::uint64_t count() const;
     /// Replaces the content of `points`, and of `properties` with a row for each, by that of the
     /// next points, at most `most`. Returns false, with both empty, when none are left.
     ///
@@ -153,23 +153,23 @@ class TREEFORM_API point_writer {
     void share_values(const detail::io::shared_values& place);
     /// All parts but the last must have a multiple of so many points: those of a chunk in LAZ, else
     /// 1.
-    [[nodiscard]] std::uint64_t points_together() const;
+    [[nodiscard]] std::uint64_t part_granularity() const;
     /// No more points come: the others are in other parts. Rows that are behind the points of all
     /// parts may follow, those of earlier parts first. Returns the bytes of the points.
     std::uint64_t end_part();
     /// Leaves so many bytes of the file to others.
     /// \pre    a regular file, and `end_part` was called
     /// \throws io_error
-    void leave_room(std::uint64_t bytes);
+    void skip_bytes(std::uint64_t bytes);
     /// What must be known of a part to finish others; call it when all of its points are there.
-    [[nodiscard]] std::string tell_part();
+    [[nodiscard]] std::string part_summary();
     /// Finishes a file that has only some of the points. The joined head, the points of all parts,
     /// their rows, and what else is behind those of the last one are what one writer of all would
     /// have written.
-    /// `told` is what `tell_part` gave for each part, in their order; LAZ needs it.
+    /// `summaries` is what `part_summary` gave for each part, in their order; LAZ needs it.
     /// \throws io_error, std::logic_error where it has no parts
     detail::io::written_part commit_part(write_result& result,
-                                         const std::vector<std::string>& told = {});
+                                         const std::vector<std::string>& summaries = {});
     /// The head of the whole from those of all parts that have points; if none has, from one.
     [[nodiscard]] static std::string join_heads(const std::vector<std::string>& heads);
 

@@ -78,27 +78,27 @@ struct repair_options {
 
 /// Counts of each step's changes. Closed gaps, chosen orientations and filled holes are heuristic.
 struct repair_statistics {
-    std::uint64_t tetrahedra = 0;     ///< tetrahedra that the faces were; their boundary was kept
-    std::uint64_t degenerate = 0;     ///< faces without area, dropped; with such, slivers
-    std::uint64_t repeated = 0;       ///< faces on others, dropped
-    std::uint64_t closed_edges = 0;   ///< pairs of border edges that became one
-    std::uint64_t split_edges = 0;    ///< border edges split at vertices that lie on them
-    double gap = 0.0;                 ///< widest crack that was looked for
-    double widest = 0.0;              ///< widest crack that was closed
-    std::uint64_t flipped = 0;        ///< faces turned to agree with their neighbors
-    std::uint64_t turned = 0;         ///< components turned outward
-    std::uint64_t strays = 0;         ///< faces of loose and of inner pieces, dropped
-    std::uint64_t holes = 0;          ///< holes filled
-    std::uint64_t hole_edges = 0;     ///< edges around them
-    std::uint64_t filled = 0;         ///< faces that fill them
-    std::uint64_t sheets = 0;         ///< rims not filled, since they end sheets
-    std::uint64_t open_edges = 0;     ///< left after these steps
-    bool resolved = false;            ///< faces met and were cut
-    std::uint64_t pairs = 0;          ///< pairs of faces that met
-    std::uint64_t labeled_cells = 0;  ///< cells labeled inside or outside, since faces disagreed
-    double dropped_area = 0.0;        ///< area of faces with one label on both sides
-    double turned_area = 0.0;         ///< area of faces that their labels turned over
-    std::uint64_t removed = 0;        ///< faces that resolving left nothing of
+    std::uint64_t tetrahedra = 0;      ///< tetrahedra that the faces were; their boundary was kept
+    std::uint64_t degenerate = 0;      ///< faces without area, dropped; with such, slivers
+    std::uint64_t repeated = 0;        ///< faces on others, dropped
+    std::uint64_t closed_edges = 0;    ///< pairs of border edges that became one
+    std::uint64_t split_edges = 0;     ///< border edges split at vertices that lie on them
+    double gap_limit = 0.0;            ///< widest crack that was looked for
+    double widest_closed = 0.0;        ///< widest crack that was closed
+    std::uint64_t flipped = 0;         ///< faces turned to agree with their neighbors
+    std::uint64_t turned_outward = 0;  ///< components turned outward
+    std::uint64_t strays = 0;          ///< faces of loose and of inner pieces, dropped
+    std::uint64_t holes = 0;           ///< holes filled
+    std::uint64_t hole_edges = 0;      ///< edges around them
+    std::uint64_t filled = 0;          ///< faces that fill them
+    std::uint64_t sheets = 0;          ///< rims not filled, since they end sheets
+    std::uint64_t open_edges = 0;      ///< left after these steps
+    bool resolved = false;             ///< faces met and were cut
+    std::uint64_t pairs = 0;           ///< pairs of faces that met
+    std::uint64_t labeled_cells = 0;   ///< cells labeled inside or outside, since faces disagreed
+    double dropped_area = 0.0;         ///< area of faces with one label on both sides
+    double flipped_area = 0.0;         ///< area of faces that their labels turned over
+    std::uint64_t removed = 0;         ///< faces that resolving left nothing of
     /// Of `resolve_self_intersections` by `split`: input faces that lie entirely on faces of lower
     /// numbers. One piece stands for all of them, so they are not counted as removed.
     std::uint64_t covered = 0;

@@ -168,8 +168,8 @@ struct stream_search_options {
 
 /// What was found in the file.
 struct stream_search_result {
-    /// Only the faces that meet others, in the order of the file; `degenerate` and `dropped` count
-    /// all faces.
+    /// Only the faces that meet others, in the order of the file; `degenerate` and `non_finite`
+    /// count all faces.
     usable_mesh part{};
     /// Pairs of faces of `part`. Its counters are sums over the tiles.
     intersection_result found{};

@@ -53,9 +53,9 @@ struct simplify_result {
     std::uint64_t refused_by_distance = 0;
     std::uint64_t refused_by_contact = 0;  ///< edges whose collapse would make faces meet
     /// Bound of the distance from any input point to the result.
-    double there_at_most = 0.0;
+    double input_to_result_bound = 0.0;
     /// Bound of the distance from any point of the result to the input.
-    double back_at_most = 0.0;
+    double result_to_input_bound = 0.0;
     /// Status ok: no count of `find_solid_defects` is larger than for the input. So a solid is
     /// still a solid. Otherwise `not_certified` or `cancelled`.
     treeform::certificate certificate{};

@@ -66,7 +66,7 @@ struct weld_statistics {
     std::uint64_t nonmanifold_before = 0;  ///< edges of more than two faces
     std::uint64_t nonmanifold_after = 0;
     std::uint64_t flipped = 0;     ///< kept faces whose normal turned by more than a right angle
-    std::uint64_t left_alone = 0;  ///< groups that `keep_manifold` did not merge completely
+    std::uint64_t kept_apart = 0;  ///< groups that `keep_manifold` did not merge completely
 };
 
 /// The welded mesh.
@@ -167,8 +167,9 @@ struct file_weld_result {
 /// written with precision `written_as`, read and welded again: rounding or `options.keep` can bring
 /// points within the tolerance. None if points within the tolerance stay apart on purpose
 /// (`only_borders`, `keep_manifold`), or if `progress` stopped the call.
-[[nodiscard]] TREEFORM_API std::optional<std::uint64_t> count_still_within(
-    const mesh_file& welded, const weld_options& options, precision written_as);
+[[nodiscard]] TREEFORM_API std::optional<std::uint64_t> count_mergeable(const mesh_file& welded,
+                                                                        const weld_options& options,
+                                                                        precision written_as);
 
 /// Only the groups, for callers who merge their own arrays. Of `options`, it uses tolerance, chain,
 /// label, may_merge and progress.

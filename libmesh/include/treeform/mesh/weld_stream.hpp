@@ -132,8 +132,8 @@ struct weld_stream_result {
     std::optional<write_result> removed{};  ///< likewise
     bool label_replaced = false;            ///< the input had a property of that name
     double las_moved = 0.0;                 ///< the furthest that a mean went to a step of LAS
-    /// As `count_still_within` for `welded`; none when all points are in it.
-    std::optional<std::uint64_t> still_within{};
+    /// As `count_mergeable` for `welded`; none when all points are in it.
+    std::optional<std::uint64_t> mergeable{};
     treeform::status status = status::ok;  ///< or cancelled: nothing is written, the folder stays
 };
 

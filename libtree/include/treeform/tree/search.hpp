@@ -127,9 +127,9 @@ class TREEFORM_API self_search {
     explicit self_search(const tree<D>& tree) : self_search(tree, nullptr) {}
 
     /// Without the pairs among the primitives below a marked node.
-    /// \pre so do `settled`
-    self_search(const tree<D>& tree, const detail::node_marks<D>& settled)
-        : self_search(tree, &settled) {}
+    /// \pre so do `skipped`
+    self_search(const tree<D>& tree, const detail::node_marks<D>& skipped)
+        : self_search(tree, &skipped) {}
 
     [[nodiscard]] std::size_t chunks() const;
 
@@ -142,10 +142,10 @@ class TREEFORM_API self_search {
                             detail::function_ref<bool(const candidate_block&)> visit) const;
 
   private:
-    self_search(const tree<D>& tree, const detail::node_marks<D>* settled);
+    self_search(const tree<D>& tree, const detail::node_marks<D>* skipped);
 
     const tree<D>* tree_;
-    const detail::node_marks<D>* settled_;
+    const detail::node_marks<D>* skipped_;
     unsigned level_ = 0;  ///< of the nodes that the items pair
     std::vector<detail::node_pair> items_;
 };

@@ -13,7 +13,7 @@ void each_field(tf::cloud_inputs& how, const Visit& visit) {
 template <class Visit>
 void each_field(tf::read_options& how, const Visit& visit) {
     visit("columns", how.columns);
-    visit("drop_nan", how.drop_nan);
+    visit("drop_non_finite", how.drop_non_finite);
 }
 
 template <class Visit>

@@ -19,9 +19,9 @@ py::object object(of_result, tf::deviation_result&& from) {
     made["worst"] = as_python(std::move(from.worst));
     made["lowest"] = as_python(std::move(from.lowest));
     made["highest"] = as_python(std::move(from.highest));
-    made["there_at_most"] = as_python(std::move(from.there_at_most));
+    made["max_bound"] = as_python(std::move(from.max_bound));
     made["back_max"] = as_python(std::move(from.back_max));
-    made["back_at_most"] = as_python(std::move(from.back_at_most));
+    made["back_max_bound"] = as_python(std::move(from.back_max_bound));
     made["histogram"] = as_python(std::move(from.histogram));
     made["band_counts"] = as_python(std::move(from.band_counts));
     return object_of("treeform._nearness", "Deviation", made);

@@ -107,8 +107,8 @@ py::object object(of_result, tf::offset_result&& from) {
     made["certificate"] = certificate;
     made["distance"] = as_python(std::move(from.distance));
     made["resolution"] = as_python(std::move(from.resolution));
-    made["least"] = as_python(std::move(from.least));
-    made["greatest"] = as_python(std::move(from.greatest));
+    made["least_distance"] = as_python(std::move(from.least_distance));
+    made["greatest_distance"] = as_python(std::move(from.greatest_distance));
     made["cells"] = as_python(std::move(from.cells));
     made["sealed_cavities"] = as_python(std::move(from.sealed_cavities));
     made["blind_drains"] = as_python(std::move(from.blind_drains));
@@ -132,8 +132,8 @@ py::object object(of_result, tf::simplify_result&& from, const carrying& attribu
     made["refused_by_turning"] = as_python(std::move(from.refused_by_turning));
     made["refused_by_distance"] = as_python(std::move(from.refused_by_distance));
     made["refused_by_contact"] = as_python(std::move(from.refused_by_contact));
-    made["there_at_most"] = as_python(std::move(from.there_at_most));
-    made["back_at_most"] = as_python(std::move(from.back_at_most));
+    made["input_to_result_bound"] = as_python(std::move(from.input_to_result_bound));
+    made["result_to_input_bound"] = as_python(std::move(from.result_to_input_bound));
     made["certificate"] = certificate;
     return object_of("treeform._shapes", "SimplifyResult", made);
 }
@@ -274,7 +274,7 @@ py::object object(of_result, tf::stream_search_result&& from) {
     py::dict made;
     made["face_in_file"] = faces_in_file(from.part);
     made["mesh"] = mesh_object(std::move(from.part.mesh), py::none(), py::none());
-    made["dropped"] = py::cast(from.part.dropped);
+    made["non_finite"] = py::cast(from.part.non_finite);
     made["pairs"] = column(from.found.pairs, [](const auto& one) {
         return std::array{one.a, one.b};
     });
@@ -369,10 +369,10 @@ py::dict counters(const tf::repair_statistics& from) {
     made["repeated"] = from.repeated;
     made["closed_edges"] = from.closed_edges;
     made["split_edges"] = from.split_edges;
-    made["gap"] = from.gap;
-    made["widest"] = from.widest;
+    made["gap_limit"] = from.gap_limit;
+    made["widest_closed"] = from.widest_closed;
     made["flipped"] = from.flipped;
-    made["turned"] = from.turned;
+    made["turned_outward"] = from.turned_outward;
     made["strays"] = from.strays;
     made["holes"] = from.holes;
     made["hole_edges"] = from.hole_edges;
@@ -383,7 +383,7 @@ py::dict counters(const tf::repair_statistics& from) {
     made["pairs"] = from.pairs;
     made["labeled_cells"] = from.labeled_cells;
     made["dropped_area"] = from.dropped_area;
-    made["turned_area"] = from.turned_area;
+    made["flipped_area"] = from.flipped_area;
     made["removed"] = from.removed;
     made["covered"] = from.covered;
     made["left_open"] = from.left_open;
@@ -411,7 +411,7 @@ py::dict counters(const tf::weld_statistics& from) {
     made["nonmanifold_before"] = from.nonmanifold_before;
     made["nonmanifold_after"] = from.nonmanifold_after;
     made["flipped"] = from.flipped;
-    made["left_alone"] = from.left_alone;
+    made["kept_apart"] = from.kept_apart;
     return made;
 }
 

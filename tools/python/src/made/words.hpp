@@ -53,7 +53,7 @@ template <>
 struct words_of<tf::placement_end> {
     static constexpr words<14> all{"contact",
                                    "bed",
-                                   "stays",
+                                   "unchanged",
                                    "moved_apart",
                                    "nothing_met",
                                    "too_far",
@@ -61,7 +61,7 @@ struct words_of<tf::placement_end> {
                                    "starts_too_near",
                                    "starts_touching",
                                    "starts_below_bed",
-                                   "no_coordinates",
+                                   "not_representable",
                                    "too_many_steps",
                                    "out_of_range",
                                    "cancelled"};

@@ -101,17 +101,18 @@ typedef int (*treeform_progress)(double done, void* data);
 TREEFORM_C_API void treeform_set_progress(treeform_progress progress, void* data);
 
 /// Receives the bytes sent by one process of a communicator: `bytes` [count].
-typedef void (*treeform_hear)(const void* bytes, size_t count, void* listener);
+typedef void (*treeform_receive)(const void* bytes, size_t count, void* listener);
 
 /// Processes that share one job in a common folder, such as those that mpirun starts. All must make
 /// the same calls with the same options; outputs are those of rank 0.
 typedef struct treeform_communicator {
     size_t rank;
     size_t size;
-    /// Collective: sends `told` [count] to all processes, and calls `hear(bytes, count, listener)`
-    /// for each process in the order of ranks, with the bytes it sent. A nonzero return value,
-    /// required if a process failed, ends the call with `TREEFORM_CANCELLED`.
-    int (*exchange)(const void* told, size_t count, treeform_hear hear, void* listener, void* data);
+    /// Collective: sends `sent` [count] to all processes, and calls `receive(bytes, count,
+    /// listener)` for each process in the order of ranks, with the bytes it sent. A nonzero return
+    /// value, required if a process failed, ends the call with `TREEFORM_CANCELLED`.
+    int (*exchange)(const void* sent, size_t count, treeform_receive receive, void* listener,
+                    void* data);
     void* data;
 } treeform_communicator;
 

@@ -36,7 +36,7 @@ typedef struct treeform_read_options {
     const treeform_named_column* columns;
     size_t column_count;
     /// `mesh_file::drop_non_finite`, which a warning says; of `treeform_read` alone
-    int32_t drop_nan;
+    int32_t drop_non_finite;
 } treeform_read_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_read_options_init(treeform_read_options* options, size_t size);
@@ -292,9 +292,9 @@ typedef struct treeform_part {
     const uint32_t* triangle_of_face;
     const uint32_t* face_in_file;  ///< [F] the number in the file, counting polygons
     const uint32_t* component;     ///< [F] with `details`: the component; else null
-    uint64_t dropped;              ///< triangles with a coordinate that is not finite
     uint64_t degenerate;           ///< likewise: triangles that are a segment or a point
     uint64_t joined;               ///< likewise: points merged by tolerance
+    uint64_t non_finite;           ///< triangles with a coordinate that is not finite
 } treeform_part;
 
 /// Which part of a mesh.

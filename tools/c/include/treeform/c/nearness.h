@@ -255,10 +255,10 @@ typedef struct treeform_deviation_result {
     /// Bound of the distance from any point of the surface `a` to `b`: the maximum, over its
     /// faces, of the largest corner distance plus the longest edge / sqrt(3). For a cloud it is
     /// `max`, rounded up.
-    double there_at_most;
+    double max_bound;
     /// With `both_ways`, a bound of the distance from any point of the surface `b` to `a`. The
-    /// larger of this and `there_at_most` bounds the Hausdorff distance of the surfaces.
-    double back_at_most;
+    /// larger of this and `max_bound` bounds the Hausdorff distance of the surfaces.
+    double back_max_bound;
     /// [bins] points by signed distance, in intervals of equal length from `lowest` to `highest`;
     /// the last one includes `highest`.
     const uint64_t* histogram;

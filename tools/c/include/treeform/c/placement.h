@@ -22,7 +22,7 @@ enum {
     /// stopped by the bed, or at the clearance above it
     TREEFORM_END_BED = 1,
     /// it need not move
-    TREEFORM_END_STAYS = 2,
+    TREEFORM_END_UNCHANGED = 2,
     /// for `separate`: it was moved out of the fixed meshes
     TREEFORM_END_MOVED_APART = 3,
     /// no place: it meets nothing, or nothing within `max_travel`
@@ -38,7 +38,7 @@ enum {
     /// no place: it is below the bed at the start, and there are fixed meshes
     TREEFORM_END_STARTS_BELOW_BED = 9,
     /// no place in coordinates of the precision
-    TREEFORM_END_NO_COORDINATES = 10,
+    TREEFORM_END_NOT_REPRESENTABLE = 10,
     /// undecided, for `treeform_turn`: it passes a fixed mesh too closely
     TREEFORM_END_TOO_MANY_STEPS = 11,
     /// no place: coordinates overflow the precision
@@ -62,7 +62,7 @@ typedef struct treeform_contact {
 typedef struct treeform_placement {
     void* owner;
     /// ok: the mesh has a place, and `points` were checked exactly. Otherwise `no_place`,
-    /// `not_certified` (no_coordinates), `out_of_range` or `cancelled`. It lists no faces.
+    /// `not_certified` (not_representable), `out_of_range` or `cancelled`. It lists no faces.
     const treeform_certificate* certificate;
     treeform_placement_end end;
     const char* message;   ///< half a sentence for people

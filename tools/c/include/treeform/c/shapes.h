@@ -47,14 +47,7 @@ typedef struct treeform_offset_result {
     /// asked for, without its sign; of `treeform_wrap`, that of its vertices
     double distance;
     double resolution;  ///< that was used; of `treeform_wrap`, its size
-    /// Bounds of the distance from any point of the surface made, in its faces too, to the mesh
-    /// that it is the offset of: all are in [least, greatest]. Of `treeform_hollow`, of the
-    /// cavities' surface; of `treeform_thicken`, to the moved surface. Found by branch and bound;
-    /// each is within a sixteenth of the resolution of what is there. 0 where there is no surface,
-    /// and of `treeform_wrap`.
-    double least;
-    double greatest;  ///< the upper bound
-    uint64_t cells;   ///< cells that the surface may pass through
+    uint64_t cells;     ///< cells that the surface may pass through
     /// For `treeform_hollow`: cavities without an opening, those of the input included.
     uint64_t sealed_cavities;
     /// [blind_drain_count] For `treeform_hollow`: numbers of drains that do not lead from outside
@@ -66,6 +59,13 @@ typedef struct treeform_offset_result {
     uint64_t tetrahedra_points;
     /// of `treeform_wrap`: filled so that it is a manifold
     uint64_t filled_tetrahedra;
+    /// Bounds of the distance from any point of the surface made, in its faces too, to the mesh
+    /// that it is the offset of, the lower one here; of `treeform_hollow`, of the cavities'
+    /// surface; of `treeform_thicken`, to the moved surface. Found by branch and bound: each is
+    /// within a sixteenth of the resolution of the true extreme. 0 where there is no surface, and
+    /// of `treeform_wrap`.
+    double least_distance;
+    double greatest_distance;  ///< the upper bound
 } treeform_offset_result;
 
 /// A solid that holds all faces of `mesh`, whatever they are: open, crossing, turned any way, of
@@ -148,10 +148,6 @@ typedef struct treeform_simplify_result {
     /// Edges whose collapse was not proven within the distance.
     uint64_t refused_by_distance;
     uint64_t refused_by_contact;  ///< edges whose collapse would make faces meet
-    /// Bound of the distance from any input point to the result.
-    double there_at_most;
-    /// Bound of the distance from any point of the result to the input.
-    double back_at_most;
     /// Status ok: no count of `treeform_find_solid_defects` is larger than for the input. So a
     /// solid is still a solid. Otherwise `not_certified` or `cancelled`.
     const treeform_certificate* certificate;
@@ -162,6 +158,10 @@ typedef struct treeform_simplify_result {
     /// [3 F] the input corner (3 f + i for corner i of face f) at the vertex of each corner, on
     /// its side of seams; none at new vertices
     const uint32_t* corner_source;
+    /// Bound of the distance from any input point to the result.
+    double input_to_result_bound;
+    /// Bound of the distance from any point of the result to the input.
+    double result_to_input_bound;
 } treeform_simplify_result;
 
 /// The mesh with fewer faces, by edge collapses in the order of their quadric error.

@@ -228,10 +228,7 @@ typedef struct treeform_repair_statistics {
     uint64_t repeated;        ///< faces on others, dropped
     uint64_t closed_edges;    ///< pairs of border edges that became one
     uint64_t split_edges;     ///< border edges split at vertices that lie on them
-    double gap;               ///< widest crack that was looked for
-    double widest;            ///< widest crack that was closed
     uint64_t flipped;         ///< faces turned to agree with their neighbors
-    uint64_t turned;          ///< components turned outward
     uint64_t strays;          ///< faces of loose and of inner pieces, dropped
     uint64_t holes;           ///< holes filled
     uint64_t hole_edges;      ///< edges around them
@@ -242,7 +239,7 @@ typedef struct treeform_repair_statistics {
     uint64_t pairs;           ///< pairs of faces that met
     uint64_t labeled_cells;   ///< cells labeled inside or outside, since faces disagreed
     double dropped_area;      ///< area of faces with one label on both sides
-    double turned_area;       ///< area of faces that their labels turned over
+    double flipped_area;      ///< area of faces that their labels turned over
     uint64_t removed;         ///< faces that resolving left nothing of
     uint64_t split_vertices;  ///< vertices split where parts of the solid touch
     uint64_t detached;        ///< vertices moved apart
@@ -260,8 +257,11 @@ typedef struct treeform_repair_statistics {
     /// Of `treeform_resolve_self_intersections` by `split`: input faces that lie entirely on faces
     /// of lower numbers. One piece stands for all of them, so they are not counted as removed.
     uint64_t covered;
-    uint64_t left_open;    ///< of it by `remove`: edges that lost their second face
-    uint64_t exact_faces;  ///< of it, as in `boolean_statistics`
+    uint64_t left_open;       ///< of it by `remove`: edges that lost their second face
+    uint64_t exact_faces;     ///< of it, as in `boolean_statistics`
+    double gap_limit;         ///< widest crack that was looked for
+    double widest_closed;     ///< widest crack that was closed
+    uint64_t turned_outward;  ///< components turned outward
 } treeform_repair_statistics;
 
 /// The repaired mesh, its sources, and its certificate.

@@ -68,8 +68,8 @@ typedef struct treeform_weld_stream_result {
     uint64_t tiles;
     uint64_t finished_tiles;  ///< by an earlier run
     const char* format;       ///< of the output
-    uint64_t still_within;    ///< points that would be merged if the output were welded
-    int32_t still_within_known;
+    uint64_t mergeable;       ///< points that would be merged if the output were welded
+    int32_t mergeable_known;
     uint64_t faces;  ///< that are kept, as stored; and cut into triangles
     uint64_t triangles;
     uint64_t collapsed;           ///< faces that repeat a corner only after the weld
@@ -143,11 +143,9 @@ typedef struct treeform_point_reader treeform_point_reader;
 TREEFORM_C_API treeform_code treeform_point_reader_create(const char* path, const char* format,
                                                           treeform_point_reader** reader);
 
-/// The file without its points, and their number: `TREEFORM_OK` with `known` 0 where no header
-/// says it.
+/// The file without its points, and their number.
 TREEFORM_C_API treeform_code treeform_point_reader_header(const treeform_point_reader* reader,
-                                                          treeform_file** header, uint64_t* count,
-                                                          int32_t* known);
+                                                          treeform_file** header, uint64_t* count);
 
 /// The next points, at most `most`, with their properties, as a file without faces; null when none
 /// are left.

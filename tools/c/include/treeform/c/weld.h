@@ -6,7 +6,7 @@
 
 // made of the headers of C++:
 //   weld_keep weld_condition weld_options weld_result weld() weld_file() group_points()
-//   count_nearly_equal() count_still_within() withhold()
+//   count_nearly_equal() count_mergeable() withhold()
 /// Which point of a group is kept, with its coordinates and properties.
 typedef int32_t treeform_weld_keep;
 enum {
@@ -99,7 +99,7 @@ typedef struct treeform_weld_result {
     uint64_t nonmanifold_before;  ///< edges of more than two faces
     uint64_t nonmanifold_after;
     uint64_t flipped;           ///< kept faces whose normal turned by more than a right angle
-    uint64_t left_alone;        ///< groups that `keep_manifold` did not merge completely
+    uint64_t kept_apart;        ///< groups that `keep_manifold` did not merge completely
     const treeform_file* file;  ///< of a file, with its attributes; else null
 } treeform_weld_result;
 
@@ -125,10 +125,10 @@ TREEFORM_C_API treeform_code treeform_count_nearly_equal(const treeform_mesh* me
 
 /// How many points of a welded file would be merged if it were written with this precision, read
 /// and welded again; `known` is 0 where points stay apart on purpose.
-TREEFORM_C_API treeform_code treeform_count_still_within(const treeform_file* welded,
-                                                         const treeform_weld_options* options,
-                                                         treeform_precision written_as,
-                                                         uint64_t* count, int32_t* known);
+TREEFORM_C_API treeform_code treeform_count_mergeable(const treeform_file* welded,
+                                                      const treeform_weld_options* options,
+                                                      treeform_precision written_as,
+                                                      uint64_t* count, int32_t* known);
 
 /// Sets the flag "withheld" of LAS at the points of `file` that `welded`, made of it, does not
 /// keep.

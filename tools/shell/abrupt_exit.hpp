@@ -37,6 +37,6 @@ void set_words_for_memory(const std::string& words);
 
 /// Removes what is unfinished, says `words`, if any, after the name of the program, and ends the
 /// process. The first thread that comes here does; others wait for the end.
-[[noreturn]] void end_suddenly(int status, const char* words);
+[[noreturn]] void exit_abruptly(int status, const char* words);
 
 }  // namespace tools

@@ -1,4 +1,4 @@
-#include "tools/shell/sudden_end.hpp"
+#include "tools/shell/abrupt_exit.hpp"
 
 #include "tools/shell/exit_status.hpp"
 
@@ -71,7 +71,7 @@ void say(std::string_view text) {
     }
 }
 
-void on_fault(int) { end_suddenly(stopped, memory_words.data()); }
+void on_fault(int) { exit_abruptly(stopped, memory_words.data()); }
 
 /// From here on, what crashes has not looked whether it got its memory (nlohmann/json takes apart
 /// objects that it could not make).
@@ -88,7 +88,7 @@ void on_fault(int) { end_suddenly(stopped, memory_words.data()); }
     const bool is_memory = type == nullptr ? memory_ran_out.load()
                                            : *type == typeid(std::bad_alloc) ||
                                                  *type == typeid(std::bad_array_new_length);
-    end_suddenly(is_memory ? stopped : bug, is_memory ? memory_words.data() : "internal error");
+    exit_abruptly(is_memory ? stopped : bug, is_memory ? memory_words.data() : "internal error");
 }
 
 void start(int, char**, char**) {
@@ -144,7 +144,7 @@ void set_words_for_memory(const std::string& words) {
     words.copy(memory_words.data(), memory_words.size() - 1);
 }
 
-void end_suddenly(int status, const char* words) {
+void exit_abruptly(int status, const char* words) {
     if (ends.exchange(true))
         for (;;) pause();
     for (const remembered_path& slot : paths)
