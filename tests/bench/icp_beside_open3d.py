@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """icp_beside_open3d.py TF_PLACE FOLDER [OPTION...]: the pairs that tests/stress writes to
-TREEFORM_PAIRS_DIR, fitted by `tf-place fit` and by Open3D's ICP (Debian's python3-open3d), in turn,
-on all cores.
+TREEFORM_PAIRS_DIR, aligned by `tf-place align` and by Open3D's ICP (Debian's python3-open3d), in
+turn, on all cores.
 
 Open3D is told to look for partners within a tenth of the diagonal, as far as the pairs are apart,
 to fit planes to the 20 nearest points, and to take up to 100 steps. A mesh that is fixed is for
@@ -57,8 +57,8 @@ class Pair:
 
 def by_treeform(tool, pair, options):
     with tempfile.NamedTemporaryFile(suffix=".json") as report:
-        run = subprocess.run([tool, "fit", pair.moving_name, "--fixed", pair.fixed_name, "-n", "-q",
-                              "-o", "x.ply", *options, "-f", "-r", report.name], check=False)
+        run = subprocess.run([tool, "align", pair.moving_name, "--fixed", pair.fixed_name, "-n",
+                              "-q", "-o", "x.ply", *options, "-f", "-r", report.name], check=False)
         said = json.load(open(report.name))
     seconds = said["seconds"]["prepare"] + said["seconds"]["search"]
     return seconds, numpy.array(said["files"][0]["matrix"]).reshape(4, 4), run.returncode == 0
@@ -88,7 +88,7 @@ def main():
     starts = sorted(pathlib.Path(folder).glob("*.txt"), key=lambda path: int(path.stem))
     name = "Open3D " + open3d.__version__
     ways = {
-        "tf-place fit " + " ".join(options): lambda pair: by_treeform(tool, pair, options),
+        "tf-place align " + " ".join(options): lambda pair: by_treeform(tool, pair, options),
         name + ", point to plane": lambda pair: by_open3d(pair, False),
         name + ", generalized": lambda pair: by_open3d(pair, True),
     }

@@ -102,7 +102,7 @@ def main():
     runs = {}
     with tempfile.TemporaryDirectory() as folder:
         report = os.path.join(folder, "info.json")
-        run([tool, "info", "--walls", "none", "-q", mesh, "-r", report])
+        run([tool, "info", "--measure-walls", "none", "-q", mesh, "-r", report])
         with open(report, encoding="utf-8") as file:
             box = json.load(file)["files"][0]["info"]["box"]
         height = box["max"][2] - box["min"][2]

@@ -270,9 +270,9 @@ slide/max-travel       pairs   slide {b} --start made/up.txt --fixed {a} --max-t
 slide/scene            pairs   slide {b} --start made/up.txt --fixed {a} --scene -o out.glb
 mate/ply               pairs   mate {b} --start {m} --fixed {a} -o out.ply --matrix m.txt
 mate/clearance         pairs   mate {b} --start made/up.txt --fixed {a} --clearance 0.5% -o out.stl
-clear/ply              pairs   clear {b} --start {m} --fixed {a} -o out.ply --matrix m.txt
-clear/clearance        pairs   clear {b} --start {m} --fixed {a} --clearance 1% -o out.stl
-clear/max-travel       pairs   clear {b} --start {m} --fixed {a} --max-travel 0.5% --scene -o \
+clear/ply              pairs   separate {b} --start {m} --fixed {a} -o out.ply --matrix m.txt
+clear/clearance        pairs   separate {b} --start {m} --fixed {a} --clearance 1% -o out.stl
+clear/max-travel       pairs   separate {b} --start {m} --fixed {a} --max-travel 0.5% --scene -o \
                                out.obj
 measure/ply            pairs   measure {b} --start {m} --fixed {a} -o out.ply
 measure/clearance      pairs   measure {b} --start {m} --fixed {a} --clearance 5% --scene -o \
@@ -284,28 +284,28 @@ measure/picture        small   measure {f} --fixed made/box.obj --html page.html
                                --png-size 320x240 --view iso,top
 clash/picture          pairs   clash {a} {b} --clearance 1% --html page.html --png p.png \
                                --png-size 320x240
-fit                    pairs   fit {b} --start made/turn.txt --fixed {b} -o out.ply --matrix m.txt
-fit/scale              pairs   fit {b} --start {m} --fixed {a} --scale --overlap 0.5 -o out.obj
-fit/far                small   fit {f} --fixed {f} --start made/turn.txt --max-distance 20% -o \
+fit                    pairs   align {b} --start made/turn.txt --fixed {b} -o out.ply --matrix m.txt
+fit/scale              pairs   align {b} --start {m} --fixed {a} --scale --overlap 0.5 -o out.obj
+fit/far                small   align {f} --fixed {f} --start made/turn.txt --max-distance 20% -o \
                                out.stl --matrix -
-fit/starts             small   fit {f} --fixed {f} --start made/turn.txt --starts 9 \
+fit/starts             small   align {f} --fixed {f} --start made/turn.txt --starts 9 \
                                -o out.ply --matrix m.txt
-fit/trim               small   fit {f} --fixed {f} --start made/turn.txt --trim 0.2 --metric point \
-                               --fit-tolerance 1e-4 --iterations 30 -o out.ply --matrix m.txt
+fit/trim               small   align {f} --fixed {f} --start made/turn.txt --trim 0.2 --metric point \
+                               --align-tolerance 1e-4 --iterations 30 -o out.ply --matrix m.txt
 two-fixed              triples drop {a} --start made/up.txt --fixed {b} --fixed {c} -o out.ply \
                                --scene
 two-fixed/measure      triples measure {a} --fixed {b} --fixed {c} --clearance 5% -o out.ply
-two-fixed/clear        triples clear {a} --fixed {b} --fixed {c} --clearance 0.5% -o out.stl
+two-fixed/clear        triples separate {a} --fixed {b} --fixed {c} --clearance 0.5% -o out.stl
 two-fixed/slide        triples slide {a} --start made/up.txt --fixed {b} --fixed {c} -o out.glb \
                                --scene
-arrange/none           triples arrange {a} {b} {c} --size 100,100 --rotate none -o out.stl \
+arrange/none           triples pack {a} {b} {c} --size 100,100 --rotate none -o out.stl \
                                --matrix m.txt
-arrange/90             triples arrange {a} {b} {c} --size 2.5,2.5 --spacing 0.1 -o out.ply
-arrange/45             triples arrange {a} {b} {c} --size 3,3,2 --spacing 0.1 --rotate 45 --seed \
+arrange/90             triples pack {a} {b} {c} --size 2.5,2.5 --spacing 0.1 -o out.ply
+arrange/45             triples pack {a} {b} {c} --size 3,3,2 --spacing 0.1 --rotate 45 --seed \
                                7 -o out.obj
-arrange/any            triples arrange {a} {b} {c} {a} --size 4,3 --spacing 0.05 --rotate any \
+arrange/any            triples pack {a} {b} {c} {a} --size 4,3 --spacing 0.05 --rotate any \
                                --seed 3 --bed 1 -o out.glb
-arrange/robot          one     arrange models/robot/franka_link0.stl \
+arrange/robot          one     pack models/robot/franka_link0.stl \
                                models/robot/franka_link1.stl models/robot/franka_link2.stl \
                                models/robot/franka_link3.stl models/robot/franka_link4.stl \
                                models/robot/franka_hand.stl --size 0.5,0.4 --spacing 0.01 \
@@ -313,7 +313,7 @@ arrange/robot          one     arrange models/robot/franka_link0.stl \
 scene/drop             scenes  drop made/box.obj --start made/up.txt --fixed {f} -o out.ply --scene
 scene/slide            scenes  slide made/box.obj --start made/up.txt -d 0.1,0,-1 --fixed {f} -o \
                                out.obj --scene
-scene/clear            scenes  clear made/box.obj --fixed {f} --clearance 1 -o out.glb --scene
+scene/clear            scenes  separate made/box.obj --fixed {f} --clearance 1 -o out.glb --scene
 scene/measure          scenes  measure made/box.obj --fixed {f} --clearance 50% -o out.ply
 scene/paint/ply        one     drop made/paint.obj --start made/up.txt --fixed made/seams.ply \
                                --fixed made/coloured.obj -o out.ply --scene --ascii
@@ -330,11 +330,11 @@ cloud/slide            points  slide {f} --start made/up.txt --fixed models/pair
 cloud/measure          clouds  measure {f} --fixed made/points.ply -o out.ply
 cloud/measure-mesh     clouds  measure {f} --fixed models/pairs/ballA.off --clearance 1
 cloud/mate             points  mate {f} --fixed models/pairs/ballA.off --clearance 1 -o out.xyz
-cloud/clear            points  clear {f} --fixed models/pairs/ballA.off --clearance 0.5 -o out.ply
+cloud/clear            points  separate {f} --fixed models/pairs/ballA.off --clearance 0.5 -o out.ply
 cloud/fixed            small   drop {f} --start made/up.txt --fixed made/points.ply -o out.ply \
                                --scene
-cloud/fit              points  fit {f} --start made/turn.txt --fixed {f} -o out.ply --matrix m.txt
-cloud/fit-ocean        one     fit models/cloud/ocean_r_15k.xyz --start made/turn.txt --fixed \
+cloud/fit              points  align {f} --start made/turn.txt --fixed {f} -o out.ply --matrix m.txt
+cloud/fit-ocean        one     align models/cloud/ocean_r_15k.xyz --start made/turn.txt --fixed \
                                models/cloud/ocean_r_15k.xyz --overlap 0.8 -o out.ply --matrix m.txt
 hostile/drop           hostile drop {f} -o out.obj
 hostile/fixed          hostile measure made/box.obj --fixed {f} -o out.ply
@@ -386,11 +386,11 @@ tf-place | tf-place --help | tf-place fly made/box.obj | tf-place drop | tf-plac
 tf-place drop none.obj -n | tf-place mate made/box.obj -n
 tf-place slide made/box.obj --fixed made/box.obj -d 0,0,0 -n
 tf-place drop made/box.obj -d 0,0,1 -n | tf-place lay made/box.obj --fixed made/box.obj -n
-tf-place lay made/box.obj --largest-face --face-point 0,0,0 -n | tf-place arrange made/box.obj -n
-tf-place arrange made/box.obj --size 9,-9 -n | tf-place arrange made/box.obj --size 1,1 -o out.stl
-tf-place arrange made/points.ply --size 9,9 -n | tf-place drop made/box.obj --seed 1 -n
+tf-place lay made/box.obj --largest-face --face-point 0,0,0 -n | tf-place pack made/box.obj -n
+tf-place pack made/box.obj --size 9,-9 -n | tf-place pack made/box.obj --size 1,1 -o out.stl
+tf-place pack made/points.ply --size 9,9 -n | tf-place drop made/box.obj --seed 1 -n
 tf-place drop made/box.obj --scale -n
-tf-place fit made/box.obj --fixed made/box.obj --overlap 2 -n
+tf-place align made/box.obj --fixed made/box.obj --overlap 2 -n
 tf-place measure made/box.obj --fixed made/box.obj --matrix m.txt
 tf-place drop made/box.obj --start made/flat.txt -n
 tf-place drop made/box.obj --start made/box.obj -n

@@ -451,7 +451,7 @@ class Place(CornerTest):
         self.put("a.obj", textured_text(box((0, 0, 0), (1, 7, 2)), head="mtllib a.mtl",
                                         material=lambda i: ("oak", "pine")[i // 6]))
         self.mesh("b.obj", box((0, 0, 0), (6, 1, 2)))
-        self.run_tool("arrange", "a.obj", "b.obj", "a.obj", "--size", "20,6", "-o", "out.obj",
+        self.run_tool("pack", "a.obj", "b.obj", "a.obj", "--size", "20,6", "-o", "out.obj",
                       status=0)
         mesh = self.parsed("out.obj")
         self.assertEqual(mesh.libraries, ["a.mtl"])
@@ -469,7 +469,7 @@ class Place(CornerTest):
     def test_a_body_of_one_name_is_one_solid(self):
         text = textured_text(box((0, 0, 0), (1, 7, 2)))
         self.put("a.obj", re.sub(r"(?m)^(f .*\n)", r"\1o later\n", text, count=1))
-        self.run_tool("arrange", "a.obj", "a.obj", "--size", "20,20", "--ascii", "-o", "out.stl",
+        self.run_tool("pack", "a.obj", "a.obj", "--size", "20,20", "--ascii", "-o", "out.stl",
                       status=0)
         self.assertEqual(re.findall("(?m)^solid.*", self.read("out.stl")), ["solid a"] * 2)
 

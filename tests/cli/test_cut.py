@@ -268,7 +268,7 @@ class Cut(ToolTest):
         self.assertIsNone(second["thinnest"])
         self.assertEqual((first["unit"], second["unit"]), (None, None))
         for how, thickness in (("sphere", 2 / 3), ("none", None)):
-            info = self.report("info", part, "--walls", how, "--units", "mm",
+            info = self.report("info", part, "--measure-walls", how, "--units", "mm",
                                status=0)["files"][0]["info"]
             self.assertEqual(info["unit"], "mm")
             if thickness:

@@ -8,7 +8,7 @@ HOME = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 TOOLS = {name: os.environ["TF_" + name.upper()]
          for name in ("boolean", "cut", "place", "repair", "selfintersect", "weld")}
 MODES = {"place": {"drop": "drop", "lay": "lay", "slide": "slide", "mate": "mate", "turn": "turn",
-                   "clear": "separate", "arrange": "pack", "fit": "align", "measure": "measure",
+                   "separate": "separate", "pack": "pack", "align": "align", "measure": "measure",
                    "clash": "clash", "check": "check"},
          "boolean": {mode: mode for mode in ("union", "intersection", "difference",
                                              "symmetric-difference", "split")},
@@ -18,10 +18,10 @@ MODES = {"place": {"drop": "drop", "lay": "lay", "slide": "slide", "mate": "mate
 # What a mode needs beside the option that is tried, so that only this is refused.
 NEEDED = {"half": ["--height", "1"], "isolines": ["--levels", "1"], "section": ["--height", "1"],
           "pieces": ["--height", "1"],
-          "arrange": ["--size", "9,9"], "check": ["--poses", "poses"],
+          "pack": ["--size", "9,9"], "check": ["--poses", "poses"],
           "simplify": ["--distance", "1"], "offset": ["--distance", "1"],
           "hollow": ["--wall", "1"], "thicken": ["--thickness", "1"]}
-FIXED = ("slide", "mate", "turn", "clear", "fit", "measure")
+FIXED = ("slide", "mate", "turn", "separate", "align", "measure")
 VALUES = {"X,Y,Z": "0,0,-1", "X,Y[,Z]": "9,9", "DIST": "1", "SEC": "1", "DEG": "45", "N": "1",
           "F": "0.5", "LO,HI": "0,1", "Z": "0", "FILE": "f.ply", "FILE:N": "a.obj:1", "U": "mm",
           "SIZE": "none", "DIR": "dir", "TEXT": "text", "A:B": "a:b", "RULE": "odd", "P": "p",
@@ -95,7 +95,7 @@ class Help(ToolTest):
         for mode in MODES["place"]:
             if mode != "drop":
                 self.assertNotIn("drop with", self.help_of("place", mode))
-            if mode not in ("arrange", "fit"):
+            if mode not in ("pack", "align"):
                 self.assertNotRegex(self.help_of("place", mode), "all parts are placed|converged")
         self.assertIn("drop with --fixed has a bed only", self.help_of("place", "drop"))
         self.assertIn("Translate along --direction until contact (minus --clearance).\n",

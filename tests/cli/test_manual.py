@@ -139,21 +139,21 @@ class Bash(Manual):
             self.run_quietly("bash", "-n", self.generate(tool, "bash", "script"))
 
     def test_modes(self):
-        modes = {"drop", "lay", "slide", "mate", "turn", "clear", "separate", "arrange", "pack",
-                 "fit", "align", "measure", "clash", "check"}
+        modes = {"drop", "lay", "slide", "mate", "turn", "separate", "pack", "align",
+                 "measure", "clash", "check"}
         self.assertEqual(set(self.complete("tf-place", "")), modes)
         self.assertEqual(self.complete("tf-place", "me"), ["measure"])
         self.assertEqual(self.complete("tf-boolean", "int"), ["intersection"])
         self.assertIn("union", self.complete("tf-boolean", ""))
         self.assertEqual(self.complete("tf-place", "drop", "--st"), ["--start"])
         self.assertEqual(self.complete("tf-place", "lay", "--st"), ["--stable", "--start"])
-        self.assertEqual(self.complete("tf-place", "fit", "--st"), ["--start", "--starts"])
+        self.assertEqual(self.complete("tf-place", "align", "--st"), ["--start", "--starts"])
         self.assertEqual(self.complete("tf-place", "clash", "--no"), ["--no-depth"])
         self.assertEqual(self.complete("tf-place", "slide", "--no"), [])
         self.assertEqual(self.complete("tf-boolean", "split", "--s"), ["--source"])
 
     def test_options_of_a_mode_are_those_of_its_help(self):
-        for tool, modes in (("tf-place", ("drop", "arrange", "pack", "measure", "clash", "check")),
+        for tool, modes in (("tf-place", ("drop", "pack", "measure", "clash", "check")),
                             ("tf-boolean", ("union", "split"))):
             for mode in modes:
                 text = self.say(tool, mode, "--help")
@@ -173,7 +173,7 @@ class Bash(Manual):
         self.assertEqual(self.complete("tf-weld", "--rule", ""), ["chain", "first"])
         self.assertEqual(self.complete("tf-weld", "--units", "c"), ["cm"])
         self.assertEqual(self.complete("tf-repair", "--inside", "n"), ["nonzero"])
-        self.assertEqual(self.complete("tf-place", "fit", "--weights", ""), ["equal", "welsch"])
+        self.assertEqual(self.complete("tf-place", "align", "--weights", ""), ["equal", "welsch"])
         self.assertEqual(self.complete("tf-place", "pack", "--rotate", ""),
                          ["45", "90", "any", "none"])
         self.assertEqual(self.complete("tf-selfintersect", "--repair=o"), ["--repair=outer"])

@@ -95,7 +95,7 @@ class Packages(ToolTest):
         self.tool = BOOLEAN
         self.run_tool("difference", "a.3mf", "b.3mf", "-o", "c.3mf", status=0)
         self.tool = PLACE
-        self.run_tool("arrange", "a.3mf", "b.3mf", "c.3mf", "--size", "20,20", "-o", "plate.3mf",
+        self.run_tool("pack", "a.3mf", "b.3mf", "c.3mf", "--size", "20,20", "-o", "plate.3mf",
                       status=0)
         self.assertEqual(self.model("plate.3mf").count("<item "), 3)
 

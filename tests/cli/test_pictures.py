@@ -78,7 +78,7 @@ class Pictures(ToolTest):
                                  (PLACE, "slide", one, "--fixed", other, "-n"),
                                  (PLACE, "measure", one, "--fixed", other),
                                  (PLACE, "clash", one, other, "-n"),
-                                 (PLACE, "arrange", one, other, "--size", "9,9", "-n")):
+                                 (PLACE, "pack", one, other, "--size", "9,9", "-n")):
             with self.subTest(tool=tool, arguments=arguments):
                 self.tool = tool
                 rows = self.picture(*arguments)
@@ -107,13 +107,13 @@ class Pictures(ToolTest):
             up_in[name] = {
                 "drop": self.picture("drop", self.path(name), "-n", "--bed", "0", "--view",
                                      "front"),
-                "arrange": self.picture("arrange", self.path(name), self.path(name), "--size",
+                "pack": self.picture("pack", self.path(name), self.path(name), "--size",
                                         "19,19",
                                         "-n", "--view", "front")}
             self.tool = BOOLEAN
             up_in[name]["union"] = self.picture("union", self.path(name), self.path(name), "-n",
                                                 "--view", "front")
-        for what, same in (("drop", True), ("arrange", True), ("union", False)):
+        for what, same in (("drop", True), ("pack", True), ("union", False)):
             self.assertEqual(up_in["a.obj"][what] == up_in["a.ply"][what], same, msg=what)
 
     def test_findings_have_the_color_of_their_kind_and_there_are_none_in_a_sound_mesh(self):

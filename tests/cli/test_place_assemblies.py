@@ -220,7 +220,7 @@ class Assemblies(PlaceTest):
         effort = entry["depth"]["effort"]
         self.assertLessEqual(effort["pairs"], effort["bound"])
         self.assertGreater(effort["cut"], 0)
-        run = self.run_tool("clear", "needles.obj", "--fixed", "others.obj", "-o", "out.obj",
+        run = self.run_tool("separate", "needles.obj", "--fixed", "others.obj", "-o", "out.obj",
                             status=0)
         self.assertIn("; the search ended after ", run.text)
         self.run_tool("measure", "out.obj", "--fixed", "others.obj", "--no-depth", status=0)

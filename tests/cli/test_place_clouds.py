@@ -64,7 +64,7 @@ class Clouds(PlaceTest):
         entry = self.entry("mate", "cloud.xyz", "--fixed", "floor.obj", "-o", "out.xyz", status=0)
         self.assertEqual((entry["travel"], entry["status"]), (1.75, "touching"))
         self.cloud("within.xyz", (1, 1, 0.75), (2, 2, 1.5))
-        entry = self.entry("clear", "within.xyz", "--fixed", "floor.obj", "-o", "clear.xyz",
+        entry = self.entry("separate", "within.xyz", "--fixed", "floor.obj", "-o", "clear.xyz",
                            status=0)
         self.assertEqual((entry["travel"], entry["direction"]), (0.25, [0, 0, 1]))
         self.assertEqual(self.rows("clear.xyz"), [(1, 1, 1), (2, 2, 1.75)])
@@ -94,8 +94,8 @@ class Clouds(PlaceTest):
         self.assertEqual([int(r[-1]) for r in rows], [0, 2, 3, 0])
         self.assertEqual(rows[1][3:6], ["236", "208", "0"])
 
-    def test_arrange_refuses_clouds_and_says_so(self):
-        run = self.run_tool("arrange", "cloud.xyz", "--size", "9,9", "-n", status=2)
+    def test_pack_refuses_clouds_and_says_so(self):
+        run = self.run_tool("pack", "cloud.xyz", "--size", "9,9", "-n", status=2)
         self.assertIn("cloud.xyz: is a cloud of points", run.err)
 
     def test_any_number_of_threads_gives_the_same_report(self):

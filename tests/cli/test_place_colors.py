@@ -29,7 +29,7 @@ class Colors(PlaceTest):
 
     def test_faces_in_contact_are_yellow_where_it_came_to_rest(self):
         for mode in (["drop", "a.obj"], ["slide", "a.obj", "-d", "0,0,-1"], ["mate", "a.obj"],
-                     ["clear", "in.obj"]):
+                     ["separate", "in.obj"]):
             moving, floor = self.classes(*mode)
             bottom = moving[:2]
             self.assertEqual(bottom, [TOUCHING, TOUCHING], msg=mode)

@@ -14,7 +14,7 @@ class PlaceFeatures(PlaceTest):
         return self.entry("measure", moving, "--fixed", fixed, status=0)
 
     def test_copies_fill_plates_beside_each_other(self):
-        entry = self.entry("arrange", "a.obj", "b.obj", "--count", "a.obj:5", "--size", "9,4.5",
+        entry = self.entry("pack", "a.obj", "b.obj", "--count", "a.obj:5", "--size", "9,4.5",
                            "--spacing", "0.5", "--plates", "4", "-o", "out.obj", status=0)
         self.assertEqual(len(entry["parts"]), 6)
         self.assertEqual([part["input"] for part in entry["parts"]], ["a.obj"] * 5 + ["b.obj"])
@@ -25,32 +25,32 @@ class PlaceFeatures(PlaceTest):
         points = self.points("out.obj")
         self.assertEqual(len(points), 48)
         self.assertLessEqual(max(p[0] for p in points), 2 * 1.2 * 9 + 9)
-        run = self.run_tool("arrange", "a.obj", "--count", "a.obj:5", "--size", "9,4.5",
+        run = self.run_tool("pack", "a.obj", "--count", "a.obj:5", "--size", "9,4.5",
                             "--spacing",
                             "0.5", "--plates", "2", "--tries", "3", "-n", status=1)
         self.assertIn("4 of 5 parts placed on 2 plates; a place for all was not found in 3 tries",
                       run.text)
         for bad in ("a.obj", "a.obj:0", "a.obj:x", ":3", "c.obj:3"):
-            self.run_tool("arrange", "a.obj", "--count", bad, "--size", "9,9", "-n", status=2)
+            self.run_tool("pack", "a.obj", "--count", bad, "--size", "9,9", "-n", status=2)
 
     def test_a_box_with_a_height_is_filled_and_a_flat_one_is_not(self):
         size = ["--size", "4,4,7", "--spacing", "0.5"]
-        entry = self.entry("arrange", "a.obj", "--count", "a.obj:3", *size, "-o", "out.obj",
+        entry = self.entry("pack", "a.obj", "--count", "a.obj:3", *size, "-o", "out.obj",
                            status=0)
         points = self.points("out.obj")
         self.assertEqual(sorted({p[2] for p in points}), [0, 2, 2.5, 4.5, 5, 7])
         self.assertEqual(entry["plates"], 1)
-        entry = self.entry("arrange", "a.obj", "--count", "a.obj:3", *size, "--flat", "-n",
+        entry = self.entry("pack", "a.obj", "--count", "a.obj:3", *size, "--flat", "-n",
                            status=1)
         self.assertEqual(len(entry["not_placed"]), 2)
 
     def test_time_ends_the_tries(self):
         options = ["--size", "4,4", "--count", "a.obj:2", "-n"]
-        entry = self.entry("arrange", "a.obj", *options, "--tries", "1000000", "--time", "0.05",
+        entry = self.entry("pack", "a.obj", *options, "--tries", "1000000", "--time", "0.05",
                            status=1)
         self.assertLess(entry["tries"], 1000000)
         for option in (["--tries", "0"], ["--plates", "0"], ["--time", "0"], ["--tries", "x"]):
-            self.run_tool("arrange", "a.obj", *options, *option, status=2)
+            self.run_tool("pack", "a.obj", *options, *option, status=2)
 
     def test_the_most_stable_side_is_chosen_and_all_are_described(self):
         self.mesh("tall.obj", box((0, 0, 0), (1, 2, 8)))

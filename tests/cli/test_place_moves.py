@@ -84,7 +84,7 @@ class Moves(PlaceTest):
 
     def test_a_place_that_the_numbers_do_not_reach_is_refused(self):
         for arguments in (["drop", "a.obj"], ["lay", "a.obj"],
-                          ["arrange", "a.obj", "--size", "9,9"]):
+                          ["pack", "a.obj", "--size", "9,9"]):
             run = self.run_tool(*arguments, "--bed", "-1e300", "-o", "out.stl", status=2)
             self.assertIn("range of float32", run.err)
         self.mesh("far.obj", box((0, 0, 1e300), (1e300, 1e300, 2e300)))
@@ -92,13 +92,13 @@ class Moves(PlaceTest):
         self.mesh("most.obj", box((-most, -most, -most), (most, most, most)))
         self.mesh("left.obj", box((-most, 0, 0), (-1.6e308, 1, 1)))
         self.mesh("right.obj", box((1.6e308, 0, 0), (most, 1, 1)))
-        self.refused("clear", "most.obj", "--fixed", "a.obj", "--clearance", "1%")
+        self.refused("separate", "most.obj", "--fixed", "a.obj", "--clearance", "1%")
         for arguments in (["drop", "far.obj", "--output-format", "stl"],
                           ["mate", "left.obj", "--fixed", "right.obj"],
-                          ["fit", "left.obj", "--fixed", "right.obj"],
+                          ["align", "left.obj", "--fixed", "right.obj"],
                           ["drop", "far.obj", "--fixed", "a.obj", "--output-format", "stl"],
                           ["lay", "most.obj"],
-                          ["fit", "most.obj", "--fixed", "a.obj"]):
+                          ["align", "most.obj", "--fixed", "a.obj"]):
             self.assertIn("beyond the range", self.refused(*arguments)["reason"])
         self.assertEqual(self.listing(),
                          ["a.obj", "far.obj", "floor.obj", "in.obj", "left.obj", "most.obj",
@@ -154,7 +154,7 @@ class Moves(PlaceTest):
 
     def test_what_touches_stays_and_what_penetrates_is_said(self):
         self.mesh("on.obj", box((1, 1, 1), (2, 2, 2)))
-        for mode in (["drop"], ["slide", "-d", "0,0,-1"], ["mate"], ["clear"]):
+        for mode in (["drop"], ["slide", "-d", "0,0,-1"], ["mate"], ["separate"]):
             entry = self.placed(*mode, "on.obj", "--fixed", "floor.obj")
             self.assertEqual((entry["travel"], entry["status"]), (0, "touching"))
         for mode in (["drop"], ["slide", "-d", "0,0,-1"], ["mate"]):
@@ -175,26 +175,26 @@ class Moves(PlaceTest):
         self.refused("mate", "corner.obj", "--fixed", "floor.obj", "--max-travel", "4.9")
 
     def test_clear_takes_the_short_way_out(self):
-        entry = self.placed("clear", "in.obj", "--fixed", "floor.obj", "-o", "out.obj")
+        entry = self.placed("separate", "in.obj", "--fixed", "floor.obj", "-o", "out.obj")
         self.assertEqual((entry["travel"], entry["direction"]), (0.25, [0, 0, 1]))
         self.assertEqual(self.lowest("out.obj"), 1)
-        entry = self.placed("clear", "in.obj", "--fixed", "floor.obj", "--clearance", "0.5")
+        entry = self.placed("separate", "in.obj", "--fixed", "floor.obj", "--clearance", "0.5")
         self.assertEqual((entry["travel"], entry["distance"], entry["status"]),
                          (0.75, 0.5, "clear"))
         self.assertEqual(entry["status_at_start"], "penetrating")
-        self.assertEqual(self.placed("clear", "a.obj", "--fixed", "floor.obj", "--clearance",
+        self.assertEqual(self.placed("separate", "a.obj", "--fixed", "floor.obj", "--clearance",
                                      "4.5")["travel"], 0)
         self.assertIn("longer than 0.2", self.refused(
-            "clear", "in.obj", "--fixed", "floor.obj", "--max-travel", "0.2")["reason"])
+            "separate", "in.obj", "--fixed", "floor.obj", "--max-travel", "0.2")["reason"])
 
     def test_clear_minds_all_fixed_meshes(self):
         self.mesh("lid.obj", box((0, 0, 2), (4, 4, 3)))
-        entry = self.placed("clear", "in.obj", "--fixed", "floor.obj", "--fixed", "lid.obj", "-o",
-                            "out.obj")
+        entry = self.placed("separate", "in.obj", "--fixed", "floor.obj", "--fixed", "lid.obj",
+                            "-o", "out.obj")
         self.assertEqual(entry["travel"], 0.25)
         self.assertEqual(self.entry("measure", "out.obj", "--fixed", "floor.obj", "--fixed",
                                     "lid.obj")["status"], "touching")
-        entry = self.placed("clear", "in.obj", "--fixed", "floor.obj", "--fixed", "lid.obj",
+        entry = self.placed("separate", "in.obj", "--fixed", "floor.obj", "--fixed", "lid.obj",
                             "--clearance", "0.5")
         self.assertEqual((entry["travel"], entry["direction"]), (2.25, [0, 0, -1]))  # not up
 
@@ -240,7 +240,7 @@ class Moves(PlaceTest):
                           entry["surface_distance"]), ("penetrating", "moving", 0, 1))
         entry = self.entry("measure", "big.stl", "--fixed", "small.stl", status=0)
         self.assertEqual(entry["inside"], "fixed")
-        entry = self.placed("clear", "small.stl", "--fixed", "big.stl")
+        entry = self.placed("separate", "small.stl", "--fixed", "big.stl")
         self.assertEqual(entry["travel"], 2)
 
     def test_measure_tells_the_statuses_apart(self):
@@ -334,17 +334,17 @@ class Moves(PlaceTest):
         entry = self.placed("lay", "a.obj", "--face-point", "1.5,1,6")
         self.assertEqual(entry["sides"][entry["chosen"]]["normal"], [0, -1, 0])
 
-    def test_what_arrange_leaves_out_is_counted(self):
+    def test_what_pack_leaves_out_is_counted(self):
         points, faces = box((0, 0, 0), (1, 1, 1))
         self.mesh("nan.obj", (points + [(math.nan, 0, 0)], faces + [(0, 1, 8), (1, 2, 8)]))
-        entry = self.placed("arrange", "a.obj", "nan.obj", "--size", "9,9", "-n")
+        entry = self.placed("pack", "a.obj", "nan.obj", "--size", "9,9", "-n")
         self.assertEqual(entry["skipped"]["non_finite"], 2)
 
-    def test_arrange_puts_all_on_the_plate_or_names_what_does_not_fit(self):
+    def test_pack_puts_all_on_the_plate_or_names_what_does_not_fit(self):
         for i in range(4):
             self.mesh(f"p{i}.stl", box((7 * i, 3, 5), (7 * i + 4, 7, 8)))
         names = [f"p{i}.stl" for i in range(4)]
-        entry = self.placed("arrange", *names, "--size", "10,10", "--spacing", "1.5", "-o",
+        entry = self.placed("pack", *names, "--size", "10,10", "--spacing", "1.5", "-o",
                             "out.stl", "--matrix", "m.txt")
         self.assertEqual((entry["fits"], entry["not_placed"]), (True, []))
         self.assertEqual(len(self.read("m.txt").splitlines()), 16)
@@ -360,10 +360,10 @@ class Moves(PlaceTest):
         for i in range(4):
             fixed = [x for j in range(4) if j != i for x in ("--fixed", f"q{j}.stl")]
             self.assertGreaterEqual(self.entry("measure", f"q{i}.stl", *fixed)["distance"], 1.5)
-        entry = self.entry("arrange", *names, "--size", "10,9", "--spacing", "1.5", status=1)
+        entry = self.entry("pack", *names, "--size", "10,9", "--spacing", "1.5", status=1)
         self.assertEqual((entry["fits"], len(entry["not_placed"])), (False, 2))
         self.mesh("tall.stl", box((0, 0, 0), (1, 1, 9)))
-        entry = self.entry("arrange", "tall.stl", "--size", "5,5,8", status=1)
+        entry = self.entry("pack", "tall.stl", "--size", "5,5,8", status=1)
         self.assertEqual(entry["not_placed"], ["tall.stl"])
 
     def test_fit_brings_a_moved_copy_back(self):
@@ -374,9 +374,9 @@ class Moves(PlaceTest):
         self.mesh("fixed.obj", (hills, faces))
         moved = [(c * x - s * y + 0.05, s * x + c * y - 0.03, z + 0.04) for x, y, z in hills]
         self.mesh("moved.obj", (moved, faces))
-        entry = self.entry("fit", "moved.obj", "--fixed", "fixed.obj", "-o", "out.obj", status=0)
-        self.assertTrue(entry["fit"]["converged"])
-        self.assertLess(entry["fit"]["rms"], 1e-3 * entry["fit"]["rms_at_start"])
+        entry = self.entry("align", "moved.obj", "--fixed", "fixed.obj", "-o", "out.obj", status=0)
+        self.assertTrue(entry["align"]["converged"])
+        self.assertLess(entry["align"]["rms"], 1e-3 * entry["align"]["rms_at_start"])
         for p, q in zip(self.points("out.obj"), hills):
             for x, y in zip(p, q):
                 self.assertAlmostEqual(x, y, places=3)
@@ -391,33 +391,33 @@ class Moves(PlaceTest):
         beside = [(x, y, z + 30) for x, y, z in bowl[::3]]
         moved = [(c * x - s * y + 0.2, s * x + c * y, z) for x, y, z in bowl + beside]
         self.put("moved.xyz", "".join(f"{x!r} {y!r} {z!r}\n" for x, y, z in moved))
-        entry = self.entry("fit", "moved.xyz", "--fixed", "fixed.obj", "--weights", "equal", "-n",
+        entry = self.entry("align", "moved.xyz", "--fixed", "fixed.obj", "--weights", "equal", "-n",
                            status=1)
-        self.assertEqual((entry["fit"]["end"], entry["fit"]["converged"]), ("doubtful", False))
+        self.assertEqual((entry["align"]["end"], entry["align"]["converged"]), ("doubtful", False))
         for options in ([], ["--trim", "0.26"], ["--overlap", "0.7", "--metric", "plane"],
                         ["--trim", "0.26", "--starts", "6"]):
             with self.subTest(options):
-                entry = self.entry("fit", "moved.xyz", "--fixed", "fixed.obj", *options, "-n",
+                entry = self.entry("align", "moved.xyz", "--fixed", "fixed.obj", *options, "-n",
                                    status=0)
-                fit = entry["fit"]
-                self.assertEqual((fit["end"], fit["undetermined"], len(fit["freedoms"])),
+                found = entry["align"]
+                self.assertEqual((found["end"], found["undetermined"], len(found["freedoms"])),
                                  ("converged", 0, 6))
-                self.assertEqual(fit["inliers"], len(bowl))
+                self.assertEqual(found["inliers"], len(bowl))
                 for row, wanted in zip(entry["matrix"], ((c, s, 0), (-s, c, 0), (0, 0, 1))):
                     for x, y in zip(row, wanted):
                         self.assertAlmostEqual(x, y, places=6)
-        entry = self.entry("fit", "moved.xyz", "--fixed", "fixed.obj", "--iterations", "1", "-n",
+        entry = self.entry("align", "moved.xyz", "--fixed", "fixed.obj", "--iterations", "1", "-n",
                            status=1)
-        self.assertEqual((entry["fit"]["end"], entry["fit"]["iterations"]),
+        self.assertEqual((entry["align"]["end"], entry["align"]["iterations"]),
                          ("out-of-iterations", 1))
 
     def test_fit_of_a_plane_on_a_plane_says_that_it_slides(self):
         self.mesh("flat.obj", grid(9))
-        run = self.run_tool("fit", "flat.obj", "--fixed", "flat.obj", "-n", status=0)
+        run = self.run_tool("align", "flat.obj", "--fixed", "flat.obj", "-n", status=0)
         self.assertIn("3 motions are free", run.text)
-        fit = self.entry("fit", "flat.obj", "--fixed", "flat.obj", "-n", status=0)["fit"]
-        self.assertEqual(fit["undetermined"], 3)
-        for free in fit["freedoms"][:3]:
+        found = self.entry("align", "flat.obj", "--fixed", "flat.obj", "-n", status=0)["align"]
+        self.assertEqual(found["undetermined"], 3)
+        for free in found["freedoms"][:3]:
             self.assertAlmostEqual(free["shift"][2], 0)
 
     def test_normals_turn_with_the_mesh(self):

@@ -52,7 +52,7 @@ class Scenes(PlaceTest):
         far = [(f"far{i}", box((10 + 2 * i, 0, 0), (11 + 2 * i, 1, 1))) for i in range(50)]
         floor = ("floor", box((0, 0, 0), (4, 4, 1)))
         self.scene("scene.obj", far[:20] + [floor] + far[20:])
-        entry = self.entry("clear", "in.obj", "--fixed", "scene.obj", "-o", "out.obj", status=0)
+        entry = self.entry("separate", "in.obj", "--fixed", "scene.obj", "-o", "out.obj", status=0)
         self.assertEqual((entry["travel"], entry["direction"]), (0.25, [0, 0, 1]))
         indexed = self.parts_of(entry)
         self.assertEqual([name for name in indexed if indexed[name]], ["floor"])
@@ -60,13 +60,14 @@ class Scenes(PlaceTest):
         # A lid is in the way up: out of both, which is through the side of the floor.
         lid = ("lid", box((-3, -3, 1.875), (7, 7, 9)))
         self.scene("lid.obj", [floor, lid] + far)
-        entry = self.entry("clear", "in.obj", "--fixed", "lid.obj", "-o", "out2.obj", status=0)
+        entry = self.entry("separate", "in.obj", "--fixed", "lid.obj", "-o", "out2.obj", status=0)
         indexed = self.parts_of(entry)
         self.assertEqual([name for name in indexed if indexed[name]], ["floor", "lid"])
         self.assertEqual((entry["travel"], entry["direction"]), (1.75, [0, 0, -1]))
         again = self.entry("measure", "out2.obj", "--fixed", "lid.obj", status=0)
         self.assertEqual(again["status"], "touching")
-        entry = self.entry("clear", "in.obj", "--fixed", "lid.obj", "--max-travel", "1", status=1)
+        entry = self.entry("separate", "in.obj", "--fixed", "lid.obj", "--max-travel", "1",
+                           status=1)
         for key in ("matrix", "travel", "output"):
             self.assertIsNone(entry[key])
 
@@ -79,7 +80,7 @@ class Scenes(PlaceTest):
             fixed += ["--fixed", self.mesh(f"{name}.obj", mesh)]
         for mode in (["drop"], ["slide", "-d", "-1,0,-1"], ["mate"], ["measure"],
                      ["slide", "-d", "0,0,-1", "--clearance", "0.25"],
-                     ["clear", "--clearance", "3"]):
+                     ["separate", "--clearance", "3"]):
             one = self.entry(*mode, "a.obj", "--fixed", "scene.obj")
             each = self.entry(*mode, "a.obj", *fixed)
             for key in ("placed", "status", "status_at_start", "travel", "matrix", "distance",

@@ -20,16 +20,16 @@ class Stops(PlaceTest):
         # Sheets through each other, which must be taken out far.
         self.mesh("sheet.obj", hills(100, 0.0, 0.0))
         self.mesh("through.obj", hills(100, 0.2, 1.0))
-        yield ["clear", "through.obj", "--fixed", "sheet.obj"]
+        yield ["separate", "through.obj", "--fixed", "sheet.obj"]
         # Turned so far that many steps are needed.
         points, faces = hills(200, 0.0, 0.0)
         self.mesh("fixed.obj", (points, faces))
         self.mesh("turned.obj", ([(0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, z + 40)
                                   for x, y, z in points], faces))
-        yield ["fit", "turned.obj", "--fixed", "fixed.obj", "--starts", "100000"]
+        yield ["align", "turned.obj", "--fixed", "fixed.obj", "--starts", "100000"]
         # More parts than the plate holds, so that all orders are tried.
         parts = [self.mesh(f"part{i}.obj", hills(20 + i % 7, 0.0, i)) for i in range(300)]
-        yield ["arrange", *parts, "--size", "230,230", "--rotate", "any"]
+        yield ["pack", *parts, "--size", "230,230", "--rotate", "any"]
 
     def test_a_time_limit_stops_inside_of_an_operation(self):
         for arguments in self.operations():

@@ -11,7 +11,8 @@ FILE = {"input": str, "error": NULL, "format": str, "sha256": str, "precision_in
         "distance": (*NUMBER, NULL), "surface_distance": (*NUMBER, NULL), "closest": (dict, NULL),
         "direction": (list, NULL), "travel": (*NUMBER, NULL), "backed_off": (int, NULL),
         "matrix": (list, NULL), "contacts": list, "contact_count": int, "sides": list,
-        "chosen": (int, NULL), "corrected": (*NUMBER, NULL), "tolerance": dict, "fit": (dict, NULL),
+        "chosen": (int, NULL), "corrected": (*NUMBER, NULL), "tolerance": dict,
+        "align": (dict, NULL),
         "center_of_mass": (dict, NULL), "turn": (dict, NULL), "features": (dict, NULL),
         "tries": (int, NULL), "plates": (int, NULL), "density": (*NUMBER, NULL),
         "fits": (bool, NULL), "parts": list, "not_placed": list, "rounding": (dict, NULL),
@@ -39,7 +40,7 @@ class Usage(PlaceTest):
         self.assertTrue(run.text.startswith("Usage: tf-place MODE [OPTIONS] MOVING..."))
         self.assertEqual([line for line in run.text.splitlines() if len(line) > 80], [])
         for word in ("Modes:", "Options:", "Output:", "Common options:", "Examples:",
-                     "Exit status:", "drop", "slide", "mate", "clear", "measure", "--fixed",
+                     "Exit status:", "drop", "slide", "mate", "separate", "measure", "--fixed",
                      "--bed", "--direction", "--clearance", "--max-travel", "--start", "--scene",
                      "--matrix"):
             self.assertIn(word, run.text)
@@ -52,19 +53,11 @@ class Usage(PlaceTest):
                         ["--bed", "low"], ["--clearance", "-1"], ["--max-travel", "x"]):
             self.refused("drop", "a.obj", "-o", "out.obj", *options)
 
-    def test_modes_have_the_names_of_the_library_too(self):
-        fixed = ("--fixed", "floor.obj")
-        for word, other, options in (("clear", "separate", fixed), ("fit", "align", fixed),
-                                     ("arrange", "pack", ("--size", "9,9"))):
-            self.run_tool(word, "a.obj", *options, "-o", "one.obj")
-            self.run_tool(other, "a.obj", *options, "-o", "two.obj")
-            self.assertEqual(self.points("one.obj"), self.points("two.obj"))
-
     def test_what_would_do_nothing_is_refused(self):
         fixed = ("--fixed", "floor.obj")
         self.assertIn("needs --fixed", self.refused("mate", "a.obj"))
         self.refused("mate", "a.obj", *fixed, "--bed", "0")
-        self.refused("clear", "a.obj", *fixed, "-d", "1,0,0")
+        self.refused("separate", "a.obj", *fixed, "-d", "1,0,0")
         self.refused("drop", "a.obj", "-d", "0,0,1")
         self.refused("drop", "a.obj", "--scene")
         self.refused("drop", "a.obj", "--precision", "float")
@@ -74,24 +67,24 @@ class Usage(PlaceTest):
         self.refused("drop", "a.obj", "--keep-spin")
         self.refused("lay", "a.obj", *fixed)
         self.refused("lay", "a.obj", "--largest-face", "--face-point", "0,0,0")
-        self.assertIn("needs --size", self.refused("arrange", "a.obj"))
-        self.refused("arrange", "a.obj", "--size", "9,9", *fixed)
-        self.refused("arrange", "a.obj", "--size", "9,-9")
+        self.assertIn("needs --size", self.refused("pack", "a.obj"))
+        self.refused("pack", "a.obj", "--size", "9,9", *fixed)
+        self.refused("pack", "a.obj", "--size", "9,-9")
         self.refused("drop", "a.obj", "--seed", "1")
         self.refused("drop", "a.obj", "--scale")
-        self.refused("fit", "a.obj", *fixed, "--overlap", "2")
+        self.refused("align", "a.obj", *fixed, "--overlap", "2")
         for bad in (("--overlap", "0.5", "--trim", "0.5"), ("--trim", "1"), ("--trim", "-1"),
                     ("--starts", "0"),
                     ("--scale=2",), ("--scale=3,2",), ("--scale=0,2",), ("--scale=1,2,3",),
                     ("--scale=1,x",),
-                    ("--iterations", "many"), ("--fit-tolerance", "-1"), ("--metric", "line"),
+                    ("--iterations", "many"), ("--align-tolerance", "-1"), ("--metric", "line"),
                     ("--weights", "some")):
-            self.refused("fit", "a.obj", *fixed, *bad)
+            self.refused("align", "a.obj", *fixed, *bad)
         for fits in (("--trim", "0.5"), ("--starts", "9"), ("--iterations", "9"),
-                     ("--fit-tolerance", "1e-3"),
+                     ("--align-tolerance", "1e-3"),
                      ("--metric", "point"), ("--weights", "equal")):
             self.refused("measure", "a.obj", *fixed, *fits)
-        self.refused("fit", "a.obj", *fixed, *fixed)
+        self.refused("align", "a.obj", *fixed, *fixed)
 
     def test_a_flag_takes_no_value(self):
         for flag in ("--in-place", "--quiet", "--help", "--version"):
@@ -120,7 +113,7 @@ class Usage(PlaceTest):
         down = self.entry("measure", "a.obj", "--fixed", "floor.obj", "--start", "down.json",
                           status=0)
         self.assertEqual((down["status"], down["distance"]), ("touching", 0))
-        self.run_tool("arrange", "a.obj", "floor.obj", "--size", "9,9", "-n", "-r", "plate.json",
+        self.run_tool("pack", "a.obj", "floor.obj", "--size", "9,9", "-n", "-r", "plate.json",
                       status=0)
         for name, text, said in (("plate.json", None, "has 2 matrices"),
                                  ("none.json", '{"files": [{"matrix": null}]}', "has 0 matrices"),
@@ -179,12 +172,12 @@ class Usage(PlaceTest):
         for arguments in (["drop", "a.obj"], ["lay", "a.obj"],
                           ["drop", "a.obj", *fixed, "-o", "out.stl"],
                           ["slide", "a.obj", *fixed, "-d", "1,0,0"],
-                          ["measure", "a.obj", *fixed], ["clear", "a.obj", *fixed],
+                          ["measure", "a.obj", *fixed], ["separate", "a.obj", *fixed],
                           ["mate", "a.obj", *fixed, "--clearance", "0.5"]):
             report = self.report(*arguments)
             self.assertEqual(report["schema"], "tf-place-report/1")
             self.assertEqual(sorted(report["seconds"]),
-                             ["prepare", "read", "search", "settle", "write"])
+                             ["prepare", "read", "search", "round", "write"])
             entry = report["files"][0]
             self.assertEqual(sorted(entry), sorted(FILE))
             for key, kind in FILE.items():
@@ -229,7 +222,7 @@ class Usage(PlaceTest):
         reports = {}
         for seed in (0, 7):  # not all fit, so that orders by chance are tried
             for threads in (1, 2, 8, 2):
-                report = self.report("arrange", *names, "--size", "7,9", "--spacing", "0.3",
+                report = self.report("pack", *names, "--size", "7,9", "--spacing", "0.3",
                                      "--seed", seed, "-j", threads, "-o", "out.obj", "-f",
                                      status=1)
                 self.assertGreater(len(report["files"][0]["not_placed"]), 0)

@@ -278,7 +278,7 @@ class Reports(PlaceTest):
                 (["slide", "part.obj", *fixed, "--max-travel", "1%", "-n"], 1),
                 (["slide", "in.obj", *fixed, "-n"], 1),
                 (["mate", "fine.stl", "--fixed", "post.obj", "-o", "far.stl"], 0),
-                (["clear", "in.obj", *fixed, "-o", "cleared.obj"], 0),
+                (["separate", "in.obj", *fixed, "-o", "cleared.obj"], 0),
                 (["measure", "part.obj", *fixed], 0),
                 (["measure", "in.obj", *fixed, "-o", "in.ply"], 0),
                 (["measure", "cloud.xyz", "--fixed", "cloud.xyz"], 0),
@@ -291,9 +291,9 @@ class Reports(PlaceTest):
                 (["turn", "part.obj", *fixed, "--axis", "1,0,0", "--origin", "0,0,3", "-n"], 0),
                 (["mate", "part.obj", *fixed, "--feature", "plane", "-n"], 0),
                 (["mate", "tube.obj", "--fixed", "tube.obj", "--feature", "axis", "-n"], 0),
-                (["fit", "part.obj", *fixed, "-n"], (0, 1)),
-                (["arrange", "part.obj", "nan.obj", "--size", "9,9", "-o", "plate.stl"], 0),
-                (["arrange", "part.obj", "floor.obj", "--size", "4,3", "-n"], 1)]:
+                (["align", "part.obj", *fixed, "-n"], (0, 1)),
+                (["pack", "part.obj", "nan.obj", "--size", "9,9", "-o", "plate.stl"], 0),
+                (["pack", "part.obj", "floor.obj", "--size", "4,3", "-n"], 1)]:
             yield arguments, status
 
     def assemblies(self):

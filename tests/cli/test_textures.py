@@ -98,7 +98,7 @@ class TextureTest(BooleanTest):
         """How each tool makes one file of a.ply and b.ply."""
         return {"boolean": (BOOLEAN, "union", "a.ply", "b.ply", "-o"),
                 "weld": (WELD, "a.ply", "b.ply", "--join", "-o"),
-                "plate": (PLACE, "arrange", "a.ply", "b.ply", "--size", "40,40", "-o"),
+                "plate": (PLACE, "pack", "a.ply", "b.ply", "--size", "40,40", "-o"),
                 "scene": (PLACE, "measure", "a.ply", "--fixed", "b.ply", "--scene", "-o")}
 
 
@@ -112,7 +112,7 @@ class One(TextureTest):
         self.put("in/x.ply", textured_ply(crossing, names, lambda i: names[i // 12]))
         runs = [(BOOLEAN, "union", "in/a.ply"), (WELD, "in/a.ply"), (TOOL, "in/a.ply"),
                 (TOOL, "--repair", "in/x.ply"), (TOOL, "--repair=split", "in/x.ply"),
-                (PLACE, "lay", "in/a.ply"), (PLACE, "arrange", "in/a.ply", "--size", "9,9")]
+                (PLACE, "lay", "in/a.ply"), (PLACE, "pack", "in/a.ply", "--size", "9,9")]
         for tool, *arguments in runs:
             with self.subTest(arguments=arguments):
                 self.assertEqual(self.run_as(tool, *arguments, "-o", "out/o.ply"), [])
@@ -128,7 +128,7 @@ class One(TextureTest):
         self.put("a.ply", textured_ply(self.LOW, ["a.png"], lambda i: "nothing",
                                        face_column=lambda i: 7 - 2 * i))
         for tool, *arguments in ((BOOLEAN, "union"), (WELD,), (PLACE, "lay"), (TOOL,),
-                                 (PLACE, "arrange", "--size", "9,9")):
+                                 (PLACE, "pack", "--size", "9,9")):
             with self.subTest(tool=tool):
                 self.assertEqual(self.run_as(tool, *arguments, "a.ply", "-o", "out.ply"), [])
                 self.assertEqual([n for _, _, n in self.check("out.ply")[0].faces],
@@ -277,7 +277,7 @@ class Materials(TextureTest):
             library = "mtllib %s.mtl\nusemtl Material\n" % name.replace("c", "a")
             self.put(name + ".obj", library + obj_bytes(mesh).decode())
         runs = [(BOOLEAN, "union", "a.obj", "b.obj"), (WELD, "a.obj", "b.obj", "--join"),
-                (PLACE, "arrange", "a.obj", "b.obj", "--size", "40,40"),
+                (PLACE, "pack", "a.obj", "b.obj", "--size", "40,40"),
                 (PLACE, "measure", "a.obj", "--fixed", "b.obj", "--scene")]
         for tool, *arguments in runs:
             with self.subTest(arguments=arguments):

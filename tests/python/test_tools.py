@@ -37,8 +37,8 @@ PLACES = [
     ("mate", "ball", "cube", "", tf.mate),
     ("mate", "ball", "cube", "--clearance 0.1", lambda a, b: tf.mate(a, b, clearance=0.1)),
     ("lay", "turned", None, "-t 0", lambda a, b: tf.lay_flat(a)),
-    ("clear", "inside", "cube", "", tf.separate),
-    ("clear", "inside", "near", "--clearance 0.2", lambda a, b: tf.separate(a, b, 0.2)),
+    ("separate", "inside", "cube", "", tf.separate),
+    ("separate", "inside", "near", "--clearance 0.2", lambda a, b: tf.separate(a, b, 0.2)),
     ("turn", "side", "cube", "--axis 0,0,1 --origin 2,0,0",
      lambda a, b: tf.turn(a, b, [0, 0, 1], [2, 0, 0])),
     ("turn", "side", "cube", "--axis 0,1,1 --origin 2,-1,0 --clearance 0.1",
@@ -46,8 +46,8 @@ PLACES = [
     ("mate", "side", "cube", "--feature plane", by_largest_planes),
     ("mate", "side", "cube", "--feature plane --clearance 0.25 --flip",
      lambda a, b: by_largest_planes(a, b, clearance=0.25, flip=True)),
-    ("fit", "near", "cube", "", tf.align),
-    ("fit", "turned", "near", "--scale --overlap 0.9 --starts 4 --metric point --weights welsch",
+    ("align", "near", "cube", "", tf.align),
+    ("align", "turned", "near", "--scale --overlap 0.9 --starts 4 --metric point --weights welsch",
      lambda a, b: tf.align(a, b, scale=True, overlap=0.9, starts=4, method="point_to_point",
                            robust=True)),
 ]
@@ -62,11 +62,11 @@ def test_places_are_those_of_the_tool(folder, mode, moving, fixed, options, verb
     tf.write(folder / "own.off", made.mesh)
     assert (folder / "tool.off").read_bytes() == (folder / "own.off").read_bytes()
     assert made.matrix.tolist() == report["matrix"]
-    if mode == "fit":
-        fit = report["fit"]
+    if mode == "align":
+        found = report["align"]
         assert (made.rms, made.overlap, made.iterations, made.start, made.scale, made.inliers) == (
-            fit["rms"], fit["overlap"], fit["iterations"], fit["start"], fit["scale"],
-            fit["inliers"])
+            found["rms"], found["overlap"], found["iterations"], found["start"], found["scale"],
+            found["inliers"])
     elif mode != "lay":
         assert made.at_place.replace("_", "-") == report["status"]
         assert made.contact_count == report["contact_count"]
@@ -111,8 +111,8 @@ def test_measures_are_those_of_the_tool(folder, moving, fixed):
     for name in ("mean", "mean_absolute", "rms", "p50", "p95", "p99", "max", "lowest", "highest"):
         assert getattr(own, name) == theirs[name], name
     hausdorff, band = theirs["hausdorff"], theirs["tolerance_band"]
-    assert hausdorff == {"there": {"sampled": own.max, "at_most": own.max_bound},
-                         "back": {"sampled": own.back_max, "at_most": own.back_max_bound}}
+    assert hausdorff == {"forward": {"sampled": own.max, "bound": own.max_bound},
+                         "backward": {"sampled": own.back_max, "bound": own.back_max_bound}}
     assert own.band_counts == (band["below"], band["within"], band["above"])
     assert own.histogram.tolist() == theirs["histogram"]["counts"]
     written = tf.read(folder / "distances.ply").attributes.vertex

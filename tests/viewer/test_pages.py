@@ -41,7 +41,7 @@ PAGES = {
     "touch": (PLACE, ["slide", "{high}", "--fixed", CUBE, "-n"]),
     "measure": (PLACE, ["measure", "{high}", "--fixed", CUBE]),
     "band": (PLACE, ["measure", SPHERE, "--fixed", CUBE, "--tolerance-band=-0.1,0.2"]),
-    "arrange": (PLACE, ["arrange", "{high}", CUBE, "--count", CUBE + ":6", "--size", "5,5",
+    "pack": (PLACE, ["pack", "{high}", CUBE, "--count", CUBE + ":6", "--size", "5,5",
                         "--spacing",
                         "0.2", "-n"]),
     "clash": (PLACE, ["clash", SPHERES, CUBE, "{high}", "--clearance", "3.9"]),
@@ -411,7 +411,7 @@ class Numbers(PageTest):
                         self.run_js(tags))
         distance = self.show("measure")["files"][0]["distance"]
         self.assertTrue(any(abs(float(t) - distance) < 1e-5 for t in self.run_js(tags)))
-        self.show("arrange")
+        self.show("pack")
         self.assertLessEqual({"high", "plate 0"}, set(self.run_js(tags)))
         self.run_js("document.querySelector('[data-labels]').click()")
         self.browser.settle()
@@ -670,7 +670,7 @@ class Framing(PageTest):
         self.assertGreater(near, 10 * self.run_js("drawn(null)")["opaque"])
 
     def test_a_whole_model_fills_the_view(self):
-        for name in ("selfintersect", "weld", "arrange"):
+        for name in ("selfintersect", "weld", "pack"):
             self.show(name)
             rows = self.run_js("""(() => {
                 viewer.draw();

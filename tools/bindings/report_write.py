@@ -46,11 +46,11 @@ OBJECTS = [
     Object("effort_entry", "search_effort", "", ("depth.effort", "effort", "pairs[].effort")),
     Object("deviations_entry", "deviation_result",
            "mean mean_absolute rms p50 p95 p99 max lowest highest", ("deviation",)),
-    Object("freedom_entry", "align_freedom", "", ("fit.freedoms[]",)),
+    Object("freedom_entry", "align_freedom", "", ("align.freedoms[]",)),
     Object("fit_entry", "align_result",
            "rms rms_at_start overlap inliers correlation uncertainty scale converged end "
            "iterations "
-           "start pivot pivot_moved freedoms", ("fit",)),
+           "start pivot pivot_moved freedoms", ("align",)),
 ]
 
 KINDS = {"double": "number", "bool": "bool", "uint64_t": "count", "uint32_t": "count",

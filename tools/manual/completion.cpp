@@ -215,8 +215,7 @@ std::string zsh_completion(const command_text& command) {
     if (!modes.empty()) {
         std::string list;
         for (const mode_text& mode : command.modes)
-            for (const std::string& name : words_of(mode.names))
-                list += name + "\\:\"" + replaced(summary(mode.text), "\"", "") + "\" ";
+            list += mode.name + "\\:\"" + replaced(summary(mode.text), "\"", "") + "\" ";
         text += " \\\n        " + quoted("1:mode:((" + list + "))", "'\\''");
     }
     text +=
@@ -262,9 +261,8 @@ std::string fish_completion(const command_text& command) {
     const std::string before =
         "'not __fish_seen_subcommand_from " + joined(mode_names(command), " ") + "'";
     for (const mode_text& mode : command.modes)
-        for (const std::string& name : words_of(mode.names))
-            text += start + " -f -n " + before + " -a " + name + " -d " +
-                    quoted(summary(mode.text), "\\'") + "\n";
+        text += start + " -f -n " + before + " -a " + mode.name + " -d " +
+                quoted(summary(mode.text), "\\'") + "\n";
     for (const offered_option& one : options_of(command))
         text += fish_option(command.name, mode_names(command), one);
     text += start + " -k";

@@ -78,13 +78,13 @@ std::string said_to(const mode_text& mode, const std::string& text,
         const std::string of = clause.starts_with("of ") ? clause.substr(3) : clause;
         const std::size_t end = std::min(of.find_first_of(", "), of.size());
         const bool of_some = later && std::ranges::any_of(modes, [&](const mode_text& one) {
-                                 return is_named(one, of.substr(0, end));
+                                 return one.name == of.substr(0, end);
                              });
         if (later && std::ranges::any_of(mode.without, [&](const std::string& option) {
                 return clause.find(option + ' ') != std::string::npos;
             }))
             continue;
-        const bool own = of_some && is_named(mode, of.substr(0, end));
+        const bool own = of_some && mode.name == of.substr(0, end);
         if (of_some && !own) continue;
         if (own && of.size() < clause.size())
             out = of.substr(end + 2);
@@ -140,8 +140,8 @@ std::vector<std::pair<std::string, std::string>> sections_of(std::string_view he
     return all;
 }
 
-mode_text mode_of(std::string names, std::string_view section) {
-    mode_text made{.names = std::move(names), .text = taken(section, "\nusage ")};
+mode_text mode_of(std::string name, std::string_view section) {
+    mode_text made{.name = std::move(name), .text = taken(section, "\nusage ")};
     made.usage = taken(section, "\n");
     if (section.starts_with("without ")) {
         std::string_view options = section.substr(0, section.find('\n'));
@@ -165,16 +165,12 @@ std::vector<std::string> words_of(std::string_view list) {
     return words;
 }
 
-bool is_named(const mode_text& mode, std::string_view word) {
-    return std::ranges::count(words_of(mode.names), word) > 0;
-}
-
 std::string_view modes_of(const option_text& option, const std::vector<mode_text>& modes) {
     const std::string_view text = option.text;
     const std::size_t colon = text.find(": ");
     if (colon == std::string_view::npos) return {};
     const bool all_modes = std::ranges::all_of(words_of(text.substr(0, colon)), [&](auto& word) {
-        return std::ranges::any_of(modes, [&](auto& mode) { return is_named(mode, word); });
+        return std::ranges::any_of(modes, [&](auto& mode) { return mode.name == word; });
     });
     return all_modes ? text.substr(0, colon) : std::string_view();
 }
@@ -182,15 +178,13 @@ std::string_view modes_of(const option_text& option, const std::vector<mode_text
 std::vector<option_group> groups_for(const mode_text& mode, const std::vector<option_group>& groups,
                                      const std::vector<mode_text>& modes) {
     const auto is_mode = [&](const option_text& option) {
-        return std::ranges::any_of(modes, [&](auto& one) { return one.names == option.names; });
+        return std::ranges::any_of(modes, [&](auto& one) { return one.name == option.names; });
     };
     const auto left_out = [&](const option_text& option) {
         const std::string_view only = modes_of(option, modes);
         const auto names = words_of(option.names);
         return is_mode(option) ||
-               (!only.empty() &&
-                std::ranges::none_of(words_of(only),
-                                     [&](auto& word) { return is_named(mode, word); })) ||
+               (!only.empty() && std::ranges::count(words_of(only), mode.name) == 0) ||
                std::ranges::count(mode.without, names.back()) > 0;
     };
     std::vector<option_group> kept;
@@ -212,7 +206,7 @@ std::string lay_out(const option_group& group) {
 std::string help_of(const command_text& c, std::string_view word) {
     for (const auto& [names, own] : c.own)
         if (std::ranges::count(words_of(names), word) > 0) return help_of(*own);
-    const auto at = std::ranges::find_if(c.modes, [&](auto& mode) { return is_named(mode, word); });
+    const auto at = std::ranges::find_if(c.modes, [&](auto& mode) { return mode.name == word; });
     if (at == c.modes.end()) return page(c, c.usage, c.purpose, c.groups) + c.epilogue;
     std::string purpose = wrapped(at->text + ".", width);
     purpose[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(purpose[0])));

@@ -30,7 +30,7 @@ struct option_group {
 
 /// A word ahead of the inputs that says what to do.
 struct mode_text {
-    std::string names{};                 ///< "arrange, pack": the others mean the first
+    std::string name{};
     std::string text{};                  ///< in the list of modes; may have several lines
     std::string usage{};                 ///< "slide --fixed FILE [OPTIONS] MOVING..."
     std::string more{};                  ///< of its help alone: what it prints, an example
@@ -61,13 +61,10 @@ extern const std::string_view help_text;
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> sections_of(std::string_view help);
 
 /// The mode of a section.
-[[nodiscard]] mode_text mode_of(std::string names, std::string_view section);
+[[nodiscard]] mode_text mode_of(std::string name, std::string_view section);
 
-/// "arrange", "pack" of "arrange, pack".
+/// "drop", "lay" of "drop, lay".
 [[nodiscard]] std::vector<std::string> words_of(std::string_view list);
-
-/// Whether `word` is one of its names.
-[[nodiscard]] bool is_named(const mode_text& mode, std::string_view word);
 
 /// The modes that the option's text begins with, "slide, drop"; empty where it is for all.
 [[nodiscard]] std::string_view modes_of(const option_text& option,

@@ -97,7 +97,7 @@ std::string entry(const option_text& option) {
 
 bool is_of_modes(const option_group& group, const command_text& command) {
     return !group.options.empty() && !command.modes.empty() &&
-           group.options.front().names == command.modes.front().names;
+           group.options.front().names == command.modes.front().name;
 }
 
 std::string options(const command_text& command) {
@@ -114,7 +114,7 @@ std::string options(const command_text& command) {
 std::string modes(const command_text& command) {
     std::string out;
     for (const mode_text& mode : command.modes) {
-        out += ".SS " + escaped(mode.names) + "\n";
+        out += ".SS " + escaped(mode.name) + "\n";
         if (mode.usage.empty()) {  // a command line of its own, below
             out += filled(mode.text.substr(0, mode.text.find(": ")) + ": see below");
             continue;

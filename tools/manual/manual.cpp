@@ -19,7 +19,7 @@ void add_options(const command_text& command, const std::vector<std::string>& ow
             for (const mode_text& mode : command.modes) {
                 const auto kept = groups_for(mode, {{.options = {text}}}, command.modes);
                 if (kept.empty() || mode.usage.empty()) continue;  // or not of this line
-                for (std::string& name : words_of(mode.names)) one.modes.push_back(std::move(name));
+                one.modes.push_back(mode.name);
             }
             one.without_mode = own.empty() && one.modes.empty() && !mode_names(command).empty();
             const auto prefix = modes_of(text, command.modes);
@@ -39,8 +39,7 @@ std::vector<offered_option> options_of(const command_text& command) {
 
 std::vector<std::string> mode_names(const command_text& command) {
     std::vector<std::string> names;
-    for (const mode_text& mode : command.modes)
-        for (std::string& name : words_of(mode.names)) names.push_back(std::move(name));
+    for (const mode_text& mode : command.modes) names.push_back(mode.name);
     return names;
 }
 

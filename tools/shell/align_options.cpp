@@ -45,45 +45,45 @@ void add_align_options(command_line& line, tf::align_options& options) {
         o.overlap = share;
     };
     line.option({"--overlap", "F",
-                 "fit: share of MOVING that has a partner; each step\n"
+                 "align: share of MOVING that has a partner; each step\n"
                  "ignores the rest, which is furthest away",
                  "1"},
                 [overlap](std::string_view text) {
                     overlap("--overlap", text, parse_number("--overlap", text));
                 });
-    line.option({"--trim", "F", "fit: share to ignore: 1 - overlap", "0"},
+    line.option({"--trim", "F", "align: share to ignore: 1 - overlap", "0"},
                 [overlap](std::string_view text) {
                     overlap("--trim", text, 1.0 - parse_share("--trim", text));
                 });
     line.option(o.robust,
                 {"--weights", "W",
-                 "fit: welsch: distant pairs have less weight, so up to\n"
+                 "align: welsch: distant pairs have less weight, so up to\n"
                  "half of MOVING may lack a partner | equal",
                  "welsch"},
                 weights);
     line.option(o.method,
                 {"--metric", "M",
-                 "fit: distances to a plane | point | planes, of both\n"
+                 "align: distances to a plane | point | planes, of both\n"
                  "clouds | auto: planes for a fixed cloud, else plane",
                  "auto"},
                 metrics);
     line.option({"--starts", "N",
-                 "fit: try N starts: the present position, the\n"
+                 "align: try N starts: the present position, the\n"
                  "principal axes (4), then rotations in all directions",
                  "1"},
                 [&o](std::string_view text) { o.starts = parse_number_of("--starts", text, 1); });
-    line.option({"--iterations", "N", "fit: most iterations from each start", "100"},
+    line.option({"--iterations", "N", "align: most iterations from each start", "100"},
                 [&o](std::string_view text) {
                     o.max_iterations = parse_number_of("--iterations", text, 0);
                 });
     line.option(
-        {"--fit-tolerance", "F",
-         "fit: converged if 5 steps in a row lower the cost by\n"
+        {"--align-tolerance", "F",
+         "align: converged if 5 steps in a row lower the cost by\n"
          "less than this share of it",
          "1e-6"},
-        [&o](std::string_view text) { o.tolerance = parse_share("--fit-tolerance", text); });
+        [&o](std::string_view text) { o.tolerance = parse_share("--align-tolerance", text); });
     line.flag_with_value({.names = "--scale",
-                          .text = "fit: allow uniform scale, from MIN to MAX if given",
+                          .text = "align: allow uniform scale, from MIN to MAX if given",
                           .label = "--scale[=MIN,MAX]"},
                          [&o](std::optional<std::string_view> text) {
                              o.scale = true;
@@ -92,9 +92,9 @@ void add_align_options(command_line& line, tf::align_options& options) {
 }
 
 std::span<const char* const> align_option_names() {
-    static constexpr std::array<const char*, 8> names{"--overlap",       "--trim",   "--weights",
-                                                      "--metric",        "--starts", "--iterations",
-                                                      "--fit-tolerance", "--scale"};
+    static constexpr std::array<const char*, 8> names{
+        "--overlap", "--trim",       "--weights",         "--metric",
+        "--starts",  "--iterations", "--align-tolerance", "--scale"};
     return names;
 }
 

@@ -44,12 +44,12 @@ void command_line::mention(option_text text) {
 }
 
 void command_line::mode(mode_text text) {
-    mention({.names = text.names, .text = text.text});
+    mention({.names = text.name, .text = text.text});
     text_.modes.push_back(std::move(text));
 }
 
 void command_line::mode(mode_text text, const command_line& own) {
-    text_.own.emplace_back(text.names, &own.text_);
+    text_.own.emplace_back(text.name, &own.text_);
     mode(std::move(text));
 }
 
@@ -62,8 +62,7 @@ void command_line::describe(std::string_view help) {
 }
 
 void command_line::refuse_others(const std::string& mode) const {
-    const auto at =
-        std::ranges::find_if(text_.modes, [&](auto& one) { return is_named(one, mode); });
+    const auto at = std::ranges::find_if(text_.modes, [&](auto& one) { return one.name == mode; });
     std::vector<std::string> mine;
     for (const option_group& group : groups_for(*at, text_.groups, text_.modes))
         for (const option_text& one : group.options) mine.push_back(one.names);
@@ -229,8 +228,7 @@ command_line::outcome command_line::parse(int argc, const char* const* argv) {
         parser_->app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
         const auto is_mode = [&](std::string_view word) {
-            return std::ranges::any_of(text_.modes,
-                                       [&](auto& mode) { return is_named(mode, word); });
+            return std::ranges::any_of(text_.modes, [&](auto& mode) { return mode.name == word; });
         };
         const char* const* const at = std::find_if(argv + 1, argv + argc, is_mode);
         std::fputs(help_of(text_, at == argv + argc ? "" : *at).c_str(), stdout);

@@ -93,7 +93,7 @@ void add_options(command_line& line, cut_settings& s) {
                        "half, pieces: cut the mesh as a surface, without caps;\n"
                        "it may be open"});
     line.option(s.walls,
-                {"--walls", "HOW",
+                {"--measure-walls", "HOW",
                  "info: how to find the thinnest wall of a solid: ray,\n"
                  "from the middle of each face inward; sphere, the\n"
                  "largest ball there (much slower); or none",

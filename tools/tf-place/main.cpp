@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
                      {"contacts", "/contact_count"}};
     line.word("MODE", [&](std::string_view text) {
         s.mode_text = text;
-        options.joined = text == "arrange" || text == "pack";  // they go to one plate
+        options.joined = text == "pack";  // they go to one plate
     });
     line.inputs(options.inputs,
                 "meshes: STL OBJ PLY OFF GLB/glTF 3MF; points: PLY\n"
@@ -47,11 +47,11 @@ int main(int argc, char** argv) {
     tools::add_common_options(
         line, options, {.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf", "xyz"}});
     return tools::run(
-        line, options, {"read", "prepare", "search", "settle", "write"}, argc, argv,
+        line, options, {"read", "prepare", "search", "round", "write"}, argc, argv,
         [&] { tools::check_settings(line, s, options); },
         [&](tools::job& work) {
             tools::enter_blank_report(work, s);
             tools::check_outputs(work, {s.matrix}, {s.deviation.distances});
-            return options.joined ? tools::arrange_all(work, s) : tools::place_one(work, s, fixed);
+            return options.joined ? tools::pack_all(work, s) : tools::place_one(work, s, fixed);
         });
 }

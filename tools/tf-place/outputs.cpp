@@ -15,7 +15,7 @@ namespace {
 /// What points lose at their places.
 tf::rounding_effects rounding_of(job& work, const tf::body_set& moving,
                                  const std::vector<placed_body>& placed, tf::precision precision) {
-    const auto timing = work.time("settle");
+    const auto timing = work.time("round");
     tf::rounding_effects sum;
     for (const placed_body& at : placed) {
         const bool was_single = is_single(moving.file_of(at.number).content);
@@ -36,7 +36,7 @@ void write_result(job& work, const place_settings& settings, tf::body_set& movin
     if (!path || placed.empty()) return;
     const tf::precision precision = met.certificate.precision;
     const bool picture = settings.mode == place_mode::measure;
-    const bool scene = settings.scene || settings.mode == place_mode::arrange;
+    const bool scene = settings.scene || settings.mode == place_mode::pack;
     tf::rounding_effects lost;
     if (!picture) {
         lost = rounding_of(work, moving, placed, precision);
@@ -61,8 +61,8 @@ void write_result(job& work, const place_settings& settings, tf::body_set& movin
     tf::mesh_file file = scene ? tf::scene_of(files, names, labels) : *files[0];
     if (scene) work.warn(file.warnings);
     if (scene && form.format == "obj") warn_of_ambiguous_materials(work, files);
-    // `fit` looks at no faces, and without fixed meshes there is nothing to meet.
-    if (!fixed.files.empty() && settings.mode != place_mode::fit &&
+    // `align` looks at no faces, and without fixed meshes there is nothing to meet.
+    if (!fixed.files.empty() && settings.mode != place_mode::align &&
         (form.format == "ply" || form.format == "glb")) {
         const auto of_bodies = met.face_relations(moving.shapes[0], fixed.shapes);
         auto relations = moving.relations_in_files(std::span(of_bodies).first(1), !scene);

@@ -185,7 +185,7 @@ void add_contacts(scene& shown, const placing& p) {
 /// The map of distances, and the value of each point.
 std::vector<double> add_map(scene& shown, const placing& p, const tf::deviation_result& r) {
     std::vector<double> values = r.distances;
-    if (p.settings.mode == place_mode::measure || p.settings.mode == place_mode::fit) {
+    if (p.settings.mode == place_mode::measure || p.settings.mode == place_mode::align) {
         add_deviation(shown, p, r);
         return values;
     }
@@ -196,7 +196,7 @@ std::vector<double> add_map(scene& shown, const placing& p, const tf::deviation_
 
 /// How faces lie; where there is no place, where they are.
 std::vector<std::vector<tf::mesh_relation>> face_relations(const placing& p) {
-    if (p.fixed.shapes.empty() || p.settings.mode == place_mode::fit) return {};
+    if (p.fixed.shapes.empty() || p.settings.mode == place_mode::align) return {};
     const tf::prepared_mesh& shape = p.moving.shapes[0];
     const double clearance = p.used(p.settings.clearance);
     const tf::placement at =
@@ -306,7 +306,7 @@ void write_page(job& work, const place_settings& settings, const tf::body_set& p
     if (!work.options.shows()) return;
     const auto timing = work.time("write");
     scene shown = scene_of(work, "tf-place");
-    shown.title = work.name + ": arrange";
+    shown.title = work.name + ": pack";
     shown.y_is_up = false;  // the plates lie flat
     shown.verdict = found.message();
     shown.good = found.not_placed.empty();
@@ -322,7 +322,7 @@ void write_page(job& work, const place_settings& settings, const tf::body_set& p
     shown.classes.push_back({"without a place", "#7d8590", {}, true});
     shown.classes.push_back({"plates", "#10131a"});
     add_parts(shown, parts, found, labels, no_place);
-    add_plates(shown, pack_options_of(settings.arrange), found, plate);
+    add_plates(shown, pack_options_of(settings.pack), found, plate);
     shown.place_word = "part";
     write_page(work, std::move(shown));
 }

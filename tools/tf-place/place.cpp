@@ -49,7 +49,7 @@ void read_fixed(job& work, const place_settings& settings, bool as_single, fixed
         const auto timing = work.time("prepare");
         // Alignment is to all of a file, which may be a cloud.
         const auto add =
-            settings.mode == place_mode::fit ? &tf::body_set::add : &tf::body_set::add_parts;
+            settings.mode == place_mode::align ? &tf::body_set::add : &tf::body_set::add_parts;
         const tf::body_file& added =
             checked(work, (fixed.bodies.*add)(std::move(file), label, stem_of(path)));
         about.update({{"faces", added.content.stored_faces}, {"box", added.box}});
@@ -92,8 +92,8 @@ tf::placement lay(placing& p, const tf::progress_callback& progress) {
     return {.certificate = {.status = tf::status::no_place}};
 }
 
-tf::placement fit(placing& p, const tf::progress_callback& progress) {
-    tf::align_options options = p.settings.fit;
+tf::placement align(placing& p, const tf::progress_callback& progress) {
+    tf::align_options options = p.settings.align;
     if (p.settings.max_distance) options.max_distance = p.used(*p.settings.max_distance);
     options.precision = p.precision;
     options.progress = progress;
@@ -134,8 +134,8 @@ tf::placement search(placing& p, const tf::progress_callback& progress) {
     switch (s.mode) {
         case place_mode::lay:
             return lay(p, progress);
-        case place_mode::fit:
-            return fit(p, progress);
+        case place_mode::align:
+            return align(p, progress);
         case place_mode::drop:
             if (s.has_bed()) options.bed = bed_of(s, p.precision, clearance);
             return tf::drop(mesh, fixed, options, direction);
@@ -146,7 +146,7 @@ tf::placement search(placing& p, const tf::progress_callback& progress) {
         case place_mode::mate:
             if (s.feature.kind) return mate(p, clearance, progress);
             return tf::mate(mesh, fixed, options);
-        case place_mode::clear:
+        case place_mode::separate:
             return tf::separate(mesh, fixed, options);
         default:
             return tf::measure_among(mesh, fixed, {.clearance = clearance, .progress = progress});
@@ -155,7 +155,7 @@ tf::placement search(placing& p, const tf::progress_callback& progress) {
 
 /// What else may be done.
 std::string remedy_for(const tf::placement& at) {
-    if (at.end == tf::placement_end::starts_penetrating) return "; clear would take it out";
+    if (at.end == tf::placement_end::starts_penetrating) return "; separate would take it out";
     if (at.end == tf::placement_end::starts_below_bed)
         return "; with --fixed, drop only goes down: drop it without --fixed first";
     if (at.end == tf::placement_end::not_representable &&
@@ -196,14 +196,14 @@ void warn_of_inside_out(job& work, const placing& p) {
 tf::body_set read_all(job& work, const place_settings& settings, const tf::transform<3>& start) {
     tf::body_set parts;
     std::uint64_t non_finite = 0;
-    const auto counts = counts_of(settings.arrange, work.options.inputs);
+    const auto counts = counts_of(settings.pack, work.options.inputs);
     for (std::size_t i = 0; i < counts.size(); ++i) {
         const std::string& path = work.options.inputs[i];
         json about{{"input", path}};
         tf::mesh_file file = work.read(path, about);
         work.warn(file.warnings, name_of_input(path) + ": ");
         const tf::body_file& added = add_moving(work, path, std::move(file), start, parts);
-        if (added.cloud) refuse(added.label + ": is a cloud of points; arrange takes meshes only");
+        if (added.cloud) refuse(added.label + ": is a cloud of points; pack takes meshes only");
         about["faces"] = added.content.stored_faces;
         non_finite += added.non_finite;
         for (std::uint64_t copy = 0; copy < counts[i]; ++copy) {
@@ -216,7 +216,7 @@ tf::body_set read_all(job& work, const place_settings& settings, const tf::trans
 }
 
 tf::packing find_places(job& work, const tf::body_set& parts, const place_settings& settings) {
-    tf::pack_options options = pack_options_of(settings.arrange);
+    tf::pack_options options = pack_options_of(settings.pack);
     options.precision = precision_of(work, parts);
     options.corner.z = bed_of(settings, options.precision);
     options.progress = work.progress("search");
@@ -255,7 +255,7 @@ exit_status place_one(job& work, const place_settings& settings, fixed_meshes& f
     read_fixed(work, settings, settings.scene && p.precision == tf::precision::float32, fixed);
     enter_inputs(work.entry, file, fixed);
     find_place(work, p);
-    if (settings.mode != place_mode::fit) warn_of_inside_out(work, p);
+    if (settings.mode != place_mode::align) warn_of_inside_out(work, p);
     p.matrix = p.at.matrix.after(start);
     enter_place(work.entry, p);
     say_place(work, p);
@@ -275,7 +275,7 @@ exit_status place_one(job& work, const place_settings& settings, fixed_meshes& f
     return status;
 }
 
-exit_status arrange_all(job& work, const place_settings& settings) {
+exit_status pack_all(job& work, const place_settings& settings) {
     const tf::transform<3> start = read_matrix(settings.start);
     tf::body_set parts = read_all(work, settings, start);
     const tf::packing plate = find_places(work, parts, settings);

@@ -7,9 +7,9 @@
 #include "tools/shell/parse_value.hpp"
 #include "tools/shell/run.hpp"
 #include "tools/tf-place/assembly/measured.hpp"
-#include "tools/tf-place/placing/arrange_options.hpp"
 #include "tools/tf-place/placing/lay_options.hpp"
 #include "tools/tf-place/placing/motion_options.hpp"
+#include "tools/tf-place/placing/pack_options.hpp"
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/deviation.hpp>
 #include <treeform/mesh/pack.hpp>
@@ -24,7 +24,7 @@
 
 namespace tools {
 
-enum class place_mode { drop, lay, slide, mate, clear, measure, arrange, fit, turn };
+enum class place_mode { drop, lay, slide, mate, separate, measure, pack, align, turn };
 
 struct place_settings {
     std::string mode_text{};
@@ -38,9 +38,9 @@ struct place_settings {
     std::filesystem::path matrix{};
     bool scene = false;
     deviation_settings deviation{};
-    tf::align_options fit{};
+    tf::align_options align{};
     std::optional<distance> max_distance{};
-    arrange_settings arrange{};
+    pack_settings pack{};
     lay_settings lay{};
     turn_settings turn{};
     feature_settings feature{};
@@ -55,8 +55,7 @@ struct place_settings {
 /// The options in their groups, except for those that all tools share.
 void add_options(command_line& line, place_settings& settings, common_options& options);
 
-/// Takes "pack", "align" and "separate" for arrange, fit and clear, and refuses options that would
-/// do nothing rather than pass them over. \throws failure (bad_usage)
+/// Refuses options that would do nothing rather than pass them over. \throws failure (bad_usage)
 void check_settings(const command_line& line, place_settings& settings, common_options& options);
 
 /// The fixed meshes, read once for all MOVING.
@@ -77,7 +76,7 @@ struct placing {
     std::optional<tf::align_result> aligned{};
     std::optional<mating> mated{};
     std::string reason{};       ///< why there is no place, in words
-    std::string remedy{};       ///< then, what else may be done: "; clear would ..."
+    std::string remedy{};       ///< then, what else may be done: "; separate would ..."
     tf::transform<3> matrix{};  ///< from the file to the place, with --start
 
     /// A share is of the diagonal of MOVING's box.
@@ -89,7 +88,7 @@ struct placing {
 /// Finds a place for one input, and writes it.
 [[nodiscard]] exit_status place_one(job& work, const place_settings& settings, fixed_meshes& fixed);
 /// Puts all inputs beside each other on a plate, and writes that. \returns found when not all fit
-[[nodiscard]] exit_status arrange_all(job& work, const place_settings& settings);
+[[nodiscard]] exit_status pack_all(job& work, const place_settings& settings);
 
 /// The keys of a report's file, each with nothing in it.
 void enter_blank_report(job& work, const place_settings& settings);

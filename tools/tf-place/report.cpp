@@ -21,17 +21,17 @@ constexpr const char* blank_report = R"({
     "reason": null, "status_at_start": null, "status": null, "inside": null, "distance": null,
     "surface_distance": null, "closest": null, "direction": null, "travel": null,
     "backed_off": null, "matrix": null, "contacts": [], "contact_count": null, "sides": [],
-    "chosen": null, "corrected": null, "center_of_mass": null, "fit": null, "turn": null,
+    "chosen": null, "corrected": null, "center_of_mass": null, "align": null, "turn": null,
     "features": null, "fits": null, "tries": null, "plates": null, "density": null,
     "tolerance": {"given": null, "used": null}, "parts": [], "not_placed": [], "rounding": null,
     "matrix_file": null, "effort": null, "depth": null, "points": null,
     "deviation": null, "output": null})";
 
 /// The faces were not looked at: nothing is said of how they lie to each other.
-void enter_fit(json& entry, const tf::align_result& fit) {
+void enter_align(json& entry, const tf::align_result& found) {
     for (const char* key : {"status", "status_at_start", "contact_count", "travel", "backed_off"})
         entry[key] = nullptr;
-    entry["fit"] = align_entry(fit);
+    entry["align"] = align_entry(found);
 }
 
 void enter_lay(json& entry, const placing& p) {
@@ -116,7 +116,7 @@ void enter_place(json& entry, const placing& p) {
     entry["backed_off"] = at.statistics.backed_off;
     entry["matrix"] = p.matrix;
     if (p.laid) enter_lay(entry, p);
-    if (p.aligned) enter_fit(entry, *p.aligned);
+    if (p.aligned) enter_align(entry, *p.aligned);
 }
 
 std::string sentence(const placing& p) {

@@ -1,7 +1,7 @@
 #include "tools/shell/align_options.hpp"
 #include "tools/shell/exit_status.hpp"
 #include "tools/tf-place/place.hpp"
-#include "tools/tf-place/placing/arrange_options.hpp"
+#include "tools/tf-place/placing/pack_options.hpp"
 #include <treeform/tf.hpp>
 
 #include <algorithm>
@@ -12,12 +12,9 @@
 namespace tools {
 namespace {
 
-constexpr std::array<const char*, 9> modes{"drop",    "lay",     "slide", "mate", "clear",
-                                           "measure", "arrange", "fit",   "turn"};
+constexpr std::array<const char*, 9> modes{"drop",    "lay",  "slide", "mate", "separate",
+                                           "measure", "pack", "align", "turn"};
 place_mode parse_mode(std::string_view text) {
-    if (text == "pack") return place_mode::arrange;
-    if (text == "align") return place_mode::fit;
-    if (text == "separate") return place_mode::clear;
     const auto at = std::find(modes.begin(), modes.end(), text);
     if (at == modes.end())
         refuse(std::string(text) + ": no mode; expected one of " + listed(modes));
@@ -28,9 +25,9 @@ void add_options_of_modes(command_line& line, place_settings& s) {
     add_feature_options(line, s.feature);
     add_turn_options(line, s.turn);
     add_lay_options(line, s.lay);
-    add_arrange_options(line, s.arrange);
-    line.option(s.max_distance, {"--max-distance", "DIST", "fit: ignore pairs further apart"});
-    add_align_options(line, s.fit);
+    add_pack_options(line, s.pack);
+    line.option(s.max_distance, {"--max-distance", "DIST", "align: ignore pairs further apart"});
+    add_align_options(line, s.align);
     add_deviation_options(line, s.deviation);
 }
 
@@ -46,7 +43,7 @@ void add_options(command_line& line, place_settings& s, common_options& options)
                             "groups or nodes are separate bodies, unless they\n"
                             "have points in common"});
     line.option({"--bed", "Z",
-                 "drop, lay, arrange: height of the bed; drop with\n"
+                 "drop, lay, pack: height of the bed; drop with\n"
                  "--fixed has a bed only if this is given",
                  "0"},
                 [&s](std::string_view text) { s.bed = parse_number("--bed", text); });
@@ -101,18 +98,18 @@ void check_settings(const command_line& line, place_settings& s, common_options&
         {is(lay) && !s.fixed.empty(), "--fixed: lay puts MOVING on the bed alone"},
         {is(lay) && clearance, "--clearance: lay puts MOVING on the bed"},
         {is(lay) && s.max_travel, "--max-travel: lay goes to the bed"},
-        {!is(arrange) && given(arrange_option_names()) > 0,
-         listed(arrange_option_names()) + " are for arrange"},
-        {!is(fit) && (line.given("--max-distance") || given(align_option_names()) > 0),
-         "--max-distance, " + listed(align_option_names()) + " are for fit"},
+        {!is(pack) && given(pack_option_names()) > 0,
+         listed(pack_option_names()) + " are for pack"},
+        {!is(align) && (line.given("--max-distance") || given(align_option_names()) > 0),
+         "--max-distance, " + listed(align_option_names()) + " are for align"},
         {given(std::array{"--overlap", "--trim"}) > 1, "--overlap and --trim exclude each other"},
-        {is(arrange) && !line.given("--size"), "arrange needs --size"},
-        {is(arrange) && !s.fixed.empty(), "--fixed: arrange puts MOVING on an empty plate"},
-        {is(fit) && s.fixed.size() > 1, "fit: one --fixed only"},
-        {is(arrange, fit) && (clearance || s.max_travel),
+        {is(pack) && !line.given("--size"), "pack needs --size"},
+        {is(pack) && !s.fixed.empty(), "--fixed: pack puts MOVING on an empty plate"},
+        {is(align) && s.fixed.size() > 1, "align: one --fixed only"},
+        {is(pack, align) && (clearance || s.max_travel),
          "--clearance and --max-travel are not for " + mode},
-        {!is(drop, lay, arrange) && s.fixed.empty(), mode + " needs --fixed"},
-        {!is(drop, lay, arrange) && s.bed, "--bed: only drop, lay and arrange have one"},
+        {!is(drop, lay, pack) && s.fixed.empty(), mode + " needs --fixed"},
+        {!is(drop, lay, pack) && s.bed, "--bed: only drop, lay and pack have one"},
         {!is(drop, slide) && s.direction, "--direction: " + mode + " finds its own"},
         {s.has_bed() && s.direction && !(s.direction->z < 0.0),
          "--direction: must lead down to the bed"},

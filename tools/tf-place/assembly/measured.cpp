@@ -26,7 +26,7 @@ void enter_depth(job& work, const tf::body_set& moving, const tf::body_set& fixe
     work.call_ended(found && found->status == tf::status::cancelled);
     if (!found || found->status != tf::status::ok) return;
     work.entry["depth"] = {
-        {"at_most", found->depth}, {"move", found->move}, {"effort", effort_entry(found->effort)}};
+        {"bound", found->depth}, {"move", found->move}, {"effort", effort_entry(found->effort)}};
     work.out.result(work.name + ": at most " + brief(found->depth) + " deep: moved by " +
                     in_words(found->move) + " it is out of " + fixed.label(other) +
                     cut_in_words(found->effort));
@@ -56,9 +56,9 @@ json deviation_entry(const tf::deviation_result& r, const deviation_settings& se
     entry.update(deviations_entry(r));
     entry.update(
         {{"hausdorff",
-          {{"there", {{"sampled", r.max}, {"at_most", r.max_bound}}},
-           {"back", r.back_max ? json{{"sampled", *r.back_max}, {"at_most", *r.back_max_bound}}
-                               : json(nullptr)}}},
+          {{"forward", {{"sampled", r.max}, {"bound", r.max_bound}}},
+           {"backward", r.back_max ? json{{"sampled", *r.back_max}, {"bound", *r.back_max_bound}}
+                                   : json(nullptr)}}},
          {"histogram", {{"low", r.lowest}, {"high", r.highest}, {"counts", r.histogram}}},
          {"tolerance_band", band},
          {"distances_file", or_null(!settings.distances.empty(), settings.distances.string())},

@@ -1,4 +1,4 @@
-#include "tools/tf-place/placing/arrange_options.hpp"
+#include "tools/tf-place/placing/pack_options.hpp"
 
 #include "tools/shell/exit_status.hpp"
 #include "tools/shell/parse_value.hpp"
@@ -36,53 +36,53 @@ unsigned parse_at_most(std::string_view option, std::string_view text, std::uint
 
 }  // namespace
 
-void add_arrange_options(command_line& line, arrange_settings& s) {
+void add_pack_options(command_line& line, pack_settings& s) {
     tf::pack_options& o = s.pack;
     line.option({"--size", "X,Y[,Z]",
-                 "arrange: the bed; with Z a box, filled to its height:\n"
+                 "pack: the bed; with Z a box, filled to its height:\n"
                  "parts also go above and into one another"},
                 [&o](std::string_view text) { o.size = parse_size3(text); });
-    line.flag(s.flat, {"--flat", "", "arrange: all parts stand on the bed; Z is a limit"});
-    line.option({"--spacing", "DIST", "arrange: least distance between parts", "2"},
+    line.flag(s.flat, {"--flat", "", "pack: all parts stand on the bed; Z is a limit"});
+    line.option({"--spacing", "DIST", "pack: least distance between parts", "2"},
                 [&o](std::string_view text) {
                     const distance spacing = parse_distance("--spacing", text);
                     if (spacing.relative) refuse("--spacing: expected a length");
                     o.spacing = spacing.value;
                 });
-    line.option({"--rotate", "SET", "arrange: none | 90 | 45 | any", "90"},
+    line.option({"--rotate", "SET", "pack: none | 90 | 45 | any", "90"},
                 [&o](std::string_view text) {
                     o.turns = turns_of_set[parse_choice("--rotate", text, sets_of_turns)];
                 });
     line.offer("--rotate", {sets_of_turns.begin(), sets_of_turns.end()});
     line.repeatable_option(s.counts,
-                           {"--count", "FILE:N", "arrange: N copies of this MOVING (repeatable)"});
+                           {"--count", "FILE:N", "pack: N copies of this MOVING (repeatable)"});
     line.option(
         {"--plates", "N",
-         "arrange: up to N plates, side by side along x, a\n"
+         "pack: up to N plates, side by side along x, a\n"
          "fifth of their length apart",
          "1"},
         [&o](std::string_view text) { o.plates = parse_at_most("--plates", text, 10'000); });
     line.option(
         {"--tries", "N",
-         "arrange: most orders and rotations to try, until all\n"
+         "pack: most orders and rotations to try, until all\n"
          "parts are placed (and few plates are used)",
          "32"},
         [&o](std::string_view text) { o.tries = parse_at_most("--tries", text, 1'000'000); });
     line.option({"--time", "SEC",
-                 "arrange: start no more tries after SEC seconds; the\n"
+                 "pack: start no more tries after SEC seconds; the\n"
                  "result may then depend on the speed of the machine"},
                 [&o](std::string_view text) { o.seconds = parse_seconds("--time", text); });
-    line.option(o.seed, {"--seed", "N", "arrange: same N, same result", "0"});
+    line.option(o.seed, {"--seed", "N", "pack: same N, same result", "0"});
 }
 
-std::span<const char* const> arrange_option_names() {
+std::span<const char* const> pack_option_names() {
     static constexpr std::array<const char*, 9> names{"--size",   "--flat",  "--spacing",
                                                       "--rotate", "--count", "--plates",
                                                       "--tries",  "--time",  "--seed"};
     return names;
 }
 
-std::vector<std::uint64_t> counts_of(const arrange_settings& settings,
+std::vector<std::uint64_t> counts_of(const pack_settings& settings,
                                      std::span<const std::string> inputs) {
     std::vector<std::uint64_t> counts(inputs.size(), 1);
     for (const std::string& text : settings.counts) {
@@ -103,7 +103,7 @@ std::vector<std::uint64_t> counts_of(const arrange_settings& settings,
     return counts;
 }
 
-tf::pack_options pack_options_of(const arrange_settings& settings) {
+tf::pack_options pack_options_of(const pack_settings& settings) {
     tf::pack_options options = settings.pack;
     options.stack = std::isfinite(options.size.z) && !settings.flat;
     options.plate_step = {1.2 * options.size.x, 0.0, 0.0};
