@@ -16,7 +16,8 @@ static void test_offsets(void) {
     options.resolution = 0.1;
     OK(treeform_offset(mesh, 0.25, &options, &made));
     CHECK(made && made->certificate->status == TREEFORM_STATUS_OK && made->mesh.face_count > 100);
-    CHECK(made && made->resolution == 0.1 && made->least > 0.2 && made->greatest < 0.3);
+    CHECK(made && made->resolution == 0.1 && made->least_distance > 0.2 &&
+          made->greatest_distance < 0.3);
     treeform_free(made);
     INVALID("distance", treeform_offset(mesh, 0, &options, &made));
     options.progress = stop;

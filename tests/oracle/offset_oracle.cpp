@@ -51,7 +51,7 @@ void check_by_cgal(const tf::mesh& mesh) {
 /// By trying all faces; those without area are their edges.
 double distance_to(const tf::mesh& mesh, const tf::point3& p) {
     const kernel::Point_3 q = of_cgal(p);
-    double least_distance = std::numeric_limits<double>::infinity();
+    double least = std::numeric_limits<double>::infinity();
     for (const tf::face& f : mesh.faces) {
         const std::array t{of_cgal(mesh.points[f[0]]), of_cgal(mesh.points[f[1]]),
                            of_cgal(mesh.points[f[2]])};

@@ -17,14 +17,14 @@ class usable_input {
     explicit usable_input(const tf::mesh_file& file)
         : file_(file),
           triangle_of_face_(tf::drop_unusable_faces(file_.mesh)),
-          dropped_(file.mesh.faces.size() - file_.mesh.faces.size()) {}
+          non_finite_(file.mesh.faces.size() - file_.mesh.faces.size()) {}
     [[nodiscard]] tf::carry_source source() const { return {&file_, triangle_of_face_}; }
-    [[nodiscard]] std::size_t dropped() const { return dropped_; }  ///< faces
+    [[nodiscard]] std::size_t non_finite() const { return non_finite_; }  ///< faces
 
   private:
     tf::mesh_file file_;
     std::vector<std::uint32_t> triangle_of_face_;
-    std::size_t dropped_;
+    std::size_t non_finite_;
 };
 
 /// Inputs as `carry_sources` takes them: with the faces that the operation saw. A file all of whose

@@ -38,9 +38,9 @@ int main(int argc, char** argv) {
     options.takes_points = true;
     line.group("Modes");
     line.describe(tools::help_text);
-    line.mode({.names = "clash", .text = "all pairs of parts of assemblies: see clash --help"},
+    line.mode({.name = "clash", .text = "all pairs of parts of assemblies: see clash --help"},
               clash.line());
-    line.mode({.names = "check", .text = "parts or a robot in many poses: see check --help"},
+    line.mode({.name = "check", .text = "parts or a robot in many poses: see check --help"},
               check.line());
     tools::add_options(line, s, options);
     line.group("Common options");
