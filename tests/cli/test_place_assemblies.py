@@ -191,7 +191,7 @@ class Assemblies(PlaceTest):
         self.assertIn("at most 0.25 deep: moved by (0, 0, 0.25) it is out of floor.obj", run.text)
         entry = self.entry("measure", "part.obj", "--fixed", "floor.obj", status=0)
         effort = entry["depth"].pop("effort")
-        self.assertEqual(entry["depth"], {"at_most": 0.25, "move": [0, 0, 0.25]})
+        self.assertEqual(entry["depth"], {"bound": 0.25, "move": [0, 0, 0.25]})
         self.assertTrue(0 < effort["pairs"] < effort["bound"] and effort["cut"] == 0)
         self.assertIsNone(self.entry("measure", "near.obj", "--fixed", "floor.obj")["depth"])
 
@@ -256,7 +256,7 @@ class Assemblies(PlaceTest):
         self.assertEqual(run.status, 1)
         self.assertEqual(run.text.count("penetrat"), 1)
         self.assertRegex(run.text, r"not placed: penetrates floor.obj at the start \(\d+ pairs of "
-                                   r"faces, the first \d+ and \d+\); clear would take it out")
+                                   r"faces, the first \d+ and \d+\); separate would take it out")
 
 
 if __name__ == "__main__":

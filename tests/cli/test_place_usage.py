@@ -177,7 +177,7 @@ class Usage(PlaceTest):
             report = self.report(*arguments)
             self.assertEqual(report["schema"], "tf-place-report/1")
             self.assertEqual(sorted(report["seconds"]),
-                             ["prepare", "read", "search", "round", "write"])
+                             ["prepare", "read", "round", "search", "write"])
             entry = report["files"][0]
             self.assertEqual(sorted(entry), sorted(FILE))
             for key, kind in FILE.items():

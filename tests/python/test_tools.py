@@ -106,7 +106,7 @@ def test_measures_are_those_of_the_tool(folder, moving, fixed):
     if report["depth"]:
         depth, move, effort = tf.penetration_depth(a, b)
         assert effort._asdict() == report["depth"]["effort"]
-        assert (depth, move.tolist()) == (report["depth"]["at_most"], report["depth"]["move"])
+        assert (depth, move.tolist()) == (report["depth"]["bound"], report["depth"]["move"])
     own, theirs = tf.deviation(a, b, band=(-0.1, 0.1)), report["deviation"]
     for name in ("mean", "mean_absolute", "rms", "p50", "p95", "p99", "max", "lowest", "highest"):
         assert getattr(own, name) == theirs[name], name

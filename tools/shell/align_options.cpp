@@ -57,8 +57,8 @@ void add_align_options(command_line& line, tf::align_options& options) {
                 });
     line.option(o.robust,
                 {"--weights", "W",
-                 "align: welsch: distant pairs have less weight, so up to\n"
-                 "half of MOVING may lack a partner | equal",
+                 "align: welsch | equal. welsch gives distant pairs less\n"
+                 "weight, so up to half of MOVING may lack a partner",
                  "welsch"},
                 weights);
     line.option(o.method,

@@ -151,7 +151,7 @@ void add_travel(scene& shown, const job& work, const placing& p, const tf::box3&
         const json& move = depth["move"];
         end = {begin.x + move[0].get<double>(), begin.y + move[1].get<double>(),
                begin.z + move[2].get<double>()};
-        words = "out by " + in_unit(shown, depth["at_most"].get<double>());
+        words = "out by " + in_unit(shown, depth["bound"].get<double>());
     }
     const double way = std::hypot(end.x - begin.x, end.y - begin.y, end.z - begin.z);
     if (!(way > 0.0)) return;

@@ -123,11 +123,12 @@ std::string sentence(const placing& p) {
     const tf::placement& at = p.at;
     std::string relation = at.relation_in_words(p.moving, p.fixed);
     if (!at) {
-        const std::string seen = "penetrating " + p.fixed.label(at.nearest_fixed);
-        const bool has_depth = at.at_place == tf::mesh_relation::penetrating && at.nearest;
-        return "not placed: " + p.reason +
-               (has_depth ? relation.substr(std::min(seen.size(), relation.size())) : "") +
-               p.remedy;
+        std::string pairs;  // of faces, behind "penetrating other.stl"
+        if (at.at_place == tf::mesh_relation::penetrating && at.nearest) {
+            const std::string seen = "penetrating " + p.fixed.label(at.nearest_fixed);
+            pairs = relation.substr(std::min(seen.size(), relation.size()));
+        }
+        return "not placed: " + p.reason + pairs + p.remedy;
     }
     if (p.settings.mode == place_mode::measure) return relation;
     if (p.aligned) return align_sentence(*p.aligned);
