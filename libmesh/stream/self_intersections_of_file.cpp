@@ -22,7 +22,7 @@ fs::path folder_of(const fs::path& input, const stream_search_options& options) 
 
 }  // namespace
 
-struct stream_search::state {
+struct shared_search::state {
     state(const fs::path& input, const stream_search_options& options)
         : pace(options.progress),
           folder(folder_of(input, options), "search", work_folder::use::shared),
@@ -45,13 +45,13 @@ struct stream_search::state {
     detail::stream::tile_search search;
 };
 
-stream_search::stream_search(fs::path input, stream_search_options options)
+shared_search::shared_search(fs::path input, stream_search_options options)
     : state_(std::make_unique<state>(input, options)) {}
-stream_search::~stream_search() = default;
-stream_search::stream_search(stream_search&&) noexcept = default;
-stream_search& stream_search::operator=(stream_search&&) noexcept = default;
+shared_search::~shared_search() = default;
+shared_search::shared_search(shared_search&&) noexcept = default;
+shared_search& shared_search::operator=(shared_search&&) noexcept = default;
 
-status stream_search::scatter() {
+status shared_search::scatter() {
     state& s = *state_;
     return state::until_cancelled([&] {
         if (s.search.is_known()) return;
@@ -62,30 +62,30 @@ status stream_search::scatter() {
     });
 }
 
-std::size_t stream_search::tiles() {
+std::size_t shared_search::tiles() {
     state& s = *state_;
     if (!s.search.is_known()) s.folder.fail_without_tiles();
     return s.search.tiles();
 }
 
-std::vector<std::size_t> stream_search::unfinished() {
+std::vector<std::size_t> shared_search::unfinished() {
     static_cast<void>(tiles());
     return state_->search.unfinished();
 }
 
-status stream_search::search_tile(std::size_t tile) {
+status shared_search::search_tile(std::size_t tile) {
     const std::size_t all = tiles();
     return state::until_cancelled([&] { state_->search.search(tile, tile, all); });
 }
 
-stream_search_result stream_search::finish() {
+stream_search_result shared_search::finish() {
     static_cast<void>(tiles());
     return state_->search.finish();
 }
 
-void stream_search::remove_folder() { state_->folder.remove(); }
+void shared_search::remove_folder() { state_->folder.remove(); }
 
-bool stream_search::accepts(const fs::path& input, std::string_view format) {
+bool shared_search::accepts(const fs::path& input, std::string_view format) {
     const auto in = detail::io::source::open(input);
     const auto found = detail::io::detect(in, detail::io::plain_extension(format),
                                           detail::io::extension_of(input));

@@ -390,7 +390,7 @@ void tile_search::look_at(const std::vector<io::placed_triangle>& block,
 
 void tile_search::search(std::size_t tile, std::size_t part, std::size_t of) {
     if (tile >= tiles())
-        throw std::out_of_range("treeform::stream_search: tile " + std::to_string(tile) + " of " +
+        throw std::out_of_range("treeform::shared_search: tile " + std::to_string(tile) + " of " +
                                 std::to_string(tiles()));
     pace_.show("pairs", static_cast<double>(part) / static_cast<double>(of));
     if (load(tile, true)) return;

@@ -298,7 +298,7 @@ void tile_steps::weld_tiles() {
 
 void tile_steps::weld_one(std::size_t t) {
     if (t >= tiles_.size())
-        throw std::out_of_range("treeform::stream_weld: tile " + std::to_string(t) + " of " +
+        throw std::out_of_range("treeform::shared_weld: tile " + std::to_string(t) + " of " +
                                 std::to_string(tiles_.size()));
     pace_.show("weld", 0.0);
     if (!find_tile(t, true)) folder_.fail_with_other_tiles();

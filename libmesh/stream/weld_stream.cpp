@@ -120,7 +120,7 @@ mesh_file cloud_inputs::outline(const treeform::communicator& ranks) const {
     return header;
 }
 
-struct stream_weld::state {
+struct shared_weld::state {
     state(cloud_inputs inputs, weld_stream_options options)
         : task(task_of(std::move(inputs), std::move(options))),
           all(task.options.communicator),
@@ -196,7 +196,7 @@ struct stream_weld::state {
         }
         // What has been enough so far is so for fewer points, be their rows somewhat longer.
         again.memory = task.memory + (std::uint64_t{8} << 20);
-        stream_weld twice(input, again);
+        shared_weld twice(input, again);
         twice.state_->faces.reset();
         const weld_stream_result result = run(twice, {});
         if (result.status == status::cancelled) throw detail::stream::cancelled{};
@@ -204,7 +204,7 @@ struct stream_weld::state {
         if (all.is_root()) fs::remove(whole);
     }
 
-    [[nodiscard]] static weld_stream_result run(stream_weld& work,
+    [[nodiscard]] static weld_stream_result run(shared_weld& work,
                                                 const weld_stream_outputs& outputs) {
         treeform::status ended = work.take_survey();
         if (ended == status::ok) ended = work.scatter();
@@ -229,16 +229,16 @@ struct stream_weld::state {
     weld_stream_result made{};  ///< all fields except the survey
 };
 
-stream_weld::stream_weld(cloud_inputs inputs, weld_stream_options options)
+shared_weld::shared_weld(cloud_inputs inputs, weld_stream_options options)
     : state_(std::make_unique<state>(std::move(inputs), std::move(options))) {
     if (state_->all.is_root() && !state_->task.options.shared)
         detail::stream::remove_leftovers(state_->folder);
 }
-stream_weld::~stream_weld() = default;
-stream_weld::stream_weld(stream_weld&&) noexcept = default;
-stream_weld& stream_weld::operator=(stream_weld&&) noexcept = default;
+shared_weld::~shared_weld() = default;
+shared_weld::shared_weld(shared_weld&&) noexcept = default;
+shared_weld& shared_weld::operator=(shared_weld&&) noexcept = default;
 
-status stream_weld::take_survey() {
+status shared_weld::take_survey() {
     state& s = *state_;
     return state_->until_cancelled([&] {
         if (s.task.options.shared && !s.steps.has_tiles()) {
@@ -251,22 +251,22 @@ status stream_weld::take_survey() {
     });
 }
 
-const cloud_survey& stream_weld::survey() const { return state_->steps.survey(); }
+const cloud_survey& shared_weld::survey() const { return state_->steps.survey(); }
 
-status stream_weld::scatter() {
+status shared_weld::scatter() {
     const status ended = state_->until_cancelled([&] { state_->steps.scatter(); });
     state_->alone.reset();
     return ended;
 }
 
-void stream_weld::check_tiles() { state_->check_tiles(); }
+void shared_weld::check_tiles() { state_->check_tiles(); }
 
-status stream_weld::weld_tile(std::size_t tile) {
+status shared_weld::weld_tile(std::size_t tile) {
     state_->check_tiles();
     return state_->until_cancelled([&] { state_->steps.weld_one(tile); });
 }
 
-status stream_weld::weld() {
+status shared_weld::weld() {
     return state_->until_cancelled([&] {
         state& s = *state_;
         if (s.task.options.shared) {
@@ -289,7 +289,7 @@ status stream_weld::weld() {
     });
 }
 
-status stream_weld::write(const weld_stream_outputs& outputs) {
+status shared_weld::write(const weld_stream_outputs& outputs) {
     return state_->until_cancelled([&] {
         state& s = *state_;
         detail::stream::give_back(s.pace, s.task, outputs, s.steps, *s.welded,
@@ -299,21 +299,21 @@ status stream_weld::write(const weld_stream_outputs& outputs) {
     });
 }
 
-weld_stream_result stream_weld::result() const {
+weld_stream_result shared_weld::result() const {
     weld_stream_result known = state_->made;
     known.survey = survey();
     return known;
 }
 
-void stream_weld::remove_folder() {
+void shared_weld::remove_folder() {
     state_->all.barrier();
     if (state_->all.is_root()) state_->folder.remove();
 }
 
 weld_stream_result weld_stream(const cloud_inputs& inputs, const weld_stream_outputs& outputs,
                                const weld_stream_options& options) {
-    stream_weld work(inputs, options);
-    return stream_weld::state::run(work, outputs);
+    shared_weld work(inputs, options);
+    return shared_weld::state::run(work, outputs);
 }
 
 weld_stream_result weld_stream(const fs::path& input, const fs::path& output,

@@ -125,14 +125,14 @@ void test_intersections(void) {
 
 void test_search(void) {
     const char* const path = "data/two_spheres.stl";
-    treeform_search_file_options options;
-    treeform_search_result* result = NULL;
-    treeform_search* search = NULL;
+    treeform_stream_search_options options;
+    treeform_stream_search_result* result = NULL;
+    treeform_shared_search* search = NULL;
     treeform_indices* unfinished = NULL;
     size_t tiles = 0, t;
     int32_t is_searched = 0;
     int calls = 0;
-    treeform_search_file_options_init(&options, sizeof options);
+    treeform_stream_search_options_init(&options, sizeof options);
     options.folder = path_in_work("tiles");
     options.faces_per_tile = 100;
     OK(treeform_is_searched_in_tiles(path, NULL, &is_searched));
@@ -141,25 +141,25 @@ void test_search(void) {
     CHECK(result->found->count == 78 && result->stored_faces == 640 && result->tiles > 1);
     CHECK(result->mesh.face_count > 0 && result->face_in_file[0] < 640);
     treeform_free(result);
-    OK(treeform_search_create(path, &options, &search));
-    INVALID("", treeform_search_tile(NULL, 0));
-    ENDS(TREEFORM_FILE, "", treeform_search_finish(search, &result));
+    OK(treeform_shared_search_create(path, &options, &search));
+    INVALID("", treeform_shared_search_tile(NULL, 0));
+    ENDS(TREEFORM_FILE, "", treeform_shared_search_finish(search, &result));
     treeform_free(search); /* a step too early ends the search */
-    OK(treeform_search_create(path, &options, &search));
-    OK(treeform_search_scatter(search, &tiles));
+    OK(treeform_shared_search_create(path, &options, &search));
+    OK(treeform_shared_search_scatter(search, &tiles));
     CHECK(tiles > 1);
-    INVALID("", treeform_search_tile(search, tiles));
-    OK(treeform_search_unfinished(search, &unfinished));
+    INVALID("", treeform_shared_search_tile(search, tiles));
+    OK(treeform_shared_search_unfinished(search, &unfinished));
     CHECK(unfinished->count == tiles && unfinished->values[tiles - 1] == tiles - 1);
     treeform_free(unfinished);
-    for (t = 0; t < tiles; ++t) OK(treeform_search_tile(search, t));
-    OK(treeform_search_unfinished(search, &unfinished));
+    for (t = 0; t < tiles; ++t) OK(treeform_shared_search_tile(search, t));
+    OK(treeform_shared_search_unfinished(search, &unfinished));
     CHECK(unfinished->count == 0);
     treeform_free(unfinished);
-    OK(treeform_search_finish(search, &result));
+    OK(treeform_shared_search_finish(search, &result));
     CHECK(result->found->count == 78 && result->searched == 640);
     treeform_free(result);
-    OK(treeform_search_remove_folder(search));
+    OK(treeform_shared_search_remove_folder(search));
     treeform_free(search);
     options.progress = stop;
     options.progress_data = &calls;

@@ -53,7 +53,7 @@ TAKES = {
     "offset": {"mesh": CUBE, "distance": 0.5}, "hollow": {"mesh": CUBE, "wall": 0.25},
     "thicken": {"mesh": CUBE, "thickness": 0.5}, "oriented_box": {"points": POINTS},
     "simplify": {"mesh": CUBE, "max_distance": 0.1}, "wall_thickness": ONE}
-ELSEWHERE = {"BoxTree", "PointTree", "Attributes", "Mesh", "StreamSearch", "StreamWeld", "plot",
+ELSEWHERE = {"BoxTree", "PointTree", "Attributes", "Mesh", "SharedSearch", "SharedWeld", "plot",
              "show", "thread_count", "threads", "difference", "intersection", "union", "split",
              "symmetric_difference", "from_meshio", "from_open3d", "from_pyvista", "from_trimesh",
              "from_vtk", "read_urdf", "write", "weld_stream"}

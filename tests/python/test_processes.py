@@ -147,7 +147,7 @@ def test_where_one_is_interrupted_nobody_waits(tmp_path, cloud, error):
 def test_many_processes_weld_a_cloud(tmp_path, cloud):
     tf.weld_stream(cloud, tmp_path / "whole.ply", 0.1, removed=tmp_path / "removed.ply")
     options = {"folder": tmp_path / "tiles", "points_per_tile": 2000}
-    first = tf.StreamWeld(cloud, 0.1, **options)
+    first = tf.SharedWeld(cloud, 0.1, **options)
     with pytest.raises(tf.FileError, match="tiles"):
         first.weld_tile(0)
     with pytest.raises(tf.FileError, match="tiles"):
@@ -155,7 +155,7 @@ def test_many_processes_weld_a_cloud(tmp_path, cloud):
     first.close()
     with pytest.raises(ValueError, match="closed"):
         first.scatter()
-    first = tf.StreamWeld(cloud, 0.1, **options)
+    first = tf.SharedWeld(cloud, 0.1, **options)
     count = first.scatter()
     assert count == first.tiles > 5
     with pytest.raises(IndexError, match=str(count)):
@@ -163,11 +163,11 @@ def test_many_processes_weld_a_cloud(tmp_path, cloud):
     with pytest.raises(tf.FileError, match="0"):
         first.finish(tmp_path / "thin.ply")
     with SPAWN.Pool(2) as pool:
-        pool.starmap(tf.StreamWeld.weld_tile, [(first, tile) for tile in range(count)])
+        pool.starmap(tf.SharedWeld.weld_tile, [(first, tile) for tile in range(count)])
         pool.close()
         pool.join()
     first.close()
-    with tf.StreamWeld(cloud, 0.1, **options) as last:
+    with tf.SharedWeld(cloud, 0.1, **options) as last:
         made = last.finish(tmp_path / "thin.ply", removed=tmp_path / "gone.ply")
         last.remove_folder()
     assert made.points == 20_000 and made.tiles == count
@@ -176,13 +176,13 @@ def test_many_processes_weld_a_cloud(tmp_path, cloud):
                 == (tmp_path / f"{theirs}.ply").read_bytes())
     assert not (tmp_path / "tiles").exists()
     with pytest.raises(tf.Cancelled):
-        tf.StreamWeld(cloud, 0.1, **options).scatter(progress=lambda share: False)
+        tf.SharedWeld(cloud, 0.1, **options).scatter(progress=lambda share: False)
     with pytest.raises(ValueError, match="keep"):
-        tf.StreamWeld(cloud, 0.1, keep="mid")
+        tf.SharedWeld(cloud, 0.1, keep="mid")
     with pytest.raises(ValueError, match="files"):
-        tf.StreamWeld([], 0.1)
+        tf.SharedWeld([], 0.1)
     with pytest.raises(tf.FileError, match="none"):
-        tf.StreamWeld(tmp_path / "none.ply")
+        tf.SharedWeld(tmp_path / "none.ply")
 
 
 def test_a_file_is_searched_by_many_processes(tmp_path):
@@ -190,7 +190,7 @@ def test_a_file_is_searched_by_many_processes(tmp_path):
     rng = np.random.default_rng(3)
     tf.write(path, tf.Mesh(rng.random((900, 3)), np.arange(900).reshape(-1, 3)))
     whole = tf.self_intersections_of_file(path, kinds=["crossing", "pierce"])
-    first = tf.StreamSearch(path, folder=folder, faces_per_tile=50, kinds=["crossing", "pierce"])
+    first = tf.SharedSearch(path, folder=folder, faces_per_tile=50, kinds=["crossing", "pierce"])
     with pytest.raises(tf.FileError, match="tiles"):
         first.search_tile(0)
     with pytest.raises(tf.FileError, match="tiles"):
@@ -208,7 +208,7 @@ def test_a_file_is_searched_by_many_processes(tmp_path):
     with pytest.raises(tf.Cancelled):
         first.search_tile(2, progress=lambda share: False)
     with SPAWN.Pool(2) as pool:
-        pool.starmap(tf.StreamSearch.search_tile, [(first, tile) for tile in range(count)])
+        pool.starmap(tf.SharedSearch.search_tile, [(first, tile) for tile in range(count)])
     assert first.unfinished == []
     found = first.finish()
     assert found.counts == whole.counts and np.array_equal(found.pairs_in_file, whole.pairs_in_file)
@@ -219,7 +219,7 @@ def test_a_file_is_searched_by_many_processes(tmp_path):
     with pytest.raises(ValueError, match="closed"):
         assert first.unfinished
     with pytest.raises(ValueError, match="kinds"):
-        tf.StreamSearch(path, kinds=["crosing"])
+        tf.SharedSearch(path, kinds=["crosing"])
     with pytest.raises(tf.FileError, match="no_such"):
-        tf.StreamSearch(tmp_path / "no_such.ply").scatter()
+        tf.SharedSearch(tmp_path / "no_such.ply").scatter()
     assert list(tmp_path.iterdir()) == [path]

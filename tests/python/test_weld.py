@@ -151,7 +151,7 @@ def test_what_las_rounds_is_said(tmp_path):
     done = tf.weld_stream(inputs, tmp_path / "c.las", as_las=True)
     assert 0.001 < done.max_displacement < 0.005
     assert any("rounded to the steps of the LAS file" in text for text in done.warnings)
-    with tf.StreamWeld(inputs, as_las=True, folder=tmp_path / "tiles") as work:
+    with tf.SharedWeld(inputs, as_las=True, folder=tmp_path / "tiles") as work:
         for tile in range(work.scatter()):
             work.weld_tile(tile)
         again = work.finish(tmp_path / "d.las")
@@ -165,7 +165,7 @@ def test_columns_of_text_are_named(tmp_path):
     columns = {"x": "e", "y": "n", "z": 1}
     tf.weld_stream(tmp_path / "a.csv", tmp_path / "b.ply", columns=columns)
     assert tf.read(tmp_path / "b.ply").vertices.tolist() == [[3, 2, 1], [6, 5, 4]]
-    with tf.StreamWeld(tmp_path / "a.csv", columns=columns) as work:
+    with tf.SharedWeld(tmp_path / "a.csv", columns=columns) as work:
         assert work.scatter() == 1
         work.remove_folder()
     with pytest.raises(tf.FileError, match="none"):

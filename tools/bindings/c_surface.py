@@ -65,8 +65,8 @@ BOUND = [
         Member("const double* points", "[point_count][3]",
                "to.points = positions_of(kept, from.points);"),
         Member("size_t point_count", "", "to.point_count = from.points.size();")]}),
-    Bound("stream_search_options", "search_file_options", leave="step_done"),
-    Bound("stream_search_result", "search_result", leave="bounds header started_anew", custom={
+    Bound("stream_search_options", leave="step_done"),
+    Bound("stream_search_result", leave="bounds header started_anew", custom={
         "part": [
             Member("treeform_arrays mesh", "only the faces that meet others",
                    "to.mesh = arrays(from.part.mesh);"),

@@ -9,9 +9,9 @@
 
 #include <tools/c/made/structs.hpp>
 
-struct treeform_search {
+struct treeform_shared_search {
     void* owner;
-    std::optional<treeform::stream_search> content;
+    std::optional<treeform::shared_search> content;
 };
 
 namespace glue {
@@ -86,38 +86,40 @@ inline void color_pairs(tf::mesh_file& file, const treeform_part* part,
 /// Whether the file is of a format that is searched in tiles; an error when it cannot be read, or
 /// its header is damaged. `format` may be null.
 inline bool is_searched_in_tiles(const std::filesystem::path& path, std::string_view format) {
-    return tf::stream_search::accepts(path, format);
+    return tf::shared_search::accepts(path, format);
 }
 
 /// Begins: all processes give the same input and options. Only the progress of `options` may
 /// differ.
-inline tf::stream_search search_create(const std::filesystem::path& path,
-                                       const tf::stream_search_options& options) {
+inline tf::shared_search shared_search_create(const std::filesystem::path& path,
+                                              const tf::stream_search_options& options) {
     return {path, options};
 }
 
 /// Gives each tile its faces, unless they have them; `tiles` is their number. One process does it.
-inline std::size_t search_scatter(tf::stream_search& search) {
+inline std::size_t shared_search_scatter(tf::shared_search& search) {
     check(search.scatter());
     return search.tiles();
 }
 
 /// The tiles that are to be searched.
-inline std::vector<std::uint32_t> search_unfinished(tf::stream_search& search) {
+inline std::vector<std::uint32_t> shared_search_unfinished(tf::shared_search& search) {
     const auto found = search.unfinished();
     return {found.begin(), found.end()};
 }
 
 /// Searches a tile, unless that is done. Each process does its share.
-inline void search_tile(tf::stream_search& search, std::size_t tile) {
-    check(search.search_tile(tile));
+inline void shared_search_tile(tf::shared_search& search, std::size_t tile) {
+    check(search.shared_search_tile(tile));
 }
 
 /// Puts together what was found, when all tiles are searched. Steps that come before their turn
 /// fail, and end the search.
-inline tf::stream_search_result search_finish(tf::stream_search& search) { return search.finish(); }
+inline tf::stream_search_result shared_search_finish(tf::shared_search& search) {
+    return search.finish();
+}
 
 /// Removes the folder.
-inline void search_remove_folder(tf::stream_search& search) { search.remove_folder(); }
+inline void shared_search_remove_folder(tf::shared_search& search) { search.remove_folder(); }
 
 }  // namespace glue

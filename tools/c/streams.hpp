@@ -11,11 +11,11 @@ namespace glue {
 
 /// A weld step by step.
 struct shared_weld {
-    tf::stream_weld steps;
+    tf::shared_weld steps;
     tf::weld_stream_outputs outputs;
     bool has_survey = false;
 
-    tf::stream_weld& with_survey() {
+    tf::shared_weld& with_survey() {
         if (!has_survey) check(steps.take_survey());
         has_survey = true;
         return steps;
@@ -83,7 +83,7 @@ inline shared_weld shared_weld_create(const char* const* inputs, std::size_t cou
     const auto o = chosen(options, treeform_weld_stream_options_init);
     tf::weld_stream_options how = read(o);
     how.shared = true;
-    return {tf::stream_weld(inputs_of(inputs, count, o), how), outputs_of(o, "")};
+    return {tf::shared_weld(inputs_of(inputs, count, o), how), outputs_of(o, "")};
 }
 
 /// Gives each tile its points, unless they have them; `tiles` is their number.
@@ -103,7 +103,7 @@ inline tf::weld_stream_result shared_weld_finish(shared_weld& weld, const std::s
     tf::weld_stream_outputs to = weld.outputs;
     to.welded->first = output;
     weld.steps.check_tiles();
-    tf::stream_weld& steps = weld.with_survey();
+    tf::shared_weld& steps = weld.with_survey();
     check(steps.weld());
     check(steps.write(to));
     return steps.result();

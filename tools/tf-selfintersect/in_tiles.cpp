@@ -20,7 +20,7 @@ std::string what_needs_memory(const job& work, const search_settings& settings, 
     if (work.path == "-") return "standard input";
     if (is_read_once(work.path)) return "a pipe";
     try {
-        if (!tf::stream_search::accepts(work.path, work.options.format))
+        if (!tf::shared_search::accepts(work.path, work.options.format))
             return "a file that is neither a binary STL nor a PLY";
     } catch (const tf::io_error&) {
         return {};  // the reader names the fault
@@ -120,7 +120,7 @@ void share_search(job& work, const search_settings& settings, const tile_options
     const std::string folder = tiles.folder.string();
     take(work, [&] {
         const job::timer timing = work.time(tiles.plan ? "read" : "pairs");
-        tf::stream_search search(work.path, library_options(work, settings, tiles, folder));
+        tf::shared_search search(work.path, library_options(work, settings, tiles, folder));
         if (tiles.plan) {
             work.call_ended(search.scatter() == tf::status::cancelled);
             enter_tiles(work, search.tiles(), folder, search.unfinished());
@@ -144,7 +144,7 @@ findings search_in_tiles(job& work, const search_settings& settings, const tile_
     tf::stream_search_result r = take(work, [&] {
         const job::timer timing = work.time("read");
         if (!tiles.finish) return tf::self_intersections_of_file(work.path, options);
-        tf::stream_search search(work.path, options);
+        tf::shared_search search(work.path, options);
         return search.finish();
     });
     work.call_ended(r.found.status == tf::status::cancelled);

@@ -144,7 +144,7 @@ class stream_files {
         to_.unfinished = outputs_.unfinished();
     }
 
-    void write(tf::stream_weld& weld) {
+    void write(tf::shared_weld& weld) {
         try {
             take(work_, "write", [&] { return weld.write(to_); });
         } catch (const tf::io_error& error) {
@@ -214,7 +214,7 @@ welding in_words_of_memory(const tf::weld_stream_result& result) {
     return w;
 }
 
-tf::status weld_tile(job& work, tf::stream_weld& weld, const tile_options& options) {
+tf::status weld_tile(job& work, tf::shared_weld& weld, const tile_options& options) {
     const std::uint64_t tile = *options.tile;
     weld.check_tiles();
     const std::size_t tiles = weld.survey().tiles;
@@ -245,7 +245,7 @@ exit_status weld_in_tiles(job& work, const weld_request& request, const tile_opt
     if (leads) check_outputs(work, {request.outputs.map}, {request.outputs.removed});
     check_formats(work, request, header);
     const tf::weld_stream_options options = library_options(work, request, tiles, header);
-    std::optional<tf::stream_weld> weld;
+    std::optional<tf::shared_weld> weld;
     try {
         const tf::element* const faces = header.attributes.find("face");
         static_cast<void>(request.settings.options.conditions(header.attributes,

@@ -182,7 +182,7 @@ TEST_CASE("self_intersections_of_file: goes on after a stop at any step") {
     CHECK(steps > 5);
 }
 
-TEST_CASE("stream_search: tiles by several workers, in any order, some of them twice") {
+TEST_CASE("shared_search: tiles by several workers, in any order, some of them twice") {
     const test::own_folder folder("search_of_file");
     tf::mesh_file file;
     file.mesh = hard_mesh();
@@ -191,22 +191,22 @@ TEST_CASE("stream_search: tiles by several workers, in any order, some of them t
     tf::stream_search_options o;
     o.faces_per_tile = 300;
     o.folder = folder.path / "work";
-    CHECK_THROWS_WITH_AS((void)tf::stream_search(path, o).tiles(),
+    CHECK_THROWS_WITH_AS((void)tf::shared_search(path, o).tiles(),
                          doctest::Contains("holds no tiles of this input"), tf::io_error);
-    tf::stream_search first(path, o), second(path, o);
+    tf::shared_search first(path, o), second(path, o);
     CHECK_THROWS_WITH_AS((void)first.scatter(), doctest::Contains("is in use"), tf::io_error);
-    { const tf::stream_search gone = std::move(second); }
+    { const tf::shared_search gone = std::move(second); }
     CHECK_THROWS_WITH_AS((void)tf::self_intersections_of_file(path, o),  // held still
                          doctest::Contains("is in use"), tf::io_error);
     CHECK_THROWS_WITH_AS((void)first.finish(), doctest::Contains("holds no tiles"), tf::io_error);
     REQUIRE(first.scatter() == tf::status::ok);
-    tf::stream_search other(path, o);
+    tf::shared_search other(path, o);
     REQUIRE(other.tiles() > 5);
     CHECK_THROWS_AS((void)other.search_tile(other.tiles()), std::out_of_range);
     CHECK_THROWS_WITH_AS((void)other.finish(), doctest::Contains("tiles 0, 1, 2, 3, 4, 5"),
                          tf::io_error);
     tf::for_chunks(2, 1, [&](std::size_t worker, std::size_t, std::size_t) {
-        tf::stream_search mine(path, o);
+        tf::shared_search mine(path, o);
         const std::size_t tiles = mine.tiles();
         for (std::size_t t = worker; t < tiles; ++t)
             if (mine.search_tile(tiles - 1 - t) != tf::status::ok)
@@ -217,9 +217,9 @@ TEST_CASE("stream_search: tiles by several workers, in any order, some of them t
     CHECK(r.tiles == other.tiles());
     tf::stream_search_options others = o;
     others.kinds = tf::pair_kind::crossing;
-    { const tf::stream_search gone = std::move(first); }
-    { const tf::stream_search gone = std::move(other); }
-    tf::stream_search last(path, others);
+    { const tf::shared_search gone = std::move(first); }
+    { const tf::shared_search gone = std::move(other); }
+    tf::shared_search last(path, others);
     CHECK_THROWS_WITH_AS((void)last.scatter(), doctest::Contains("holds tiles of another input"),
                          tf::io_error);
     CHECK(told_of(r.part, r.found, r.bounds) == in_memory(path, o));
@@ -245,9 +245,9 @@ TEST_CASE("self_intersections_of_file: stops when it is told, and says what it d
                          doctest::Contains("only binary STL and PLY are searched in tiles"),
                          tf::io_error);
     CHECK_THROWS_AS((void)tf::self_intersections_of_file(folder.path / "no.stl"), tf::io_error);
-    CHECK(tf::stream_search::accepts(path));
-    CHECK_FALSE(tf::stream_search::accepts(folder.path / "grid.obj"));
-    CHECK_THROWS_AS(static_cast<void>(tf::stream_search::accepts(folder.path / "no.stl")),
+    CHECK(tf::shared_search::accepts(path));
+    CHECK_FALSE(tf::shared_search::accepts(folder.path / "grid.obj"));
+    CHECK_THROWS_AS(static_cast<void>(tf::shared_search::accepts(folder.path / "no.stl")),
                     tf::io_error);
     fs::resize_file(path, fs::file_size(path) - 100);
     CHECK_THROWS_AS((void)tf::self_intersections_of_file(path), tf::io_error);
@@ -266,7 +266,7 @@ TEST_CASE("self_intersections_of_file: stops when it is told, and says what it d
                            "property list uchar int vertex_indices\nelement vertex 3\n"
                            "property float x\nproperty float y\nproperty float z\nend_header\n"
                            "3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n";
-    CHECK_FALSE(tf::stream_search::accepts(path));
+    CHECK_FALSE(tf::shared_search::accepts(path));
     CHECK_THROWS_AS((void)tf::self_intersections_of_file(path), tf::io_error);
 }
 

@@ -149,7 +149,7 @@ TEST_CASE("weld_stream: what it cannot work with is refused") {
         CHECK(error.path() == folder.work());
     }
     fs::remove_all(folder.work());
-    const tf::stream_weld holds(folder.inputs(), options);
+    const tf::shared_weld holds(folder.inputs(), options);
     try {
         tf::weld_stream(folder.inputs(), tf::weld_stream_outputs{}, options);
         FAIL("not refused");

@@ -78,7 +78,7 @@ tf::weld_stream_result weld_shared(const job& work, test::random& random) {
     options.shared = true;
     std::size_t tiles = 0;
     for (int twice = 0; twice < 2; ++twice) {
-        tf::stream_weld one(work.inputs, options);
+        tf::shared_weld one(work.inputs, options);
         CHECK(one.take_survey() == tf::status::ok);
         CHECK(one.scatter() == tf::status::ok);
         tiles = one.survey().tiles;
@@ -90,10 +90,10 @@ tf::weld_stream_result weld_shared(const job& work, test::random& random) {
     for (std::size_t part = 0; part < 3; ++part)
         threads.emplace_back([&, part] {
             for (std::size_t i = part; i < order.size(); i += 3)
-                static_cast<void>(tf::stream_weld(work.inputs, options).weld_tile(order[i]));
+                static_cast<void>(tf::shared_weld(work.inputs, options).weld_tile(order[i]));
         });
     for (std::thread& t : threads) t.join();
-    tf::stream_weld last(work.inputs, options);
+    tf::shared_weld last(work.inputs, options);
     CHECK(last.take_survey() == tf::status::ok);
     CHECK(last.weld() == tf::status::ok);
     CHECK(last.write(work.outputs()) == tf::status::ok);
@@ -475,20 +475,20 @@ TEST_CASE("weld_team: what is not there, or of another job, is refused in words"
         return text.find(words) != std::string::npos;
     };
     {
-        tf::stream_weld early(work.inputs, work.options);
+        tf::shared_weld early(work.inputs, work.options);
         CHECK(has(says([&] { static_cast<void>(early.weld_tile(0)); }), "holds no tiles of this"));
     }
     CHECK_FALSE(fs::exists(work.options.folder));
     {
-        tf::stream_weld one(work.inputs, work.options);
+        tf::shared_weld one(work.inputs, work.options);
         REQUIRE(one.take_survey() == tf::status::ok);
-        CHECK(has(says([&] { tf::stream_weld(work.inputs, work.options); }), "is in use"));
+        CHECK(has(says([&] { tf::shared_weld(work.inputs, work.options); }), "is in use"));
         REQUIRE(one.scatter() == tf::status::ok);
         CHECK_THROWS_AS(static_cast<void>(one.weld_tile(one.survey().tiles)), std::out_of_range);
         CHECK(has(says([&] { static_cast<void>(one.weld()); }), "tiles 0, 1, 2"));
     }
     work.options.tolerance = 0.06;
-    tf::stream_weld other(work.inputs, work.options);
+    tf::shared_weld other(work.inputs, work.options);
     CHECK(
         has(says([&] { static_cast<void>(other.take_survey()); }), "holds tiles of another input"));
 }

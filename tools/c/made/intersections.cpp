@@ -80,10 +80,10 @@ void glue::fill(keeper& kept, const tf::curve_network& from, treeform_paths& to)
     to.path_count = from.paths.size();
 }
 
-tf::stream_search_options glue::read(const treeform_search_file_options* options) {
-    return read(chosen(options, treeform_search_file_options_init));
+tf::stream_search_options glue::read(const treeform_stream_search_options* options) {
+    return read(chosen(options, treeform_stream_search_options_init));
 }
-tf::stream_search_options glue::read(const treeform_search_file_options& o) {
+tf::stream_search_options glue::read(const treeform_stream_search_options& o) {
     tf::stream_search_options how;
     if (o.vertices != -1) how.vertices = choice<tf::vertex_identity>(o.vertices, 2, "vertices");
     how.kinds = kinds(o.kinds);
@@ -98,8 +98,8 @@ tf::stream_search_options glue::read(const treeform_search_file_options& o) {
     return how;
 }
 
-void treeform_search_file_options_init(treeform_search_file_options* options, size_t size) {
-    treeform_search_file_options to{};
+void treeform_stream_search_options_init(treeform_stream_search_options* options, size_t size) {
+    treeform_stream_search_options to{};
     const tf::stream_search_options from;
     to.vertices = -1;
     to.kinds = TREEFORM_ALL_KINDS;
@@ -108,7 +108,8 @@ void treeform_search_file_options_init(treeform_search_file_options* options, si
     glue::init(options, size, to);
 }
 
-void glue::fill(keeper& kept, const tf::stream_search_result& from, treeform_search_result& to) {
+void glue::fill(keeper& kept, const tf::stream_search_result& from,
+                treeform_stream_search_result& to) {
     to.mesh = arrays(from.part.mesh);
     to.face_in_file = faces_in_file(kept, from.part).data();
     to.degenerate = from.part.degenerate;
@@ -216,8 +217,8 @@ treeform_code treeform_color_pairs(treeform_file* file, const treeform_part* par
 }
 
 treeform_code treeform_self_intersections_of_file(const char* input,
-                                                  const treeform_search_file_options* options,
-                                                  treeform_search_result** result) {
+                                                  const treeform_stream_search_options* options,
+                                                  treeform_stream_search_result** result) {
     return glue::guard([&] {
         glue::start(result);
         return glue::give(tf::self_intersections_of_file(std::string(&glue::need(input, "input")),
@@ -234,41 +235,44 @@ treeform_code treeform_is_searched_in_tiles(const char* path, const char* format
     });
 }
 
-treeform_code treeform_search_create(const char* path, const treeform_search_file_options* options,
-                                     treeform_search** search) {
+treeform_code treeform_shared_search_create(const char* path,
+                                            const treeform_stream_search_options* options,
+                                            treeform_shared_search** search) {
     return glue::guard([&] {
         glue::start(search);
         return glue::give(
-            glue::search_create(std::string(&glue::need(path, "path")), glue::read(options)),
+            glue::shared_search_create(std::string(&glue::need(path, "path")), glue::read(options)),
             search);
     });
 }
 
-treeform_code treeform_search_scatter(treeform_search* search, size_t* result) {
+treeform_code treeform_shared_search_scatter(treeform_shared_search* search, size_t* result) {
     return glue::guard([&] {
         (void)glue::need(result, "result");
-        *result = glue::search_scatter(glue::content(search, "search"));
+        *result = glue::shared_search_scatter(glue::content(search, "search"));
     });
 }
 
-treeform_code treeform_search_unfinished(treeform_search* search, treeform_indices** indices) {
+treeform_code treeform_shared_search_unfinished(treeform_shared_search* search,
+                                                treeform_indices** indices) {
     return glue::guard([&] {
         glue::start(indices);
-        return glue::give(glue::search_unfinished(glue::content(search, "search")), indices);
+        return glue::give(glue::shared_search_unfinished(glue::content(search, "search")), indices);
     });
 }
 
-treeform_code treeform_search_tile(treeform_search* search, size_t tile) {
-    return glue::guard([&] { glue::search_tile(glue::content(search, "search"), tile); });
+treeform_code treeform_shared_search_tile(treeform_shared_search* search, size_t tile) {
+    return glue::guard([&] { glue::shared_search_tile(glue::content(search, "search"), tile); });
 }
 
-treeform_code treeform_search_finish(treeform_search* search, treeform_search_result** result) {
+treeform_code treeform_shared_search_finish(treeform_shared_search* search,
+                                            treeform_stream_search_result** result) {
     return glue::guard([&] {
         glue::start(result);
-        return glue::give(glue::search_finish(glue::content(search, "search")), result);
+        return glue::give(glue::shared_search_finish(glue::content(search, "search")), result);
     });
 }
 
-treeform_code treeform_search_remove_folder(treeform_search* search) {
-    return glue::guard([&] { glue::search_remove_folder(glue::content(search, "search")); });
+treeform_code treeform_shared_search_remove_folder(treeform_shared_search* search) {
+    return glue::guard([&] { glue::shared_search_remove_folder(glue::content(search, "search")); });
 }

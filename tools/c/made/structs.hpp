@@ -50,9 +50,9 @@ void fill(keeper& kept, const tf::intersection_result& from, treeform_pairs& to)
 void fill(keeper& kept, const tf::intersection_region& from, treeform_region& to);
 void fill(keeper& kept, const tf::curve_path& from, treeform_path& to);
 void fill(keeper& kept, const tf::curve_network& from, treeform_paths& to);
-[[nodiscard]] tf::stream_search_options read(const treeform_search_file_options* options);
-[[nodiscard]] tf::stream_search_options read(const treeform_search_file_options& o);
-void fill(keeper& kept, const tf::stream_search_result& from, treeform_search_result& to);
+[[nodiscard]] tf::stream_search_options read(const treeform_stream_search_options* options);
+[[nodiscard]] tf::stream_search_options read(const treeform_stream_search_options& o);
+void fill(keeper& kept, const tf::stream_search_result& from, treeform_stream_search_result& to);
 [[nodiscard]] tf::boolean_options read(const treeform_boolean_options* options);
 [[nodiscard]] tf::boolean_options read(const treeform_boolean_options& o);
 void fill(keeper& kept, const tf::operand_volumes& from, treeform_volumes& to);

@@ -34,11 +34,11 @@ py::object self_intersections_of_file(const std::filesystem::path& path,
     }));
 }
 
-struct shared_search : tf::stream_search {
-    using tf::stream_search::stream_search;
+struct shared_search : tf::shared_search {
+    using tf::shared_search::shared_search;
     /// The number of tiles.
     [[nodiscard]] std::size_t scatter() {
-        return stream_search::scatter() == tf::status::ok ? tiles() : 0;
+        return shared_search::scatter() == tf::status::ok ? tiles() : 0;
     }
     [[nodiscard]] tf::status do_tile(std::size_t tile) { return search_tile(tile); }
 };

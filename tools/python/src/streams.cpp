@@ -39,7 +39,7 @@ py::object weld_stream(const tf::cloud_inputs& inputs, tf::weld_stream_options o
 // ---- step by step, by many processes ----
 
 struct shared_weld {
-    tf::stream_weld work;
+    tf::shared_weld work;
     bool looked = false;
 
     [[nodiscard]] tf::status take_survey() {
@@ -79,7 +79,7 @@ std::unique_ptr<weld_in_steps> weld_of(const tf::cloud_inputs& inputs,
     return run([&](const tf::progress_callback&) {
         return std::make_unique<weld_in_steps>([&](const step_progress& progress) {
             options.progress = std::ref(progress);
-            return shared_weld{tf::stream_weld(inputs, options)};
+            return shared_weld{tf::shared_weld(inputs, options)};
         });
     });
 }

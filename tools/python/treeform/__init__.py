@@ -25,7 +25,7 @@ from ._cuts import (CutPiece, CutPieces, MassProperties, MeshPart, Section, Sect
 from ._errors import Cancelled, CertificateError, Error, FileError, NotCertifiedError, NotSolidError
 from ._files import Written, read, write
 from ._from_others import from_meshio, from_open3d, from_pyvista, from_trimesh, from_vtk
-from ._intersections import (FacePairs, FilePairs, KINDS, Region, StreamSearch, faces_in_box,
+from ._intersections import (FacePairs, FilePairs, KINDS, Region, SharedSearch, faces_in_box,
                              intersection_curves, intersection_regions, mesh_intersections,
                              self_intersections, self_intersections_of_file)
 from ._mesh import Mesh, MeshLike
@@ -48,7 +48,7 @@ from ._shapes import (Isoline, Isolines, OffsetResult, OrientedBox, SimplifyResu
 from ._show import Picture, View, plot, show
 from ._threads import thread_count, threads
 from ._trees import BoxTree, Neighbors, PointTree
-from ._weld import StreamWeld, WeldResult, WeldStreamResult, count_nearly_equal, weld, weld_stream
+from ._weld import SharedWeld, WeldResult, WeldStreamResult, count_nearly_equal, weld, weld_stream
 
 __all__ = ["Alignment", "AllRayHits", "Attributes", "BooleanResult", "BoxTree", "Cancelled",
            "Certificate", "CertificateError", "ClashResult", "ClosestPoints", "Contacts",
@@ -58,8 +58,8 @@ __all__ = ["Alignment", "AllRayHits", "Attributes", "BooleanResult", "BoxTree", 
            "MeshPart", "NONE", "NearestPoints", "Neighbors", "NotCertifiedError", "NotSolidError",
            "OffsetResult", "OrientedBox", "PackedPart", "Packing", "PartClash", "Picture",
            "Placement", "PointTree", "PoseClashes", "RELATIONS", "RayHits", "Region",
-           "RepairResult", "Robot", "SearchEffort", "Section", "SectionLoop", "SimplifyResult",
-           "SolidDefects", "StreamSearch", "StreamWeld", "Thickness", "Topology", "View",
+           "RepairResult", "Robot", "SearchEffort", "Section", "SectionLoop", "SharedSearch",
+           "SharedWeld", "SimplifyResult", "SolidDefects", "Thickness", "Topology", "View",
            "WeldResult", "WeldStreamResult", "Written", "__version__", "align", "boolean",
            "check_poses", "check_solid", "clash", "clip", "closest_point", "closest_points",
            "components", "concatenate", "contains", "convex_hull", "count_inside_out",

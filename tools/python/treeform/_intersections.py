@@ -18,7 +18,7 @@ from ._progress import Progress
 from ._results import Result
 from ._steps import Communicator, InSteps, in_communicator
 
-__all__ = ["FacePairs", "FilePairs", "KINDS", "Region", "StreamSearch", "faces_in_box",
+__all__ = ["FacePairs", "FilePairs", "KINDS", "Region", "SharedSearch", "faces_in_box",
            "intersection_curves", "intersection_regions", "mesh_intersections",
            "self_intersections", "self_intersections_of_file"]
 # end
@@ -83,7 +83,7 @@ class FilePairs(FacePairs):
         return self.face_in_file[self.pairs]
 
 
-class StreamSearch(InSteps[_core.SearchInSteps]):
+class SharedSearch(InSteps[_core.SearchInSteps]):
     """`self_intersections_of_file` step by step, for many processes, of one machine or of several
     that see the folder: those of Dask, of Slurm, of `multiprocessing`.
 
@@ -99,12 +99,12 @@ class StreamSearch(InSteps[_core.SearchInSteps]):
     >>> import tempfile, treeform
     >>> with tempfile.TemporaryDirectory() as home:
     ...     options = dict(folder=home + "/tiles", faces_per_tile=100)
-    ...     with treeform.StreamSearch("data/two_spheres.stl", **options) as first:
+    ...     with treeform.SharedSearch("data/two_spheres.stl", **options) as first:
     ...         count = first.scatter()
     ...     for tile in range(count):  # in as many processes as there are
-    ...         with treeform.StreamSearch("data/two_spheres.stl", **options) as one:
+    ...         with treeform.SharedSearch("data/two_spheres.stl", **options) as one:
     ...             one.search_tile(tile)
-    ...     with treeform.StreamSearch("data/two_spheres.stl", **options) as last:
+    ...     with treeform.SharedSearch("data/two_spheres.stl", **options) as last:
     ...         found = last.finish()
     ...         last.remove_folder()
     >>> count > 1, len(found)

@@ -18,7 +18,7 @@ from ._progress import Progress
 from ._results import Result
 from ._steps import Communicator, InSteps, in_communicator
 
-__all__ = ["StreamWeld", "WeldResult", "WeldStreamResult", "count_nearly_equal", "weld",
+__all__ = ["SharedWeld", "WeldResult", "WeldStreamResult", "count_nearly_equal", "weld",
            "weld_stream"]
 # end
 
@@ -65,7 +65,7 @@ def streamed(inputs: _core.CloudInputs, how: _core.WeldStreamOptions, out: Path,
         progress=progress))
 
 
-class StreamWeld(InSteps[_core.WeldInSteps]):
+class SharedWeld(InSteps[_core.WeldInSteps]):
     """`weld_stream` step by step, for many processes, of one machine or of several that see the
     folder: those of Dask, of Slurm, of `multiprocessing`.
 
@@ -84,12 +84,12 @@ class StreamWeld(InSteps[_core.WeldInSteps]):
     ...     cloud = os.path.join(home, "cloud.xyz")
     ...     _ = treeform.write(cloud, ([[x, 0, 0] for x in range(1000)], []))
     ...     options = dict(tolerance=1.5, points_per_tile=100)
-    ...     with treeform.StreamWeld(cloud, **options) as first:
+    ...     with treeform.SharedWeld(cloud, **options) as first:
     ...         count = first.scatter()
     ...     for tile in range(count):  # in as many processes as there are
-    ...         with treeform.StreamWeld(cloud, **options) as one:
+    ...         with treeform.SharedWeld(cloud, **options) as one:
     ...             one.weld_tile(tile)
-    ...     with treeform.StreamWeld(cloud, **options) as last:
+    ...     with treeform.SharedWeld(cloud, **options) as last:
     ...         done = last.finish(os.path.join(home, "thin.xyz"))
     ...         last.remove_folder()
     >>> count > 1, done.kept

@@ -159,7 +159,7 @@ struct stream_search_options {
     std::uint64_t memory = 0;        ///< limit in bytes; 0: three quarters of the machine's memory
     std::filesystem::path folder{};  ///< of the tiles; empty: the input's name and ".search-tiles"
     std::uint64_t faces_per_tile = 0;       ///< approximate limit; 0: as the memory allows
-    treeform::communicator communicator{};  ///< not for `stream_search`
+    treeform::communicator communicator{};  ///< not for `shared_search`
     /// Called with the step ("scatter", "pairs") and its completed share, 0 to 1. Returning false
     /// cancels.
     std::function<bool(std::string_view, double)> progress{};
@@ -208,7 +208,7 @@ struct stream_search_result {
 ///
 /// All processes must use the same input and options. Steps throw as `self_intersections_of_file`.
 /// They return status::cancelled if `progress` returned false, else status::ok.
-class TREEFORM_API stream_search {
+class TREEFORM_API shared_search {
   public:
     /// Whether the file has a format that can be searched in tiles.
     ///
@@ -216,10 +216,10 @@ class TREEFORM_API stream_search {
     [[nodiscard]] static bool accepts(const std::filesystem::path& input,
                                       std::string_view format = {});
 
-    stream_search(std::filesystem::path input, stream_search_options options);
-    ~stream_search();
-    stream_search(stream_search&&) noexcept;
-    stream_search& operator=(stream_search&&) noexcept;
+    shared_search(std::filesystem::path input, stream_search_options options);
+    ~shared_search();
+    shared_search(shared_search&&) noexcept;
+    shared_search& operator=(shared_search&&) noexcept;
 
     /// Writes the faces of each tile, unless already done.
     [[nodiscard]] status scatter();

@@ -54,7 +54,7 @@ struct weld_stream_options {
     std::filesystem::path folder{};     ///< for the tiles; empty: the input's name and ".tiles"
     std::uint64_t points_per_tile = 0;  ///< at most about this many; 0: as the memory allows
     treeform::communicator communicator{};
-    bool shared = false;  ///< see `stream_weld`
+    bool shared = false;  ///< see `shared_weld`
     /// Gets the step ("survey", "scatter", "weld", "borders", "write"), its share; false cancels.
     std::function<bool(std::string_view, double)> progress{};
     std::function<void()> step_done{};  ///< called after what an interruption does not undo
@@ -166,13 +166,13 @@ TREEFORM_API weld_stream_result weld_stream(const std::filesystem::path& input,
 /// all have ended, one calls `check_tiles`, `weld`, `write` and `remove_folder`. A tile that is
 /// finished is not welded again, and two that weld one tile at the same time write the same. `weld`
 /// takes the folder alone.
-class TREEFORM_API stream_weld {
+class TREEFORM_API shared_weld {
   public:
     /// Takes the folder. Who has it alone removes what a killed run has left elsewhere.
-    stream_weld(cloud_inputs inputs, weld_stream_options options);
-    ~stream_weld();
-    stream_weld(stream_weld&&) noexcept;
-    stream_weld& operator=(stream_weld&&) noexcept;
+    shared_weld(cloud_inputs inputs, weld_stream_options options);
+    ~shared_weld();
+    shared_weld(shared_weld&&) noexcept;
+    shared_weld& operator=(shared_weld&&) noexcept;
 
     /// Reads the cloud, or what an earlier run has kept of it, and decides where to cut it.
     [[nodiscard]] status take_survey();

@@ -194,7 +194,7 @@ TREEFORM_C_API treeform_code treeform_color_pairs(treeform_file* file, const tre
                                                   const treeform_face_pair* pairs, size_t count);
 
 /// How to search a file that is larger than memory.
-typedef struct treeform_search_file_options {
+typedef struct treeform_stream_search_options {
     size_t size;
     /// none: by coordinates for STL, else by index; a `treeform_vertices`, or -1
     int32_t vertices;
@@ -206,14 +206,14 @@ typedef struct treeform_search_file_options {
     uint64_t faces_per_tile;  ///< approximate limit; 0: as the memory allows
     treeform_progress progress;
     void* progress_data;
-    const treeform_communicator* communicator;  ///< not for `stream_search`; or null
-} treeform_search_file_options;
+    const treeform_communicator* communicator;  ///< not for `shared_search`; or null
+} treeform_stream_search_options;
 /// Sets the defaults.
-TREEFORM_C_API void treeform_search_file_options_init(treeform_search_file_options* options,
-                                                      size_t size);
+TREEFORM_C_API void treeform_stream_search_options_init(treeform_stream_search_options* options,
+                                                        size_t size);
 
 /// What was found in the file.
-typedef struct treeform_search_result {
+typedef struct treeform_stream_search_result {
     void* owner;
     treeform_arrays mesh;          ///< only the faces that meet others
     const uint32_t* face_in_file;  ///< [F] their numbers in the file
@@ -227,7 +227,7 @@ typedef struct treeform_search_result {
     size_t tiles;
     size_t finished_tiles;  ///< tiles finished by an earlier run
     uint64_t non_finite;    ///< triangles that are not finite
-} treeform_search_result;
+} treeform_stream_search_result;
 
 /// The pairs that `treeform_self_intersections` finds in the usable part of a file, for files
 /// larger than memory: binary STL, and PLY with vertices before faces. Space is cut into tiles.
@@ -237,9 +237,9 @@ typedef struct treeform_search_result {
 ///
 /// If the process is killed, the folder stays, and the same call resumes there. With several
 /// ranks, rank 0 makes the tiles, all ranks search them, and rank 0 gets the result.
-TREEFORM_C_API treeform_code
-treeform_self_intersections_of_file(const char* input, const treeform_search_file_options* options,
-                                    treeform_search_result** result);
+TREEFORM_C_API treeform_code treeform_self_intersections_of_file(
+    const char* input, const treeform_stream_search_options* options,
+    treeform_stream_search_result** result);
 
 /// Whether the file is of a format that is searched in tiles; an error when it cannot be read, or
 /// its header is damaged. `format` may be null.
@@ -248,31 +248,33 @@ TREEFORM_C_API treeform_code treeform_is_searched_in_tiles(const char* path, con
 // end
 
 /// The same search step by step, for many processes that share a folder.
-typedef struct treeform_search treeform_search;
+typedef struct treeform_shared_search treeform_shared_search;
 // made of the headers of C++:
-//   search_create() search_scatter() search_unfinished() search_tile() search_finish()
-//   search_remove_folder()
+//   shared_search_create() shared_search_scatter() shared_search_unfinished()
+//   shared_search_tile() shared_search_finish() shared_search_remove_folder()
 /// Begins: all processes give the same input and options. Only the progress of `options` may
 /// differ.
-TREEFORM_C_API treeform_code treeform_search_create(const char* path,
-                                                    const treeform_search_file_options* options,
-                                                    treeform_search** search);
+TREEFORM_C_API treeform_code
+treeform_shared_search_create(const char* path, const treeform_stream_search_options* options,
+                              treeform_shared_search** search);
 
 /// Gives each tile its faces, unless they have them; `tiles` is their number. One process does it.
-TREEFORM_C_API treeform_code treeform_search_scatter(treeform_search* search, size_t* result);
+TREEFORM_C_API treeform_code treeform_shared_search_scatter(treeform_shared_search* search,
+                                                            size_t* result);
 
 /// The tiles that are to be searched.
-TREEFORM_C_API treeform_code treeform_search_unfinished(treeform_search* search,
-                                                        treeform_indices** indices);
+TREEFORM_C_API treeform_code treeform_shared_search_unfinished(treeform_shared_search* search,
+                                                               treeform_indices** indices);
 
 /// Searches a tile, unless that is done. Each process does its share.
-TREEFORM_C_API treeform_code treeform_search_tile(treeform_search* search, size_t tile);
+TREEFORM_C_API treeform_code treeform_shared_search_tile(treeform_shared_search* search,
+                                                         size_t tile);
 
 /// Puts together what was found, when all tiles are searched. Steps that come before their turn
 /// fail, and end the search.
-TREEFORM_C_API treeform_code treeform_search_finish(treeform_search* search,
-                                                    treeform_search_result** result);
+TREEFORM_C_API treeform_code treeform_shared_search_finish(treeform_shared_search* search,
+                                                           treeform_stream_search_result** result);
 
 /// Removes the folder.
-TREEFORM_C_API treeform_code treeform_search_remove_folder(treeform_search* search);
+TREEFORM_C_API treeform_code treeform_shared_search_remove_folder(treeform_shared_search* search);
 // end
