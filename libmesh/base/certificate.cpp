@@ -58,19 +58,19 @@ std::string meeting_message(const certificate& c) {
     text += ", the first near " + place_of(c.meeting_at[0]);
     if (c.precision == precision::float32 && c.max_displacement > 0.0)
         text += ", where float32 numbers are " + detail::base::brief(step_at(c.meeting_at[0])) +
-                " apart; nearer to the origin they are closer";
+                " apart; they are denser near the origin";
     return text;
 }
 
 std::string vanished_message(const certificate& c) {
     if (c.vanished_faces == 0) return "nothing would be left";
-    return "nothing would be left: all of the exact result, " +
-           counted(c.vanished_faces, "face", "faces") + ", is thinner than " +
-           (c.precision == precision::float32 ? "float32" : "double") + " numbers tell apart there";
+    return "nothing would be left: the whole exact result (" +
+           counted(c.vanished_faces, "face", "faces") + ") is thinner than the spacing of " +
+           (c.precision == precision::float32 ? "float32" : "double") + " numbers there";
 }
 
 std::string loss_message(const certificate& c) {
-    if (c.size_before == 0.0) return "more of the input would be lost than is allowed";
+    if (c.size_before == 0.0) return "the loss would exceed the limit";
     return std::string("too much would be lost: the ") + (c.size_is_volume ? "volume" : "area") +
            " would fall from " + detail::base::brief(c.size_before) + " to " +
            detail::base::brief(c.size_after);
@@ -81,7 +81,7 @@ std::string loss_message(const certificate& c) {
 std::string certificate::message() const {
     switch (status) {
         case treeform::status::ok:
-            return "checked: all guarantees hold in the coordinates returned";
+            return "checked: all guarantees hold in the returned coordinates";
         case treeform::status::open_input:
             return open_message(*this);
         case treeform::status::sheet:
@@ -97,7 +97,7 @@ std::string certificate::message() const {
         case treeform::status::out_of_range:
             return "coordinates are too large" + when_rounded(*this);
         case treeform::status::no_place:
-            return "there is no such place";
+            return "there is no valid placement";
         case treeform::status::cancelled:
             return "stopped by its caller";
     }

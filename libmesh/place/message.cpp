@@ -22,7 +22,7 @@ std::string depth_of(const placement& p) {
 
 std::string too_far(const placement& p) {
     const std::string longest = shortest(p.max_travel.value_or(0.0));
-    if (p.below_bed > 0.0) return depth_of(p) + ", further than " + longest;
+    if (p.below_bed > 0.0) return depth_of(p) + ", but the largest travel is " + longest;
     if (p.travel > 0.0)
         return "the shortest translation found is longer than " + longest + ": " +
                shortest(p.travel);
@@ -52,7 +52,7 @@ std::string meeting_in_words(const placement& at, const body_set& moving, const 
 std::string loose_in_words(std::size_t motions) {
     if (motions == 0) return {};
     return "; " + counted(motions, "motion is", "motions are") +
-           " free: it slides or turns on the surface";
+           " not determined: the mesh can slide or turn on the surface";
 }
 
 }  // namespace
@@ -82,13 +82,13 @@ std::string placement::message(std::span<const std::string> names) const {
         case placement_end::starts_penetrating:
             return "penetrates " + other + " at the start";
         case placement_end::starts_too_near:
-            return "is nearer to " + other + " than the clearance at the start";
+            return "is closer to " + other + " than the clearance at the start";
         case placement_end::starts_touching:
-            return "touches " + other + " at the start, which leaves no clearance";
+            return "touches " + other + " at the start, so there is no clearance";
         case placement_end::starts_below_bed:
             return depth_of(*this);
         case placement_end::nothing_met:
-            return max_travel ? "nothing is met within " + shortest(*max_travel)
+            return max_travel ? "no contact within a travel of " + shortest(*max_travel)
                               : "nothing is in the way";
         case placement_end::too_far:
             return too_far(*this);
@@ -96,17 +96,18 @@ std::string placement::message(std::span<const std::string> names) const {
             if (effort.cut > 0)
                 return "no separating translation was found within " +
                        counted(effort.bound, "pair", "pairs") + " of faces";
-            return floats ? "rounded to float32 there is no such place"
-                          : "there is no such place in coordinates that can be written";
+            return std::string("no valid placement was found in ") +
+                   (floats ? "float32" : "double") + " coordinates";
         case placement_end::too_many_steps:
-            return "is undecided: it passes a fixed mesh too closely, over a long way";
+            return "the search took too many steps: the motion passes close to a fixed mesh over a "
+                   "long distance";
         case placement_end::out_of_range:
-            return std::string("is beyond the range of ") + (floats ? "float32" : "doubles") +
-                   " at its place";
+            return std::string("its coordinates at the new place would be beyond the range of ") +
+                   (floats ? "float32" : "double");
         case placement_end::cancelled:
             return "stopped by its caller";
         default:
-            return certificate ? "" : "there is no such place";
+            return certificate ? "" : "there is no valid placement";
     }
 }
 

@@ -216,7 +216,7 @@ point_survey survey(joined_points& points, const communicator& all, const share&
     if (!all.is_alone()) unite(all, failure, result, chosen, places, most);
     if (s.las_moved > 0.0)
         s.warnings.push_back(
-            {"las-grid", "coordinates are rounded to the steps of the LAS file, by at most " +
+            {"las-grid", "coordinates are rounded to the scale of the LAS file, by at most " +
                              base::brief(s.las_moved)});
     s.single = s.single && std::ranges::all_of(s.sources, is_single);
     result.sample = chosen.part();

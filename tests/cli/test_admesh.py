@@ -1,4 +1,4 @@
-"""What tf-repair writes, judged by admesh: nothing to mend, and the volume is ours."""
+"""What tf-repair writes, judged by admesh: nothing to repair, and the volume is ours."""
 
 import re
 

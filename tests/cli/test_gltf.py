@@ -43,7 +43,7 @@ class Reports(GltfTest):
             self.put_glb(name, Gltf([left, {"mesh": 0, "name": "right", **right}]))
             run = self.of(PLACE, "clash", name, status=1)
             self.assertIn("left and right: penetrating", run.text)
-            self.assertIn("volume in common 0.5", run.text)
+            self.assertIn("common volume 0.5", run.text)
             self.assertIn("volume 1.5", self.of(BOOLEAN, "union", name, "-o", "u.stl", "-f").text)
             self.assertAlmostEqual(volume_of_stl(self.read_bytes("u.stl")), 1.5)
 

@@ -88,10 +88,10 @@ class Help(ToolTest):
                                  .group(1).split()) for mode in MODES["place"] if mode != "check"}
         self.assertEqual(output["lay"], "MOVING at its new place")
         self.assertEqual(output["slide"],
-                         "MOVING at its new place; PLY, GLB without colors: faces that penetrate "
-                         "--fixed are red, touching yellow, closer than --clearance or stopped at "
-                         "it cyan")
-        self.assertTrue(output["measure"].startswith("MOVING where it is; PLY, GLB without"))
+                         "MOVING at its new place; in PLY and GLB, faces that penetrate --fixed "
+                         "are red, touching ones yellow, those within --clearance cyan, "
+                         "unless MOVING has colors")
+        self.assertTrue(output["measure"].startswith("MOVING as it is; in PLY and GLB, faces"))
         for mode in MODES["place"]:
             if mode != "drop":
                 self.assertNotIn("drop with", self.help_of("place", mode))

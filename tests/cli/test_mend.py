@@ -23,7 +23,7 @@ class Mend(ToolTest):
     def test_a_solid_comes_back_as_it_was(self):
         part = write(self.path("part.obj"), CLEAN)
         run = self.run_tool(part, "-o", "out.obj", status=0)
-        self.assertEqual(run.text, part + ": solid, 12 faces, volume 1 (was 1): nothing to mend\n")
+        self.assertEqual(run.text, part + ": solid, 12 faces, volume 1 (was 1): nothing to repair\n")
         self.assertEqual(obj_mesh(self.read("out.obj")), obj_mesh(self.read("part.obj")))
         self.assertEqual(run.err, "")
 
@@ -129,7 +129,7 @@ class Mend(ToolTest):
                 ("flat", (points, faces + [(0, 0, 1)]), 1, "1 face without area dropped"),
                 ("cracks", (gap, torn[1]), None, "crack edges closed"),
                 ("overlap", TWO_CUBES, 1.875, "pairs cut"),
-                ("touching", together(cube(), cube((1.0, 1.0, 0.0))), None, "set apart")]:
+                ("touching", together(cube(), cube((1.0, 1.0, 0.0))), None, "moved apart")]:
             with self.subTest(name):
                 part = write(self.path(name + ".obj"), mesh)
                 entry = self.mended(part, "-o", name + "-out.obj")
@@ -166,11 +166,11 @@ class Mend(ToolTest):
     def test_a_wrap_takes_no_steps_and_a_size_that_makes_sense(self):
         part = write(self.path("part.obj"), CLEAN)
         for arguments, said in [
-                (["--wrap", "1", "--gap", "1"], "--gap: --wrap takes none of the steps"),
-                (["--wrap", "1", "--no-fill"], "--no-fill: --wrap takes none of the steps"),
-                (["--offset", "1"], "--offset: needs --wrap"),
-                (["--wrap", "0"], "--wrap: SIZE is positive"),
-                (["--wrap", "1", "--offset", "0"], "--offset: DIST is positive"),
+                (["--wrap", "1", "--gap", "1"], "--gap: --wrap replaces all steps"),
+                (["--wrap", "1", "--no-fill"], "--no-fill: --wrap replaces all steps"),
+                (["--offset", "1"], "--offset needs --wrap"),
+                (["--wrap", "0"], "--wrap: expected a SIZE greater than 0"),
+                (["--wrap", "1", "--offset", "0"], "--offset: expected a DIST greater than 0"),
                 (["--wrap", "1e-7", "--precision", "float"], "is too small: coordinates are"),
                 (["--wrap", "x"], "--wrap")]:
             with self.subTest(arguments):
@@ -213,7 +213,7 @@ class Mend(ToolTest):
         self.assertIsNone(entry["repair"]["steps"]["fill"])
         self.assertEqual(obj_mesh(self.read("sheet.obj")), obj_mesh(self.read("hole.obj")))
         self.assertTrue(self.run_tool(hole, "--sheet", "-n", status=0).text.startswith(
-            hole + ": sheet, 11 faces, area 5.5: nothing to mend"))
+            hole + ": sheet, 11 faces, area 5.5: nothing to repair"))
         touching = write(self.path("two.obj"), together(cube(), cube((1.0, 1.0, 0.0))))
         entry = self.mended(touching, "--no-detach", "-n")
         self.assertIsNone(entry["repair"]["steps"]["detach"])
@@ -310,7 +310,7 @@ class Mend(ToolTest):
             first += len(points)
         self.put("scene.obj", "\n".join([*lines, ""]))
         run = self.run_tool("scene.obj", "-o", "out.3mf", status=0)
-        self.assertIn("2 parts, each a solid, 24 faces, volume 2 (was 2): nothing to mend",
+        self.assertIn("2 parts, each a solid, 24 faces, volume 2 (was 2): nothing to repair",
                       run.text)
         entry = self.mended("scene.obj", "-o", "again.3mf")
         self.assertEqual([(p["name"], p["faces"], p["solid"]) for p in entry["repair"]["parts"]],

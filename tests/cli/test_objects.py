@@ -77,7 +77,7 @@ class Objects(BooleanTest):
                                       ("c", (0, 0, 0), (0.5, 1, 1))))
         self.assertEqual(self.volume_of("difference", name="touching.3mf"), 0.5)
         self.assertEqual(self.volume_of("--expr", "b+c", name="touching.3mf"), 1.5)
-        self.assertIn("no part is named d; there are a, b, c",
+        self.assertIn("no part is named d; the parts are a, b, c",
                       self.run_tool("--expr", "a-d", "touching.3mf", "-n", status=2).err)
 
     def test_letters_are_names_where_all_are_names(self):
@@ -92,7 +92,7 @@ class Objects(BooleanTest):
         self.assertNotIn("objects", run.text)
         self.assertEqual(self.run_tool("union", "third.3mf", "-n", status=0).err, "")
         run = self.run_tool("difference", "third.3mf", "-n", status=0)
-        self.assertIn("third.3mf: one operand", run.err)
+        self.assertIn("third.3mf: there is only one operand", run.err)
         # Shells of one STL are one solid, and so are groups of an OBJ that are pieces of a surface.
         points, faces = box((0, 0, 0), (1, 1, 1))
         far, _ = box((0.5, 0, 0), (1.5, 1, 1))
@@ -102,7 +102,7 @@ class Objects(BooleanTest):
         self.put("groups.obj", "\n".join([*(f"v {x} {y} {z}" for x, y, z in points), "g lid",
                                           *lines[:2], "g rest", *lines[2:], ""]))
         run = self.run_tool("difference", "groups.obj", "-n", status=0)
-        self.assertIn("one operand, of parts that are pieces of one surface", run.err)
+        self.assertIn("there is only one operand, since its parts are pieces of one surface", run.err)
         self.assertIn("volume 1", run.text)
 
     def test_an_open_object_is_named(self):
@@ -113,7 +113,7 @@ class Objects(BooleanTest):
              *(f"v {x + 5} {y} {z}" for x, y, z in points),
              *("f " + " ".join(str(i + 9) for i in f) for f in faces[1:]), ""]))
         run = self.run_tool("difference", "open.obj", "-n", status=1)
-        self.assertIn("open.obj: hole: no solid", run.err)
+        self.assertIn("open.obj: hole: not a solid", run.err)
         self.assertEqual(self.run_tool("difference", "open.obj", "--repair", "-n",
                                        status=0).status, 0)
 
@@ -133,8 +133,8 @@ class Objects(BooleanTest):
         self.package("a.3mf", [("a", (0, 0, 0), (1, 1, 1))])
         self.package("b.3mf", [("b", (2, 0, 0), (3, 1, 1))], unit="inch")
         run = self.run_tool("union", "a.3mf", "b.3mf", "-o", "x.ply", status=0)
-        self.assertIn("b.3mf has the unit inch, a file before it the unit millimeter: numbers are "
-                      "taken as they are", run.err)
+        self.assertIn("b.3mf has the unit inch, an earlier input the unit millimeter; numbers are "
+                      "not converted", run.err)
         run = self.run_tool("union", "a.3mf", "a.3mf", "-o", "y.ply", status=0)
         self.assertNotIn("unit", run.err)
 
@@ -156,7 +156,7 @@ class Objects(BooleanTest):
         self.mesh("two.stl", turned_over(box((0.5, 0, 0), (1.5, 1, 1))))
         self.mesh("away.stl", turned_over(box((9, 0, 0), (10, 1, 1))))
         done = self.clash("one.stl", "two.stl", "away.stl", status=1)
-        self.assertIn("one and two: penetrating, at most 0.5 deep, volume in common 0.5",
+        self.assertIn("one and two: penetrating, at most 0.5 deep, common volume 0.5",
                       done.stdout)
         self.assertIn("warning: 3 inputs: two: is inside out", done.stderr)
         self.assertNotIn("away", done.stderr)
@@ -176,7 +176,7 @@ class Objects(BooleanTest):
         self.package("mirrored.3mf", (("one", (0, 0, 0), (1, 1, 1)), ("two", (0, 0, 0), (1, 1, 1))),
                      {"two": mirror})
         done = self.clash("mirrored.3mf", status=1)
-        self.assertIn("volume in common 0.5", done.stdout)
+        self.assertIn("common volume 0.5", done.stdout)
         self.assertEqual(done.stderr, "")
         self.assertEqual(self.volume_of("union", name="mirrored.3mf"), 1.5)
         self.put("mirror.txt", "-1 0 0 2\n0 1 0 0\n0 0 1 0\n0 0 0 1\n")

@@ -135,7 +135,7 @@ class Outputs(ToolTest):
         self.run_tool("a.obj", "--output-dir", "none", "--repair", "--first", status=2)
         self.assertNotIn("none", self.listing())
         self.put("file", "")
-        self.assertIn("no folder file",
+        self.assertIn("there is no folder file",
                       self.run_tool("a.obj", "--output-dir", "file", status=4).err)
         os.mkdir(self.path("other"))
         write(self.path("other/a.obj"), CLEAN)

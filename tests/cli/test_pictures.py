@@ -271,7 +271,7 @@ class Pictures(ToolTest):
                                  (("--png-size", "90x90"), "--png-size needs --png"),
                                  (("--png", "p.png", "--view", "above"), "above"),
                                  (("--png", "p.png", "--view", "above"), "right, all"),
-                                 (("--png", "p.jpg"), "p.jpg: a picture can be written as png"),
+                                 (("--png", "p.jpg"), "p.jpg: a picture is written as png"),
                                  (("--png", "p.png", "--view", "top,"), "--view"),
                                  (("--png", "p.png", "--png-size", "1600"), "1600x1200"),
                                  (("--png", "p.png", "--png-size", "0x9"), "16 to"),

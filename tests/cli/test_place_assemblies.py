@@ -36,7 +36,7 @@ class Assemblies(PlaceTest):
     def test_clash_names_parts_and_says_how_deep(self):
         run = self.run_tool("clash", "floor.obj", "part.obj", "near.obj")
         self.assertEqual(run.status, 1)
-        self.assertIn("floor and part: penetrating, at most 0.25 deep, volume in common 0.25",
+        self.assertIn("floor and part: penetrating, at most 0.25 deep, common volume 0.25",
                       run.text)
         self.assertIn("3 parts: 1 pair penetrates, 0 touch", run.text)
         entry = self.entry("clash", "floor.obj", "part.obj", "near.obj", status=1)
@@ -62,7 +62,7 @@ class Assemblies(PlaceTest):
         self.assertEqual(self.run_tool("clash", "bolts.obj", "--ignore", "bolt_?:plate").status, 0)
         self.assertEqual(self.run_tool("clash", "bolts.obj", "--ignore", "plate:bolt_1").status, 1)
         run = self.run_tool("clash", "bolts.obj", "--ignore", "nut:plate")
-        self.assertIn("--ignore nut:plate: names no pair of parts", run.err)
+        self.assertIn("--ignore nut:plate: no pair of parts matches", run.err)
         self.assertEqual(self.run_tool("clash", "bolts.obj", "--ignore", "plate").status, 2)
 
     def test_clash_keeps_a_clearance(self):
@@ -163,16 +163,16 @@ class Assemblies(PlaceTest):
                              "poses.jsonl:1: the value of joint bend is no number"),
                             ('{}\n{"bond": 1}\n', "poses.jsonl:2: there is no joint bond"),
                             ("1 2 3", "poses of a robot are lines of JSON"),
-                            ("{}\n{\n", "poses.jsonl:2: no JSON")):
+                            ("{}\n{\n", "poses.jsonl:2: not valid JSON")):
             self.put("poses.jsonl", text)
             run = self.run_tool("check", "robot.urdf", "--poses", "poses.jsonl")
             self.assertEqual(run.status, 3, msg=text)
             self.assertIn(words, run.err)
         for text, words in (('{"part": [1, 2]}', "a matrix has 16 numbers, not 2"),
-                            ('{"pert": []}', "there is no part pert"),
+                            ('{"pert": []}', "no part is named pert"),
                             ('{"part": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,1,1]]}',
                              "the last row of a matrix must be 0 0 0 1"),
-                            ("1 2 3", "ends in a pose"), ("a", "expected a number")):
+                            ("1 2 3", "the file ends within a pose"), ("a", "expected a number")):
             self.put("poses.jsonl", text)
             run = self.run_tool("check", "part.obj", "--poses", "poses.jsonl")
             self.assertEqual(run.status, 3, msg=text)
@@ -188,7 +188,7 @@ class Assemblies(PlaceTest):
 
     def test_measure_says_how_deep(self):
         run = self.run_tool("measure", "part.obj", "--fixed", "floor.obj")
-        self.assertIn("at most 0.25 deep: moved by (0, 0, 0.25) it is out of floor.obj", run.text)
+        self.assertIn("at most 0.25 deep: a translation by (0, 0, 0.25) moves it out of floor.obj", run.text)
         entry = self.entry("measure", "part.obj", "--fixed", "floor.obj", status=0)
         effort = entry["depth"].pop("effort")
         self.assertEqual(entry["depth"], {"bound": 0.25, "move": [0, 0, 0.25]})
@@ -214,8 +214,8 @@ class Assemblies(PlaceTest):
                 faces.append((3 * i, 3 * i + 1, 3 * i + 2))
             self.mesh(name, (points, faces))
         run = self.run_tool("measure", "needles.obj", "--fixed", "others.obj")
-        self.assertRegex(run.text, "deep: .*; the search ended after [0-9,]+ pairs of faces: "
-                                   "a shorter way may exist")
+        self.assertRegex(run.text, "deep: .*; the search ended after [0-9,]+ pairs of faces, so "
+ translation may exist")
         entry = self.entry("measure", "needles.obj", "--fixed", "others.obj", status=0)
         effort = entry["depth"]["effort"]
         self.assertLessEqual(effort["pairs"], effort["bound"])

@@ -96,7 +96,7 @@ class Clouds(PlaceTest):
 
     def test_pack_refuses_clouds_and_says_so(self):
         run = self.run_tool("pack", "cloud.xyz", "--size", "9,9", "-n", status=2)
-        self.assertIn("cloud.xyz: is a cloud of points", run.err)
+        self.assertIn("cloud.xyz: a point cloud", run.err)
 
     def test_any_number_of_threads_gives_the_same_report(self):
         self.cloud("many.xyz", *((i % 37 * 0.1, i % 41 * 0.1, 2 + i % 7 * 0.3)

@@ -123,7 +123,7 @@ class PlaceFeatures(PlaceTest):
         self.assertIn("has no axis", run.text)
         run = self.run_tool("mate", "pin.obj", "--fixed", "a.obj", "--feature", "axis",
                             "--pick-fixed", "2", "-n", status=1)
-        self.assertIn("the fixed mesh has no axis there", run.text)
+        self.assertIn("the fixed mesh has no axis at the picked face or point", run.text)
         for bad in (["--pick", "1"], ["--flip"], ["--feature", "line"],
                     ["--feature", "axis", "--pick", "x"], ["--feature", "axis", "--pick", "1,2"]):
             self.run_tool("mate", "pin.obj", "--fixed", "plate.obj", "-n", *bad, status=2)

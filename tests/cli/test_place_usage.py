@@ -46,7 +46,7 @@ class Usage(PlaceTest):
             self.assertIn(word, run.text)
 
     def test_modes_and_values_are_checked(self):
-        self.assertIn("no mode", self.refused("fly", "a.obj"))
+        self.assertIn("not a mode", self.refused("fly", "a.obj"))
         self.refused()
         self.refused("drop")
         for options in (["-d", "0,0,0"], ["-d", "1,2"], ["-d", "x"], ["-d", "0,0,nan"],
@@ -139,7 +139,7 @@ class Usage(PlaceTest):
             self.assertIn("is an input", err)
         self.assertIn("is an input", self.refused("drop", "a.obj", "--fixed", "floor.obj", "-n",
                                                   "--log", "./floor.obj"))
-        self.assertIn("read for other inputs", self.refused("drop", "a.obj", "floor.obj", "--fixed",
+        self.assertIn("is also read for other inputs", self.refused("drop", "a.obj", "floor.obj", "--fixed",
                                                             "./floor.obj", "--in-place"))
         self.assertEqual(self.read_bytes("floor.obj"), before)
         with open(self.path("m.txt"), "w") as file:

@@ -124,7 +124,7 @@ class Repair(ToolTest):
         part = write(self.path("part.obj"), ([tuple(1e-320 * x for x in p) for p in points], faces))
         for mode in ("outer", "split"):
             run = self.run_tool(part, f"--repair={mode}", "-o", "out.stl", status=1)
-            self.assertIn("thinner than float32 numbers tell apart", run.text)
+            self.assertIn("thinner than the spacing of float32 numbers", run.text)
             self.assertNotIn("out.stl", self.listing())
 
     def test_what_is_too_large_to_be_cut_is_bad_input(self):

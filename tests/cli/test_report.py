@@ -146,7 +146,7 @@ class Report(ToolTest):
                       self.run_tool("nan.stl", status=3).err)
         os.mkdir(self.path("empty"))
         self.assertEqual(self.run_tool("empty", status=3).err, "tf-selfintersect: error: empty: is "
-                         "a folder, with no file in it that is read\n")
+                         "a folder without any file in a supported format\n")
         self.assertEqual(self.report("empty")["files"][0]["error"]["code"], "read")
 
     def test_quiet_verbose_and_log(self):

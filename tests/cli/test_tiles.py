@@ -133,7 +133,7 @@ class Tiles(ToolTest):
             self.assertEqual(run.status, -signal.SIGKILL)
             self.assertIn("tiles", self.listing())
             again = self.run_tool("in.stl", "--tile-faces", 100, "--work", "tiles", "-v")
-            self.assertIn(f"{stop_at - 1} finished before" if stop_at > 1 else "searched in",
+            self.assertIn(f"{stop_at - 1} finished earlier" if stop_at > 1 else "searched in",
                           again.err)
             self.assertNotIn("tiles", self.listing())
         self.run_tool("in.stl", "--tile-faces", 100, "--work", "tiles", "--stop-at", 3)
@@ -170,7 +170,7 @@ class Tiles(ToolTest):
         weld = subprocess.run([WELD, "cloud.xyz", "-t", "1", "-o", "out.xyz", "--tile-points", "10",
                                "--work", "tiles"], cwd=self.folder, capture_output=True)
         self.assertEqual(weld.returncode, 4)
-        self.assertIn(b"that are not of this tool", weld.stderr)
+        self.assertIn(b"contains files of other programs", weld.stderr)
         self.assertEqual(self.run_tool("float.ply", *work, "--plan", status=0).text.split()[1],
                          str(tiles))
         for arguments, words in (
@@ -311,7 +311,7 @@ class Tiles(ToolTest):
             self.assertEqual(run.status, 128 + signal.SIGKILL)
             self.assertIn("tiles", self.listing())
             run = self.mpi((size + step) % 4 + 1, *work, "-v", status=1)
-            self.assertIn("finished before", run.err)
+            self.assertIn("finished earlier", run.err)
             self.assertNotIn("tiles", self.listing())
             self.assertEqual(self.read_bytes("pairs.csv"), expected[1])
 
@@ -322,7 +322,7 @@ class Tiles(ToolTest):
                 (["none.stl"], 3, "none.stl"), (["in.stl", "--within"], 2, "needs the whole mesh"),
                 (["in.stl", "--pairs", "none/p.csv"], 4, "no folder none"),
                 (["in.stl", "--work", "none/tiles"], 4, "none/tiles: cannot be made"),
-                (["in.stl", "float.ply"], 2, "mpirun: one INPUT"),
+                (["in.stl", "float.ply"], 2, "under mpirun, expected one INPUT"),
                 (["in.stl", "--work", "tiles", "--plan"], 2, "without mpirun"),
                 (["--help"], 0, "Exit status:")):
             run = self.mpi(3, *arguments, status=status)
@@ -379,7 +379,7 @@ class Tiles(ToolTest):
             self.assertIn(fault, self.run_tool(name, "--tile-faces", 10, status=3).err)
         self.put("foreign/file.txt", "mine")
         run = self.run_tool("in.stl", "--tile-faces", 10, "--work", "foreign", status=4)
-        self.assertIn("holds files that are not of this tool", run.err)
+        self.assertIn("contains files of other programs", run.err)
         self.assertEqual(self.read("foreign/file.txt"), "mine")
 
     @unittest.skipIf(not MODELS, "TREEFORM_MODELS_DIR is not set")

@@ -33,7 +33,7 @@ class Usage(ToolTest):
         self.refused(self.part, "--mend")
 
     def test_nothing_is_replaced_but_by_a_repaired_mesh(self):
-        self.assertIn("changes no mesh", self.refused(self.part, "--in-place"))
+        self.assertIn("--in-place needs --repair", self.refused(self.part, "--in-place"))
 
     def test_a_log_is_a_file(self):
         self.assertIn("stderr", self.refused(self.part, "--log", "-"))

@@ -129,7 +129,7 @@ class Verdict(ToolTest):
         # What is open for another reason is not said to become closed.
         fold = self.model((FOLD[0] + [(4, 1e-9, 0)], FOLD[1] + [(0, 4, 2)]))
         warning, = self.report(fold)["files"][0]["warnings"]
-        self.assertTrue(warning["text"].endswith("; -t 0.0001% would join them"))
+        self.assertTrue(warning["text"].endswith("; -t 0.0001% joins them"))
 
     def test_the_box_takes_the_faces_that_meet_it(self):
         part = self.model(together(CROSSING, ([(p[0] + 100, p[1], p[2]) for p in CROSSING[0]],

@@ -161,7 +161,7 @@ class Attributes(WeldTest):
         for option in (["--drop", "none"], ["--rename", "none=b"]):
             self.assertIn("no such property; the points have intensity",
                           self.run_tool("in.las", *option, "-o", "n.csv", status=3).err)
-        self.assertIn("red already", self.run_tool("in.las", "--rename", "blue=red", "-o", "n.csv",
+        self.assertIn("red already exists", self.run_tool("in.las", "--rename", "blue=red", "-o", "n.csv",
                                                    status=3).err)
         self.run_tool("in.las", "--drop", "red", "--check", status=2)
 
@@ -209,7 +209,7 @@ class Attributes(WeldTest):
         self.write("a.las", las_file(points, scale=1e-7))
         self.write("b.las", las_file(points, scale=1.5e-7, offset=(1000.0, 0.0, 0.0)))
         said = self.both("a.las", "b.las", "--join", out="out.las")
-        self.assertIn("rounded to the steps of the LAS file", said[0])
+        self.assertIn("rounded to the scale of the LAS file", said[0])
 
 
 if __name__ == "__main__":

@@ -339,7 +339,7 @@ class Large(WeldTest):
         self.write("in.stl", 80 * b" " + struct.pack("<I", 800000))
         os.truncate(self.path("in.stl"), 84 + 50 * 800000)  # more than the memory
         run = self.run_tool(*command, "--memory", "32M", status=5)
-        self.assertIn("--memory is not enough for 41 MB of file", run.err)
+        self.assertIn("--memory is not enough for a file of 41 MB", run.err)
 
     def check_too_little(self, cases, memories):
         """Of each (rule, tolerance, further options)."""

@@ -145,7 +145,7 @@ class Shared(WeldTest):
             run = self.run_tool(*work, *gives, "--tile-points", 300, "--stop-at", stop)
             self.assertEqual(run.status, -signal.SIGKILL)
             run = self.run_tool(*work, *gives, "--tile-points", 300, "-v", status=0)
-            self.assertIn("finished before", run.err)
+            self.assertIn("finished earlier", run.err)
             self.assertEqual(self.written(names), expected)
         for size in (2, 5) if MPIRUN and not SANITIZED else ():
             self.mpi(size, *work, *gives, "--tile-points", 300)
@@ -196,9 +196,9 @@ class Shared(WeldTest):
             self.write(f"tiles/{victim}.drops", damage)
             run = self.run_tool(*work, "--finish", "-o", "out.ply", status=3)
             self.assertIn(f"tile {victim} is not finished, or not as written", run.err)
-            self.assertNotIn("done again", run.err)
+            self.assertNotIn("is welded again", run.err)
             run = self.run_tool(*work, "--tile", victim, status=0)
-            self.assertIn("not what was written; done again", run.err)
+            self.assertIn("are damaged; it is welded again", run.err)
             self.assertEqual(self.read_bytes(f"tiles/{victim}.drops"), whole[victim])
             self.run_tool(*work, "--finish", "-o", "out.ply", status=0)
             self.assertEqual(self.written(), expected)
@@ -217,12 +217,12 @@ class Shared(WeldTest):
                 (["--tile", 0, *work, "-o", "out.ply"], 2, "--plan and --tile write no output"),
                 (["--tile", 0, *work], 3, "holds no tiles of this input"),
                 (["--finish", *work, "-o", "out.ply"], 3, "holds no tiles of this input"),
-                (["--finish", *work], 2, "nothing to give back"),
+                (["--finish", *work], 2, "no output: -o FILE"),
                 (["in.ply", "--plan", *work], 2, "take one INPUT")):
             run = self.run_tool("in.ply", "-t", "0.1", *arguments, status=status)
             self.assertIn(words, run.err)
             self.assertEqual(self.listing(), ["in.ply"])
-        self.assertIn("files only, no pipes",
+        self.assertIn("expected files",
                       self.run_tool("-", "-t", "0.1", "--plan", *work, status=2).err)
         self.run_tool("in.ply", "-t", "0.02", "--plan", "--tile-points", 300, *work, status=0)
         self.assertIn("there are only",
@@ -418,8 +418,8 @@ class Shared(WeldTest):
                 (["in.ply", "-t", "0.1", "-o", "there.ply"], 4, "there.ply: exists"),
                 (["in.ply", "-t", "0.1", "--map", "there.ply"], 4, "there.ply: exists"),
                 (["in.ply", "--same", "color", "-o", "out.ply"], 3, "no such property"),
-                (["in.ply", "-t", "0.1"], 2, "nothing to give back"),
-                (["in.fifo", "-t", "0.1", "-o", "out.ply"], 2, "files only, no pipes")):
+                (["in.ply", "-t", "0.1"], 2, "no output: -o FILE"),
+                (["in.fifo", "-t", "0.1", "-o", "out.ply"], 2, "expected files")):
             run = self.mpi(3, *arguments, status=status)
             self.assertEqual(run.err.count(words), 1, msg=run.err)
             self.assertEqual(self.listing(), ["in.fifo", "in.ply", "there.ply"])

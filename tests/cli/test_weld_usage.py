@@ -19,7 +19,7 @@ class Usage(WeldTest):
         run = self.run_tool("--help", status=0)
         self.assertTrue(run.text.startswith("Usage: tf-weld [OPTIONS] INPUT..."))
         self.assertEqual([line for line in run.text.splitlines() if len(line) > 80], [])
-        for word in ("What is merged:", "Which one stays:", "Output:", "Meshes:",
+        for word in ("What is merged:", "Which point of a group is kept:", "Output:", "Meshes:",
                      "Common options:", "Examples:", "Exit status:", "--join", "--tolerance",
                      "--rule", "--same", "--across", "--borders", "--keep", "--order", "--map",
                      "--removed", "--label", "--withhold", "--check", "--keep-degenerate",

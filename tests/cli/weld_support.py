@@ -65,7 +65,7 @@ class WeldTest(ToolTest):
             self.assertEqual(run.status, 128 + signal.SIGKILL)
             self.assertEqual(self.listing(), [work[0], "tiles"])
             run = self.mpi(self.rng.choice((1, 2, 4)), *work, "-v")
-            self.assertIn("finished before", run.err)
+            self.assertIn("finished earlier", run.err)
             self.assertEqual(self.written(), expected)
         self.fail("more than 100 steps")
 

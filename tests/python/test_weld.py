@@ -150,7 +150,7 @@ def test_what_las_rounds_is_said(tmp_path):
     inputs = [tmp_path / "a.las", tmp_path / "b.las"]
     done = tf.weld_stream(inputs, tmp_path / "c.las", as_las=True)
     assert 0.001 < done.max_displacement < 0.005
-    assert any("rounded to the steps of the LAS file" in text for text in done.warnings)
+    assert any("rounded to the scale of the LAS file" in text for text in done.warnings)
     with tf.SharedWeld(inputs, as_las=True, folder=tmp_path / "tiles") as work:
         for tile in range(work.scatter()):
             work.weld_tile(tile)

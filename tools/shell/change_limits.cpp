@@ -14,7 +14,7 @@ void add_max_move(command_line& line, change_limits& target) {
 void add_max_loss(command_line& line, change_limits& target) {
     line.option({"--max-loss", "SHARE", "fail (exit 1) if more of the solid is lost", "5%"},
                 [&t = target.max_loss](std::string_view v) { t = parse_share("--max-loss", v); });
-    line.flag(target.accept_loss, {"--accept-loss", "", "write the result even so"});
+    line.flag(target.accept_loss, {"--accept-loss", "", "write the result even if more is lost"});
 }
 
 std::string move_objection(json& entry, const change_limits& limits, double diagonal,
@@ -29,8 +29,8 @@ std::string move_objection(json& entry, const change_limits& limits, double diag
     return "a point would move by " + brief(moved * (1.0 + 5e-6)) + ", more than " +
            brief(allowed) + " (--max-move)" +
            (known.precision == tf::precision::float32
-                ? "; --precision double with -o as PLY, OBJ or OFF does not round so far, nor does "
-                  "moving the inputs to the origin first"
+                ? "; to reduce rounding, write PLY, OBJ or OFF with --precision double, or first "
+                  "move the inputs near the origin"
                 : "");
 }
 

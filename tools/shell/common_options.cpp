@@ -95,12 +95,12 @@ void add_picture_options(command_line& line, common_options& o) {
                         "a picture in the colors of the page; needs no\n"
                         "display and no browser"});
     line.option({"--view", "V,...",
-                 "of --png: iso top bottom front back left right;\n"
+                 "views in --png: iso top bottom front back left right;\n"
                  "several are drawn side by side; all is\n"
                  "iso,top,front,right",
                  "iso"},
                 [&o](std::string_view value) { o.picture.views = parse_views(value); });
-    line.option({"--png-size", "WxH", "of --png, in pixels", "1600x1200"},
+    line.option({"--png-size", "WxH", "size of --png in pixels", "1600x1200"},
                 [&o](std::string_view value) { parse_picture_size(value, o.picture); });
 }
 
@@ -111,8 +111,8 @@ void add_run_options(command_line& line, common_options& o) {
                     if (count < 1 || count > 1024) refuse("--threads: expected 1 to 1024");
                     o.threads = static_cast<unsigned>(count);
                 });
-    line.option({"--memory", "SIZE", "stay below SIZE (4G, 512M; none: no limit) or stop",
-                 "what is free at the start"},
+    line.option({"--memory", "SIZE", "memory limit, such as 4G or 512M; none: no limit",
+                 "memory free at the start"},
                 [&o](std::string_view value) {
                     o.all_memory = value == "none";
                     o.memory = o.all_memory ? 0 : parse_size("--memory", value);
@@ -163,8 +163,8 @@ void check_outputs(const command_line& line, const common_options& o) {
     if (o.inputs.size() < 2 || o.joined) return;
     for (const fs::path& path : outputs)
         if (path != o.report)
-            refuse(path.string() + ": one output file, but " + std::to_string(o.inputs.size()) +
-                   " inputs; -r takes several, meshes go to --output-dir");
+            refuse(path.string() + ": one output file for " + std::to_string(o.inputs.size()) +
+                   " inputs; only -r takes several inputs; --output-dir writes a mesh for each");
 }
 
 void check_in_place(const common_options& o) {
@@ -248,14 +248,14 @@ void check_common_options(const command_line& line, const common_options& option
     };
     if (from_standard_input(options.inputs) + from_standard_input(options.also_read) > 1)
         refuse("standard input can be read only once");
-    if (options.log == "-") refuse("--log -: what is said goes to stderr anyway; expected a FILE");
+    if (options.log == "-") refuse("--log -: messages go to stderr anyway; expected a FILE");
     if (options.output == "-" && options.output_format.empty())
         refuse("-o - needs --output-format");
     if (!options.output.empty()) static_cast<void>(mesh_format(options, options.output));
     for (const char* name : {"--view", "--png-size"})
         if (options.png.empty() && line.given(name)) refuse(std::string(name) + " needs --png");
     if (const std::string format = extension_of(options.png); !format.empty() && format != "png")
-        refuse(options.png.string() + ": a picture can be written as png");
+        refuse(options.png.string() + ": a picture is written as png");
     check_format(options);
     check_outputs(line, options);
     check_output_folder(options);
@@ -266,16 +266,16 @@ void check_files(const command_line& line, const common_options& options) {
     file_names read;
     for (const auto& input : options.inputs)
         if (input != "-" && !read.add(input) && options.in_place)
-            refuse(input + " is named twice; --in-place replaces a file once");
+            refuse(input + " is given twice; --in-place replaces a file once");
     for (const auto& other : options.also_read)
         if (options.in_place && read.holds(other))
-            refuse(other + " is read for other inputs, too; --in-place may not replace it");
+            refuse(other + " is also read for other inputs; --in-place may not replace it");
     for (const auto& other : options.also_read)
         if (other != "-") read.add(other);
     file_names written;
     for (const fs::path& path : written_files(line, options)) {
         if (read.holds(path)) refuse(path.string() + " is an input; no output may replace it");
-        if (!written.add(path)) refuse(path.string() + " is named for two outputs");
+        if (!written.add(path)) refuse(path.string() + " is given for two outputs");
     }
 }
 
@@ -285,8 +285,8 @@ void require_output(const command_line& line, const common_options& options,
     const std::string& last = options.inputs.back();
     std::error_code ignored;
     if (options.inputs.size() > 1 && last != "-" && !fs::exists(last, ignored))
-        refuse(last + ": no such file; for the result to go there, type -o " + last);
-    refuse("nothing to give back: -o FILE writes the result, " + instead);
+        refuse(last + ": no such file; to write the result there, type -o " + last);
+    refuse("no output: -o FILE writes the result, " + instead);
 }
 
 bool wants_mesh(const common_options& options) {

@@ -106,7 +106,7 @@ void check_files(const command_line& line, const common_options& options);
 /// That the result goes somewhere: to a mesh, a report or another output, or that -n says it need
 /// not. \throws failure (bad_usage) that also names what does without, `instead`
 void require_output(const command_line& line, const common_options& options,
-                    const std::string& instead = "-n only says what it would be");
+                    const std::string& instead = "-n only prints what it would be");
 
 /// Whether some option asks for a mesh.
 [[nodiscard]] bool wants_mesh(const common_options& options);

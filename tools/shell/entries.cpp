@@ -76,8 +76,8 @@ std::string repair_summary(const tf::repair_statistics& did) {
     add(did.labeled_cells, "cell labeled inside or outside", "cells labeled inside or outside",
         did.dropped_area > 0.0 ? " (area " + brief(did.dropped_area) + " dropped)" : "");
     add(did.dropped_shells, "shell within another dropped", "shells within others dropped");
-    add(did.detached, "vertex set apart", "vertices set apart");
-    return text.empty() ? "nothing to mend" : text;
+    add(did.detached, "vertex moved apart", "vertices moved apart");
+    return text.empty() ? "nothing to repair" : text;
 }
 
 std::string message_of(tf::certificate known, const face_numbers& stored_face) {

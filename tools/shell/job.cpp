@@ -75,9 +75,9 @@ job::read_ahead job::read_one(const std::string& input) const {
         std::error_code error;
         if (!from_pipe && std::filesystem::is_directory(input, error)) {
             const bool listed = std::count(options.inputs.begin(), options.inputs.end(), input) > 0;
-            throw failure(
-                bad_input, "read",
-                input + ": is a folder" + (listed ? ", with no file in it that is read" : ""));
+            throw failure(bad_input, "read",
+                          input + ": is a folder" +
+                              (listed ? " without any file in a supported format" : ""));
         }
         constexpr std::size_t reading = 0;
         const tf::read_options how{.columns = options.columns,
@@ -145,8 +145,8 @@ void job::compare_units(const std::string& input, const tf::mesh_file& file) {
             unit_ = line;
         } else if (!warned_of_units_) {
             warned_of_units_ = true;
-            warn("units", name_of_input(input) + " has the " + line + ", a file before it the " +
-                              unit_ + ": numbers are taken as they are");
+            warn("units", name_of_input(input) + " has the " + line + ", an earlier input the " +
+                              unit_ + "; numbers are not converted");
         }
     }
 }
@@ -187,7 +187,7 @@ void job::warn_of_non_finite(std::uint64_t count, const char* one, const char* m
                              const std::string& whose) {
     if (count > 0)
         warn("non-finite",
-             whose + counted(count, one, many) + " with a NaN or infinite coordinate left out");
+             whose + counted(count, one, many) + " with a NaN or infinite coordinate dropped");
 }
 
 }  // namespace tools

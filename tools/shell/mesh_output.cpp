@@ -74,8 +74,8 @@ void warn_of_moves(job& work, tf::points_view points, const tf::certificate& kno
                                   : " (" + brief(std::ceil(moved / step)) + " steps of the " +
                                         numbers_of(known.precision) + " numbers there)";
     work.warn("moved", "points moved by up to " + brief(moved) + steps +
-                           ", so that nothing meets or touches when rounded; --max-move DIST sets "
-                           "a limit");
+                           " so that no faces meet in the rounded coordinates; --max-move DIST "
+                           "sets a limit");
 }
 
 void warn_of_rounding(job& work, double max_displacement, const std::string& whose) {
@@ -87,15 +87,15 @@ void warn_of_rounding(job& work, double max_displacement, const std::string& who
 void warn_of_folds(job& work, const tf::rounding_effects& defects, tf::precision precision) {
     std::string text;
     if (defects.collapsed > 0)
-        text = counted(defects.collapsed, "face has", "faces have") + " no area any more";
+        text = counted(defects.collapsed, "face", "faces") + " lost all area";
     if (defects.meeting > 0)
         text += (text.empty() ? "" : ", ") + counted(defects.meeting, "pair", "pairs") +
-                " of faces " + (defects.meeting == 1 ? "meets" : "meet") + " that did not";
+                " of faces newly " + (defects.meeting == 1 ? "meets" : "meet");
     if (text.empty()) return;
     work.warn("folded", "by rounding, " + text + "; " +
                             (precision == tf::precision::float32
-                                 ? "--precision double, in a format that has it, may keep them"
-                                 : "nearer to the origin they would stay"));
+                                 ? "--precision double, in a format that has it, may avoid this"
+                                 : "coordinates nearer to the origin are rounded less"));
 }
 
 void enter_rounding(job& work, const tf::rounding_effects& lost, tf::precision precision) {
@@ -117,11 +117,11 @@ void warn_of_ambiguous_materials(job& work, std::span<const tf::mesh_file* const
     const std::vector<std::string> names =
         tf::carry_sources(std::move(sources)).ambiguous_materials();
     if (names.empty()) return;
-    work.warn("materials", "inputs with different material files name " +
+    work.warn("materials", "inputs with different material files use the same name for " +
                                (names.size() == 1 ? "material " + names.front()
                                                   : counted(names.size(), "material", "materials") +
-                                                        ", such as " + names.front() + ",") +
-                               " alike; an OBJ has one of a name");
+                                                        ", such as " + names.front()) +
+                               "; an OBJ can have only one material of a name");
 }
 
 void enter_output(job& work, const std::filesystem::path& path, const tf::write_result& written,

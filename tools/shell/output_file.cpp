@@ -59,7 +59,7 @@ void check_output(const fs::path& path, bool force) {
     if (written_directly(path)) return;
     std::error_code error;
     const fs::path folder = folder_of(path);
-    if (!fs::is_directory(folder, error)) refuse(path, "no folder " + folder.string());
+    if (!fs::is_directory(folder, error)) refuse(path, "there is no folder " + folder.string());
     if (fs::is_directory(path, error)) refuse(path, "is a folder");
     if (fs::exists(path, error) && !force) refuse(path, "exists; -f overwrites it");
     if (access(folder.c_str(), W_OK) != 0)
@@ -83,7 +83,7 @@ void output_place::commit() {
         static_cast<void>(chmod(writable_.c_str(), before.st_mode & 07777));
     if (!move_into_place(writable_, target_, force_))
         refuse(path_, errno == EEXIST ? "exists; -f overwrites it"
-                                      : std::string("cannot be put in place: ") +
+                                      : std::string("cannot be renamed into place: ") +
                                             std::generic_category().message(errno));
 }
 

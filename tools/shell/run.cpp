@@ -101,7 +101,7 @@ bool is_one_of_many() {
 exit_status refuse_many(console& out) {
     const char* const rank = std::getenv("OMPI_COMM_WORLD_RANK");
     if (rank != nullptr && std::string_view(rank) != "0") return done;
-    out.error("works alone: processes of mpirun would all do the same; start it without mpirun");
+    out.error("does not run under mpirun, where all processes would do the same work");
     return bad_usage;
 }
 

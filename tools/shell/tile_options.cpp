@@ -34,7 +34,7 @@ void add_tile_options(command_line& line, tile_options& target, const std::strin
     line.group(heading);
     line.option({"--work", "DIR",
                  "folder for the tiles; kept if the run is stopped, so\n"
-                 "that the same command resumes there",
+                 "that the same command can resume",
                  "beside the output"},
                 [&target](std::string_view text) { target.folder = text; });
     line.option({.names = per_tile, .value = "N"}, [&target, per_tile](std::string_view text) {
@@ -48,12 +48,12 @@ void add_tile_options(command_line& line, tile_options& target, const std::strin
 void add_sharing_options(command_line& line, tile_options& target) {
     line.flag(target.plan, {"--plan", "",
                             "only make the tiles. Then any number of processes\n"
-                            "process tiles (--tile K, K from 0), and one combines\n"
+                            "process them (--tile K, K from 0), and one combines\n"
                             "the results (--finish), all with the same INPUT,\n"
                             "options and --work DIR"});
     line.option({"--tile", "K", "only process this tile"},
                 [&target](std::string_view text) { target.tile = parse_count("--tile", text); });
-    line.flag(target.finish, {"--finish", "", "only combine the results of all tiles; DIR stays"});
+    line.flag(target.finish, {"--finish", "", "only combine the results of all tiles; keeps DIR"});
 }
 
 void leave_reports_to_first(tile_options& tiles, common_options& options) {
@@ -66,9 +66,9 @@ void leave_reports_to_first(tile_options& tiles, common_options& options) {
 void check_tile_options(const tile_options& tiles, const command_line& line,
                         const common_options& options) {
     if (tiles.is_shared() && tiles.communicator.size > 1)
-        refuse("--plan, --tile and --finish are for processes without mpirun");
+        refuse("--plan, --tile and --finish are not for mpirun");
     if (tiles.communicator.size > 1 && options.inputs.size() != 1 && !options.joined)
-        refuse("mpirun: one INPUT, or --join");
+        refuse("under mpirun, expected one INPUT, or --join");
     if (!tiles.is_shared()) return;
     if (int{tiles.plan} + int{tiles.tile.has_value()} + int{tiles.finish} > 1)
         refuse("--plan, --tile and --finish exclude each other");
@@ -88,9 +88,9 @@ void say_what_is_left(job& work, const fs::path& folder, const tile_options& til
     if (tiles.is_shared() || !fs::exists(folder, error)) return;
     const bool piped = std::ranges::find(work.options.inputs, "-") != work.options.inputs.end();
     work.warn("work-left",
-              folder.string() + (piped ? ": tiles stay there; remove the folder"
-                                       : ": tiles stay there; the same command resumes from them, "
-                                         "or remove the folder"));
+              folder.string() + (piped ? ": contains the tiles; remove the folder"
+                                       : ": contains the tiles; the same command resumes from "
+                                         "them, or remove the folder"));
 }
 
 void enter_tiles(job& work, std::size_t tiles, const fs::path& folder,
@@ -115,8 +115,9 @@ bool is_read_once(const std::filesystem::path& path) {
 }
 
 std::string remark_on_folder(const tile_options& tiles) {
-    return tiles.folder.empty() ? std::string()
-                                : "enough memory to work without tiles: --work is not used";
+    return tiles.folder.empty()
+               ? std::string()
+               : "there is enough memory to work without tiles: --work is not used";
 }
 
 failure failure_of(const job& work, const tf::io_error& error) {
@@ -128,7 +129,7 @@ failure failure_of(const job& work, const tf::io_error& error) {
         case folder_in_use:
             return {bad_output, "work-folder", where + "is in use by another process"};
         case folder_foreign:
-            return {bad_output, "work-folder", where + "holds files that are not of this tool"};
+            return {bad_output, "work-folder", where + "contains files of other programs"};
         case tile_write:
             return {bad_output, "output", error.what()};
         case file:

@@ -112,11 +112,10 @@ std::string remedy_for_floats(tools::job& work, const boolean_settings& s,
                               const std::vector<tools::solid>& solids,
                               const std::optional<std::uint32_t>& sheet, bool vanished) {
     const std::string doubles = "--precision double, in a format that has it, ";
-    if (!vanished) return "; " + doubles + "may do";
+    if (!vanished) return "; " + doubles + "may help";
     const tf::boolean_result result = ask(work, s, solids, sheet, tf::precision::float64);
-    if (!result.certificate) return "; nor do doubles hold it";
-    return "; " + doubles +
-           "holds it: " + tools::counted(result.mesh.faces.size(), "face", "faces");
+    if (!result.certificate) return "; double numbers are too coarse for it, too";
+    return "; " + doubles + "gives " + tools::counted(result.mesh.faces.size(), "face", "faces");
 }
 
 std::string open_in_words(std::size_t open, std::size_t all) {
@@ -155,7 +154,8 @@ exit_status operate(tools::job& work, const boolean_settings& s) {
     std::optional<std::uint32_t> sheet;
     if (s.accept_open && !s.splits()) {
         const std::vector<std::uint32_t> open = tools::check_solids(work, solids);
-        if (open.size() > 1) return refuse_open(work, solids, open, "one may; ");
+        if (open.size() > 1)
+            return refuse_open(work, solids, open, "--accept-open allows one open input; ");
         if (!open.empty()) sheet = open.front();
         if (sheet && !tools::formula_of(s, solids.size()).needs(*sheet))
             return refuse_open(work, solids, open,

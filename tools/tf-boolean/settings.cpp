@@ -61,19 +61,20 @@ void refuse_what_does_nothing(const boolean_settings& s, const common_options& o
         refuse("--output-format, --ascii and --binary need -o");
     if (s.check && o.precision != "keep") refuse("--precision: --check writes no mesh");
     if (s.splits() && s.simplify) refuse("--simplify: split keeps every piece");
-    if (s.splits() && s.keep_cuts) refuse("--keep-cuts: split keeps all of them");
-    if (s.simplify && s.keep_cuts) refuse("--keep-cuts: --simplify merges what they part");
+    if (s.splits() && s.keep_cuts) refuse("--keep-cuts: split keeps all cuts");
+    if (s.simplify && s.keep_cuts) refuse("--keep-cuts and --simplify exclude each other");
     if (s.check && (s.simplify || s.keep_cuts || s.accept_open || s.repair))
-        refuse("--simplify, --keep-cuts, --accept-open and --repair: --check only looks");
+        refuse("--simplify, --keep-cuts, --accept-open and --repair: --check makes no result");
     if (s.check && (s.min_volume_given || s.gap))
-        refuse("--min-volume and --gap: --check only looks");
+        refuse("--min-volume and --gap: --check makes no result");
     if (s.min_volume_given && (s.splits() || s.accept_open))
         refuse("--min-volume: parts of an open surface have no volume");
     if (s.gap && s.operation != "union") refuse("--gap: only a union fills gaps");
-    if (s.gap && s.accept_open) refuse("--gap: an open surface bounds no solid beside a gap");
-    if (s.accept_open && s.repair) refuse("--repair closes what --accept-open accepts");
+    if (s.gap && s.accept_open) refuse("--gap needs solids; it excludes --accept-open");
+    if (s.accept_open && s.repair)
+        refuse("--repair closes open surfaces; it excludes --accept-open");
     check_curve_path(s.curves);
-    if (s.check && !s.curves.empty()) refuse("--curves: --check only looks");
+    if (s.check && !s.curves.empty()) refuse("--curves: --check makes no result");
     if (s.splits() && s.inside != tf::fill_rule::nonzero)
         refuse("--inside: split keeps every piece");
     if (s.source.empty() || s.source.find_first_of(" \t\r\n") != std::string::npos)

@@ -43,7 +43,7 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
     if (s.file.mesh.faces.empty() && !s.file.mesh.points.empty())
         throw failure(bad_input, "no-triangles", name + ": no triangle with finite coordinates");
     check_arrangeable(name, s.file.mesh);
-    if (s.file.mesh.faces.empty()) work.warn("empty", name + ": no faces: an empty solid");
+    if (s.file.mesh.faces.empty()) work.warn("empty", name + ": no faces; used as an empty solid");
     about["faces"] = s.file.stored_faces;
     about["triangles"] = s.triangles;
     about["volume"] = tf::signed_volume(s.file.mesh);
@@ -61,7 +61,7 @@ void mend(job& work, const boolean_settings& settings, solid& s, json& about) {
     if (!made.certificate) {
         about["reason"] = made.certificate.message();
         throw failure(found, "not-mended",
-                      name + ": cannot be mended: " + made.certificate.message());
+                      name + ": cannot be repaired: " + made.certificate.message());
     }
     work.out.info(name + ": " + repair_summary(made.statistics));
     made.file.stored_as = s.file.stored_as;
@@ -104,7 +104,7 @@ std::vector<solid> named_parts(job& work, std::vector<std::string> names,
         }
     for (std::size_t k = 0; k < names.size(); ++k)
         if (named[k].path.empty())
-            refuse("--expr: no part is named " + names[k] + "; there are " + joined(known));
+            refuse("--expr: no part is named " + names[k] + "; the parts are " + joined(known));
     work.entry["inputs"] = std::move(entries);
     work.out.info(work.name + ": operands in order: " + joined(names));
     return named;
@@ -125,9 +125,9 @@ std::vector<std::string> operand_names(job& work, const boolean_settings& settin
         }
     if (names.size() < 2 && !unites && settings.expression.empty())
         work.warn("one-operand",
-                  std::string("one operand") +
-                      (has_parts ? ", of parts that are pieces of one surface" : "") +
-                      ": what overlaps in it is united");
+                  std::string("there is only one operand") +
+                      (has_parts ? ", since its parts are pieces of one surface" : "") +
+                      "; its overlaps are merged");
     return names.size() > 1 && is_mixed ? names : std::vector<std::string>{};
 }
 
@@ -211,7 +211,7 @@ std::vector<std::uint32_t> check_solids(job& work, const std::vector<solid>& sol
 void warn_of_open(job& work, const std::vector<solid>& solids,
                   const std::vector<std::uint32_t>& open) {
     for (const std::uint32_t i : open)
-        work.warn("open", name_of(solids[i]) + ": no solid: " +
+        work.warn("open", name_of(solids[i]) + ": not a solid: " +
                               work.entry["inputs"][i]["reason"].get<std::string>());
 }
 

@@ -10,16 +10,16 @@ namespace tools {
 
 namespace {
 
-/// ", 3 parts below 0.001 left out (0.00012 in all), gaps of up to 0.1 filled between 4 faces"
+/// ", 3 parts below 0.001 dropped (total 0.00012), gaps of up to 0.1 filled between 4 faces"
 std::string choices_in_words(const job& work, const boolean_settings& settings,
                              const tf::boolean_statistics& did) {
     std::string text;
     if (did.small_parts > 0)
         text += ", " + counted(did.small_parts, "part", "parts") + " below " +
-                brief(settings.min_volume) + " left out (" + brief(did.small_volume) + " in all)";
+                brief(settings.min_volume) + " dropped (total " + brief(did.small_volume) + ")";
     if (!settings.gap) return text;
     const std::string width = brief(work.entry["gap"]["used"].get<double>());
-    if (did.filled_faces == 0) return text + ", no gaps of up to " + width + " between faces";
+    if (did.filled_faces == 0) return text + ", no gaps of up to " + width + " found";
     return text + ", gaps of up to " + width + " filled between " +
            counted(did.filled_faces, "face", "faces");
 }
@@ -39,8 +39,9 @@ std::string verdict(const job& work, const boolean_settings& settings,
     if (!volume.is_null() && !result.mesh.faces.empty() && std::isfinite(volume.get<double>()))
         text += ", volume " + brief(volume.get<double>());
     if (result.certificate.status == tf::status::vanished)
-        return text + " are left of the exact result's " + grouped(result.statistics.exact_faces) +
-               " when rounded to " + name_of(result.certificate.precision);
+        return text + " remain of the " + grouped(result.statistics.exact_faces) +
+               " faces of the exact result when rounded to " +
+               name_of(result.certificate.precision);
     if (!result.certificate) return text + ", but " + result.certificate.message();
     text += choices_in_words(work, settings, result.statistics);
     if (result.certificate.max_displacement > 0.0)
@@ -58,37 +59,37 @@ void warn_of_surprises(job& work, const boolean_settings& settings,
         work.warn("nothing-left", "the inputs bound nothing: their faces cancel each other out");
     if (result.certificate && result.vanished_components > 0)
         work.warn("lost-parts", counted(result.vanished_components, "part", "parts") +
-                                    " of the exact result left out, the first at " +
-                                    in_words(result.vanished_at.front()) + ": thinner than " +
-                                    numbers_of(result.certificate.precision) +
-                                    " numbers tell apart there");
+                                    " of the exact result dropped, the first at " +
+                                    in_words(result.vanished_at.front()) +
+                                    ": thinner than the spacing of " +
+                                    numbers_of(result.certificate.precision) + " numbers there");
     // Beyond what all else may have moved.
     if (result.certificate && result.vanished_reach > result.certificate.max_displacement &&
         result.vanished_reach > 64.0 * work.entry["output"]["step"].get<double>())
-        work.warn("lost-parts", std::string("places thinner than ") +
+        work.warn("lost-parts", std::string("regions thinner than the spacing of ") +
                                     numbers_of(result.certificate.precision) +
-                                    " numbers tell apart there are left out, up to " +
-                                    brief(result.vanished_reach) + " from what is left");
+                                    " numbers there were dropped; they reached up to " +
+                                    brief(result.vanished_reach) + " from the rest");
     if (result.statistics.degenerate > 0)
         work.warn("degenerate", counted(result.statistics.degenerate, "face", "faces") +
-                                    " without an area left out; nothing changes by that");
+                                    " without area dropped, which does not change the solids");
     const json& output = work.entry["output"];
     const auto nonmanifold = output["nonmanifold_edges"].get<std::uint64_t>();
     if (result.certificate && !output["volume"].is_null() && nonmanifold > 0)
         work.warn("nonmanifold",
-                  counted(nonmanifold, "edge", "edges") +
-                      " of more than two faces, where the result touches itself; " +
-                      (is_stl(work.options) ? "STL has no vertex numbers: other formats keep "
-                                              "apart what touches"
-                                            : "its points are apart, until a reader or another "
-                                              "format joins equal ones") +
-                      "; tf-repair sets it apart");
+                  "the result touches itself: " + counted(nonmanifold, "edge has", "edges have") +
+                      " more than two faces once equal points are joined" +
+                      (is_stl(work.options) ? ", as readers of STL do"
+                                            : "; in the result they are separate") +
+                      "; tf-repair moves the parts apart");
     if (!settings.splits() && !output["closed"].get<bool>())
-        work.warn("open", "the result is a part of an open surface, and open itself");
+        work.warn("open", "the result is open, since it is a part of an open surface");
     if (settings.simplify && !settings.no_attributes && sources_of(solids).has_vertex_values())
-        work.warn("simplified", "points that are left out take their properties with them");
+        work.warn("simplified", "the properties of points removed by --simplify are lost");
     if (!settings.no_attributes && sources_of(solids).has_values_left_out())
-        work.warn("attributes", "lists and properties of other elements are not carried over");
+        work.warn("attributes",
+                  "list properties, and properties of elements other than vertices and faces, are "
+                  "not carried over");
 }
 
 void warn_of_failure(job& work, const tf::boolean_result& result, const std::string& remedy) {
@@ -104,9 +105,9 @@ void say_details(job& work, const tf::boolean_result& result) {
                   " cut");
     const auto rounds = static_cast<std::uint64_t>(result.statistics.rounding_rounds);
     if (result.statistics.slivers + rounds > 0)
-        work.out.info(work.name + ": rounding made faces meet: took out " +
-                      counted(result.statistics.slivers, "sliver", "slivers") + ", cut again " +
-                      counted(rounds, "time", "times"));
+        work.out.info(work.name + ": rounding made faces meet: " +
+                      counted(result.statistics.slivers, "sliver", "slivers") +
+                      " removed, faces cut again " + counted(rounds, "time", "times"));
 }
 
 }  // namespace tools

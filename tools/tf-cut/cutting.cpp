@@ -84,14 +84,14 @@ std::string heights_in_words(const cut_settings& s, const usable_input& input) {
 /// Pieces that are empty, so that they are not among those `made`.
 void warn_of_missing(job& work, const cut_settings& s, const usable_input& input,
                      std::size_t made) {
-    const std::string nothing = "nothing is there to be written: ";
+    const std::string nothing = "there is nothing to write: ";
     if (s.keeps_one()) {
         if (work.entry["pieces"][0]["faces"] == 0)
-            work.warn("no-pieces", "nothing is left: " + heights_in_words(s, input));
+            work.warn("no-pieces", "the kept half is empty: " + heights_in_words(s, input));
     } else if (made == 0) {
         const bool parts = s.mode == cut_mode::parts;
-        work.warn("no-pieces",
-                  nothing + (parts ? "no part is so large" : "the faces enclose nothing"));
+        work.warn("no-pieces", nothing + (parts ? "no part reaches --min-volume"
+                                                : "the faces enclose no volume"));
     } else if (has_caps(s) && !s.bed) {
         const std::size_t asked = std::set<double>(s.heights.begin(), s.heights.end()).size() + 1;
         if (made < asked)
@@ -182,14 +182,14 @@ void say_section(job& work, const cut_settings& s, const usable_input& input,
     const auto unsure = std::ranges::count_if(
         made.loops, [](const tf::section_loop& loop) { return !loop.oriented; });
     if (made.loops.empty())
-        work.warn("no-loops", "nothing is in the planes: " + heights_in_words(s, input));
+        work.warn("no-loops", "no plane meets the mesh: " + heights_in_words(s, input));
     if (open > 0)
         work.warn("open-loops", counted(open, "polyline is", "polylines are") +
-                                    " open, for the surface ends there; tf-repair closes it");
+                                    " open, since the surface is open there; tf-repair closes it");
     if (unsure > 0)
         work.warn("turned-loops",
                   counted(static_cast<std::uint64_t>(unsure), "polyline runs", "polylines run") +
-                      " along faces that disagree in their orientation; tf-repair turns them");
+                      " along inconsistently oriented faces; tf-repair orients them");
 }
 
 void say_pieces(job& work, const cut_settings& s, const usable_input& input,
@@ -217,7 +217,7 @@ void say_pieces(job& work, const cut_settings& s, const usable_input& input,
     }
     work.entry["pieces"] = std::move(list);
     if (pieces.size() > most_in_words) {
-        text = open < pieces.size() ? ", volume " + brief(volume) + " in all" : std::string();
+        text = open < pieces.size() ? ", total volume " + brief(volume) : std::string();
         if (open > 0) text += ", " + grouped(open) + " open";
     }
     if (const json& reached = work.entry["distances"]; reached.is_object())
@@ -261,7 +261,7 @@ void say_info(job& work, const cut_settings& s, const usable_input& input) {
                                      box->max.z - box->min.z);
     if (!unit.empty()) text += " " + unit;
     text += turned_box(work, joined, box);
-    text += defects.any() ? ", no solid: " + defects.message() : std::string(", solid");
+    text += defects.any() ? ", not a solid: " + defects.message() : std::string(", solid");
     text += "; " + counted(parts, "component", "components");
     if (std::isfinite(area)) text += ", area " + brief(area);
     if (volume && std::isfinite(*volume)) text += ", volume " + brief(*volume);
@@ -269,7 +269,7 @@ void say_info(job& work, const cut_settings& s, const usable_input& input) {
     if (!defects.any()) text += thinnest_wall(work, s, input);
     work.out.result(work.name + ": " + text);
     if (!std::isfinite(area) || (volume && !std::isfinite(*volume)))
-        work.warn("too-large", "area or volume are beyond what a number can hold");
+        work.warn("too-large", "the area or the volume is beyond the range of doubles");
 }
 
 }  // namespace tools

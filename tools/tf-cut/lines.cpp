@@ -31,7 +31,7 @@ vertex_values distances_of(job& work, const cut_settings& s, const usable_input&
     const auto timing = work.time("prepare");
     auto found = tf::deviation(
         from, to.mesh, {.bins = 0, .both_ways = false, .progress = work.progress("distances")});
-    if (!found) refuse("--to " + s.lines.to + ": there is no face with finite coordinates");
+    if (!found) refuse("--to " + s.lines.to + ": no face with finite coordinates");
     work.call_ended(found->status == tf::status::cancelled);
     return {std::move(found->distances), found->is_signed};
 }
@@ -50,7 +50,7 @@ vertex_values values_of(job& work, const cut_settings& s, const usable_input& in
             for (const tf::column& c : vertices->columns)
                 if (c.role == tf::column_role::data && !c.list_length) names += ", " + c.name;
         refuse("--value " + s.lines.value + ": " + work.name +
-               " has no such property of vertices; " + "there are " + names);
+               " has no such property of vertices; expected one of " + names);
     }
     for (std::size_t v = 0; v < points.size(); ++v) values.of.push_back(column->number(v));
     return values;
@@ -156,7 +156,7 @@ void say_isolines(job& work, const cut_settings& s, const vertex_values& values,
     if (open > 0) text += ", " + grouped(open) + " open";
     work.out.result(work.name + ": " + text + ", length " + brief(length));
     if (made.lines.empty())
-        work.warn("no-lines", "no level is met: " + s.lines.value + " is between " +
+        work.warn("no-lines", "no level is in the range: " + s.lines.value + " is between " +
                                   brief(range[0]) + " and " + brief(range[1]));
 }
 

@@ -87,7 +87,8 @@ exit_status not_made(tools::job& work, const cut_settings& s, const usable_input
         work.warn("too-thin",
                   s.mode == cut_mode::hollow
                       ? "there is no cavity: the solid is nowhere thicker than two walls"
-                      : "the solid is nowhere that thick, or only by less than a cell");
+                      : "the solid is too thin: shrunk by this distance, it is less than a cell "
+                        "thick");
     return tools::found;
 }
 
@@ -125,8 +126,10 @@ exit_status look_at(tools::job& work, const cut_settings& s) {
             return tools::found;
         }
         if (made.resolved)
-            work.warn("united", s.open ? "faces meet: they are cut along each other first"
-                                       : "faces meet: overlapping parts are merged before the cut");
+            work.warn("united", s.open ? "the mesh has self-intersections: its faces are cut along "
+                                         "each other first"
+                                       : "the mesh has self-intersections: overlapping parts are "
+                                         "merged before the cut");
         pieces = pieces_of(std::move(made), s);
         const auto furthest = std::ranges::max_element(
             pieces, {}, [](const cut_off& piece) { return piece.certificate.max_displacement; });

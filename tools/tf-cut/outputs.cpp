@@ -99,8 +99,8 @@ void check_pieces_path(const common_options& o, std::size_t pieces) {
     const std::filesystem::path example =
         o.output.parent_path() /
         (o.output.stem().string() + "_" + number_mark + o.output.extension().string());
-    refuse("there may be several pieces, and " + format + " holds one: name them -o " +
-           example.string() + ", or write 3mf, obj or glb");
+    refuse("there may be several pieces, but " + format + " holds one: use -o " + example.string() +
+           ", or write 3mf, obj or glb");
 }
 
 void write_pieces(job& work, const cut_settings& s, const usable_input& input,

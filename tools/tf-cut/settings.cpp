@@ -13,8 +13,9 @@ namespace {
 void add_distances(command_line& line, shape_settings& s) {
     line.group("Distances");
     line.option({"--distance", "D",
-                 "simplify, offset: largest distance of the result from\n"
-                 "the input; or growth of the solid (below 0: shrinks)"},
+                 "simplify, offset: distance of the result from the\n"
+                 "input; simplify stays within D; offset grows the solid\n"
+                 "by D, or shrinks it by -D"},
                 [&s](std::string_view v) {
                     const bool shrinks = v.starts_with('-');
                     s.distance = parse_distance("--distance", v.substr(shrinks ? 1 : 0));
@@ -28,8 +29,8 @@ void add_distances(command_line& line, shape_settings& s) {
                 [&s](std::string_view v) { s.distance = parse_distance("--thickness", v); });
     line.option({"--resolution", "R",
                  "offset, hollow, thicken: cell size, at most half of\n"
-                 "the distance; by default a quarter of it, or larger\n"
-                 "to stay near 170,000 faces"},
+                 "the distance; default: a quarter of the distance, or\n"
+                 "larger to keep the result below about 170,000 faces"},
                 [&s](std::string_view v) { s.resolution = parse_number("--resolution", v); });
     line.option({"--side", "SIDE", "thicken: both | front | back", "both"},
                 [&s](std::string_view v) {
@@ -38,8 +39,8 @@ void add_distances(command_line& line, shape_settings& s) {
                 });
     line.offer("--side", {thick_sides.begin(), thick_sides.end()});
     line.option({"--drain", "X,Y,Z,D",
-                 "hollow: a hole of this diameter at the nearest point;\n"
-                 "may be repeated"},
+                 "hollow: a hole of diameter D at the point of the\n"
+                 "surface nearest to X,Y,Z (repeatable)"},
                 [&s](std::string_view v) {
                     const auto n = parse_numbers("--drain", v, 4);
                     s.drains.push_back({{n[0], n[1], n[2]}, n[3]});
@@ -49,25 +50,25 @@ void add_distances(command_line& line, shape_settings& s) {
 
 void add_options(command_line& line, cut_settings& s) {
     line.group("Planes");
-    line.option({"--normal", "X,Y,Z", "normal of the plane; it points above", "0,0,1"},
+    line.option({"--normal", "X,Y,Z", "normal of the plane, which points upward", "0,0,1"},
                 [&s](std::string_view v) { s.plane.normal = parse_direction("--normal", v); });
     line.option({"--at", "X,Y,Z", "a point of the plane", "0,0,0"},
                 [&s](std::string_view v) { s.plane.at = parse_point("--at", v); });
-    line.option({"--height", "H,...", "planes at these heights above --at", "0"},
+    line.option({"--height", "H,...", "heights of the planes above --at, along --normal", "0"},
                 [&s](std::string_view v) {
                     const auto count = static_cast<std::size_t>(std::ranges::count(v, ',')) + 1;
                     s.heights = parse_numbers("--height", v, count);
                 });
     line.option({"--layers", "T",
-                 "section: planes in the middles of layers of this\n"
+                 "section: one plane in the middle of each layer of this\n"
                  "thickness, from the lowest point to the highest"},
                 [&s](std::string_view v) { s.layers = parse_number("--layers", v); });
     line.option(s.lines.value, {"--value", "NAME",
-                                "isolines: the value: height above --at; distance\n"
-                                "from --to, below 0 inside a closed mesh; or a\n"
-                                "property of vertices: red, quality, ...",
+                                "isolines: which value: height, above --at; distance,\n"
+                                "from --to, negative inside a closed mesh; or a\n"
+                                "property of vertices, such as red or quality",
                                 "height"});
-    line.option({"--to", "MESH", "isolines: the mesh that distance is measured from"},
+    line.option({"--to", "MESH", "isolines: the mesh from which distance is measured"},
                 [&s](std::string_view v) { s.lines.to = v; });
     line.option({"--levels", "L,...", "isolines: levels of the value"}, [&s](std::string_view v) {
         const auto count = static_cast<std::size_t>(std::ranges::count(v, ',')) + 1;
@@ -78,8 +79,8 @@ void add_options(command_line& line, cut_settings& s) {
                                 "the least and the greatest value",
                                 "0"});
     line.option({"--bed", "X,Y[,Z]",
-                 "pieces: as few as fit boxes of this size, of equal\n"
-                 "length"},
+                 "pieces: cut into the fewest pieces that fit this size,\n"
+                 "equally long along each axis"},
                 [&s](std::string_view v) {
                     const auto count = static_cast<std::size_t>(std::ranges::count(v, ',')) + 1;
                     const auto size = parse_numbers("--bed", v, count == 2 ? 2 : 3);
@@ -95,8 +96,9 @@ void add_options(command_line& line, cut_settings& s) {
     line.option(s.walls,
                 {"--measure-walls", "HOW",
                  "info: how to find the thinnest wall of a solid: ray,\n"
-                 "from the middle of each face inward; sphere, the\n"
-                 "largest ball there (much slower); or none",
+                 "from the center of each face inward; sphere, by the\n"
+                 "largest ball that touches the face from inside (much\n"
+                 "slower); or none",
                  "ray"},
                 wall_measures);
     add_max_move(line, s.limits);
@@ -115,16 +117,16 @@ void add_what_to_give_back(command_line& line, cut_settings& s) {
                            "\"%03d\" for leading zeros, each layer or piece gets\n"
                            "its own file, with its number"});
     line.option(s.caps, {"--caps", "P",
-                         "half, pieces: write the number of the plane to\n"
-                         "property P of a PLY or GLB; -1 for faces of no cap"});
+                         "half, pieces: write the plane number of each cap face\n"
+                         "to property P of a PLY or GLB; -1 for other faces"});
 }
 
 void check_lines(const command_line& line, line_settings& lines) {
     constexpr std::uint64_t most_levels = 100'000;
     if (!line.given("--levels") && !line.given("--count"))
-        refuse("isolines: where? give --levels or --count");
+        refuse("isolines needs --levels or --count");
     if (lines.count > most_levels || (line.given("--count") && lines.count == 0))
-        refuse("--count: from 1 to 100,000");
+        refuse("--count: expected 1 to 100000");
     if (!lines.to.empty() && line.given("--value") && lines.value != "distance")
         refuse("--to is for --value distance");
     if (!lines.to.empty()) lines.value = "distance";
@@ -134,29 +136,30 @@ void check_lines(const command_line& line, line_settings& lines) {
 void check_mode(const command_line& line, cut_settings& s) {
     const auto at = std::ranges::find(cut_modes, s.mode_text);
     if (at == cut_modes.end())
-        refuse(s.mode_text + ": no mode; expected one of " + listed(cut_modes));
+        refuse(s.mode_text + ": not a mode; expected one of " + listed(cut_modes));
     s.mode = static_cast<cut_mode>(at - cut_modes.begin());
     line.refuse_others(s.mode_text);
     using enum cut_mode;
     const auto needs = [&](cut_mode mode, const char* name) {
-        if (s.mode == mode && !line.given(name)) refuse(s.mode_text + ": give " + name);
+        if (s.mode == mode && !line.given(name)) refuse(s.mode_text + " needs " + name);
     };
     for (const cut_mode mode : {simplify, offset, hollow, thicken}) needs(mode, option_of(mode));
     const bool placed = line.given("--at") || line.given("--height");
-    if (s.mode == half && !placed) refuse("half: where? give --height or --at");
-    if (s.mode == half && s.heights.size() > 1) refuse("half: one --height; pieces takes several");
+    if (s.mode == half && !placed) refuse("half needs --height or --at");
+    if (s.mode == half && s.heights.size() > 1)
+        refuse("half takes one --height; pieces takes several");
     if (line.given("--layers") && s.layers <= 0.0)
-        refuse("--layers: a thickness above 0 is needed");
+        refuse("--layers: expected a thickness greater than 0");
     if (s.mode == section && !placed && s.layers == 0.0)
-        refuse("section: where? give --height, --at or --layers");
+        refuse("section needs --height, --at or --layers");
     if (s.mode == isolines) check_lines(line, s.lines);
     if (line.given("--layers") && line.given("--height"))
         refuse("--layers and --height exclude each other");
-    if (s.mode == pieces && !placed && !s.bed) refuse("pieces: where? give --bed or --height");
+    if (s.mode == pieces && !placed && !s.bed) refuse("pieces needs --bed or --height");
     if (s.bed && (placed || line.given("--normal")))
-        refuse("--bed chooses the planes: not with --normal, --at or --height");
+        refuse("--bed chooses the planes; it excludes --normal, --at and --height");
     if (s.bed && std::min({s.bed->x, s.bed->y, s.bed->z}) <= 0.0)
-        refuse("--bed: sizes above 0 are needed");
+        refuse("--bed: expected sizes greater than 0");
 }
 
 }  // namespace
@@ -180,7 +183,8 @@ void check_request(const command_line& line, cut_settings& s, common_options& op
     if (s.mode == cut_mode::section || s.mode == cut_mode::isolines) {
         const std::string format = lines_format(s.output);
         if (s.mode == cut_mode::isolines && has_number(s.output))
-            refuse(s.output.string() + ": isolines are one file; \"%d\" is for layers and pieces");
+            refuse(s.output.string() +
+                   ": isolines are written to one file; \"%d\" is for layers and pieces");
         if (!s.output.empty() && format != "svg" && format != "dxf" && format != "obj" &&
             format != "json")
             refuse(s.output.string() +

@@ -28,7 +28,7 @@ void say_drains(job& work, const cut_settings& s, const tf::offset_result& made)
                                      " may not lead from outside into a cavity");
     if (!s.shape.drains.empty() && made.sealed_cavities > 0)
         work.warn("sealed",
-                  "no drain leads into " + counted(made.sealed_cavities, "cavity", "cavities"));
+                  counted(made.sealed_cavities, "cavity has", "cavities have") + " no drain");
 }
 
 }  // namespace

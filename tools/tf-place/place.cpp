@@ -74,8 +74,8 @@ double bed_of(const place_settings& settings, tf::precision precision, double ab
         std::abs(bed + above) <= double{std::numeric_limits<float>::max()})
         return bed;
     refuse("--bed: " + shortest(bed + above) +
-           " is beyond the range of float32, which is what will be written; a format of text, or "
-           "--precision double in PLY, has more");
+           " is beyond the range of the float32 coordinates that are written; write a text format, "
+           "or PLY with --precision double");
 }
 
 // ---- one MOVING after the other ----
@@ -88,7 +88,7 @@ tf::placement lay(placing& p, const tf::progress_callback& progress) {
     options.progress = progress;
     p.laid = tf::lay_flat(p.moving.shapes[0], options);
     if (p.laid) return p.laid->as_placement();
-    p.reason = "has no side: all its points are on a line";
+    p.reason = "it has no side, since all its points are on a line";
     return {.certificate = {.status = tf::status::no_place}};
 }
 
@@ -155,12 +155,12 @@ tf::placement search(placing& p, const tf::progress_callback& progress) {
 
 /// What else may be done.
 std::string remedy_for(const tf::placement& at) {
-    if (at.end == tf::placement_end::starts_penetrating) return "; separate would take it out";
+    if (at.end == tf::placement_end::starts_penetrating) return "; tf-place separate moves it out";
     if (at.end == tf::placement_end::starts_below_bed)
-        return "; with --fixed, drop only goes down: drop it without --fixed first";
+        return "; with --fixed, drop only moves down: first drop it without --fixed";
     if (at.end == tf::placement_end::not_representable &&
         at.certificate.precision == tf::precision::float32)
-        return "; --precision double, in a format that has it, may find one";
+        return "; --precision double, in a format that has it, may help";
     return {};
 }
 
@@ -203,7 +203,7 @@ tf::body_set read_all(job& work, const place_settings& settings, const tf::trans
         tf::mesh_file file = work.read(path, about);
         work.warn(file.warnings, name_of_input(path) + ": ");
         const tf::body_file& added = add_moving(work, path, std::move(file), start, parts);
-        if (added.cloud) refuse(added.label + ": is a cloud of points; pack takes meshes only");
+        if (added.cloud) refuse(added.label + ": a point cloud; pack takes meshes only");
         about["faces"] = added.content.stored_faces;
         non_finite += added.non_finite;
         for (std::uint64_t copy = 0; copy < counts[i]; ++copy) {
@@ -234,7 +234,7 @@ void enter_places(job& work, const place_settings& settings, const tf::body_set&
     std::string words = found.message();
     for (const std::uint32_t i : found.not_placed) {
         entry["not_placed"].push_back(entry["parts"][i]["input"]);
-        words += "; no place for " + parts.files[i].label;
+        words += "; not placed: " + parts.files[i].label;
     }
     entry.update(packing_entry(found));
     entry["fits"] = entry["placed"] = found.not_placed.empty();

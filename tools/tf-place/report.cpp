@@ -136,7 +136,7 @@ std::string sentence(const placing& p) {
     if (p.settings.mode == place_mode::turn && at.angle > 0.0)
         return "turned by " + brief(at.angle) + " degrees; " + relation;
     if (p.mated) return "mated; " + relation;
-    if (at.travel == 0.0) return "stays where it is; " + relation;
+    if (at.travel == 0.0) return "not moved; " + relation;
     const bool drops = p.settings.mode == place_mode::drop;
     const char* const moved = drops && at.direction.z > 0.0          ? "lifted by "
                               : drops                                ? "dropped by "
@@ -152,14 +152,14 @@ void say_place(job& work, const placing& p) {
     const auto say = [&](const std::string& text) { work.out.info(work.name + ": " + text); };
     const auto& rows = at.matrix.rows;
     say("translation " + in_words({rows[0][3], rows[1][3], rows[2][3]}) + ", " +
-        std::to_string(at.statistics.backed_off) + " steps taken back for rounding");
+        std::to_string(at.statistics.backed_off) + " steps back because of rounding");
     if (at.nearest)
         say("nearest points " + in_words(at.nearest->on_a.point) + " and " +
             in_words(at.nearest->on_b.point) + " of " + p.fixed.label(at.nearest_fixed));
     const std::size_t all = p.fixed.shapes.size();
     const auto not_indexed = work.entry["skipped"]["parts_not_indexed"].get<std::size_t>();
     say(counted(all - not_indexed, "fixed part", "fixed parts") + " of " + std::to_string(all) +
-        " indexed, " + grouped(at.statistics.pairs_tested) + " pairs of faces looked at in motion");
+        " indexed, " + grouped(at.statistics.pairs_tested) + " pairs of faces tested in motion");
 }
 
 }  // namespace tools

@@ -17,7 +17,7 @@ constexpr std::array<const char*, 9> modes{"drop",    "lay",  "slide", "mate", "
 place_mode parse_mode(std::string_view text) {
     const auto at = std::find(modes.begin(), modes.end(), text);
     if (at == modes.end())
-        refuse(std::string(text) + ": no mode; expected one of " + listed(modes));
+        refuse(std::string(text) + ": not a mode; expected one of " + listed(modes));
     return static_cast<place_mode>(at - modes.begin());
 }
 
@@ -39,9 +39,9 @@ void add_options(command_line& line, place_settings& s, common_options& options)
     line.group("Options");
     line.repeatable_option(options.also_read,
                            {"--fixed", "FILE",
-                            "mesh that does not move (repeatable); its objects,\n"
-                            "groups or nodes are separate bodies, unless they\n"
-                            "have points in common"});
+                            "mesh or cloud that does not move (repeatable); its\n"
+                            "objects, groups or nodes are separate bodies, unless\n"
+                            "they have points in common"});
     line.option({"--bed", "Z",
                  "drop, lay, pack: height of the bed; drop with\n"
                  "--fixed has a bed only if this is given",
@@ -50,21 +50,21 @@ void add_options(command_line& line, place_settings& s, common_options& options)
     line.option(
         {"-d, --direction", "X,Y,Z", "slide, drop: direction of travel", "0,0,-1"},
         [&s](std::string_view text) { s.direction = parse_direction("--direction", text); });
-    line.option(s.clearance, {"--clearance", "DIST", "gap to leave", "0"});
+    line.option(s.clearance, {"--clearance", "DIST", "least distance from --fixed", "0"});
     line.option(s.max_travel,
                 {"--max-travel", "DIST", "largest travel (exit 1 if it is not enough)"});
     add_options_of_modes(line, s);
-    line.option(s.start,
-                {"--start", "FILE",
-                 "matrix applied to MOVING first: 4x4 numbers, or a\nreport of tf-place with one"});
+    line.option(s.start, {"--start", "FILE",
+                          "matrix applied to MOVING first: 4x4 numbers, or the\n"
+                          "matrix in a report of tf-place"});
     line.group("Output");
     line.output(options.output, {"-o, --output", "FILE",
-                                 "MOVING at its new place; of measure, MOVING where it\n"
-                                 "is; PLY, GLB without colors: faces that penetrate\n"
-                                 "--fixed are red, touching yellow, closer than\n"
-                                 "--clearance or stopped at it cyan"});
+                                 "MOVING at its new place; of measure, MOVING as it is;\n"
+                                 "in PLY and GLB, faces that penetrate --fixed are red,\n"
+                                 "touching ones yellow, those within --clearance cyan,\n"
+                                 "unless MOVING has colors"});
     line.flag(s.scene, {"--scene", "",
-                        "-o and --output-dir: also write the fixed meshes,\n"
+                        "write the fixed meshes to -o or --output-dir, too,\n"
                         "with the names of their parts"});
     line.output(s.matrix, {"--matrix", "FILE",
                            "4x4 matrix, 4 lines, row-major, column vectors:\n"
@@ -94,10 +94,11 @@ void check_settings(const command_line& line, place_settings& s, common_options&
          listed(feature_option_names()) + " are for mate"},
         {!s.feature.kind && given(feature_option_names()) > 0,
          "--pick, --pick-fixed and --flip need --feature"},
-        {(is(turn) || s.feature.kind) && s.max_travel, "--max-travel: not for turns or features"},
-        {is(lay) && !s.fixed.empty(), "--fixed: lay puts MOVING on the bed alone"},
-        {is(lay) && clearance, "--clearance: lay puts MOVING on the bed"},
-        {is(lay) && s.max_travel, "--max-travel: lay goes to the bed"},
+        {(is(turn) || s.feature.kind) && s.max_travel,
+         "--max-travel is not for turn or mate --feature"},
+        {is(lay) && !s.fixed.empty(), "--fixed: lay puts MOVING on an empty bed"},
+        {is(lay) && clearance, "--clearance: lay puts MOVING onto the bed"},
+        {is(lay) && s.max_travel, "--max-travel: lay puts MOVING onto the bed"},
         {!is(pack) && given(pack_option_names()) > 0,
          listed(pack_option_names()) + " are for pack"},
         {!is(align) && (line.given("--max-distance") || given(align_option_names()) > 0),
@@ -105,14 +106,14 @@ void check_settings(const command_line& line, place_settings& s, common_options&
         {given(std::array{"--overlap", "--trim"}) > 1, "--overlap and --trim exclude each other"},
         {is(pack) && !line.given("--size"), "pack needs --size"},
         {is(pack) && !s.fixed.empty(), "--fixed: pack puts MOVING on an empty plate"},
-        {is(align) && s.fixed.size() > 1, "align: one --fixed only"},
+        {is(align) && s.fixed.size() > 1, "align takes one --fixed"},
         {is(pack, align) && (clearance || s.max_travel),
          "--clearance and --max-travel are not for " + mode},
         {!is(drop, lay, pack) && s.fixed.empty(), mode + " needs --fixed"},
-        {!is(drop, lay, pack) && s.bed, "--bed: only drop, lay and pack have one"},
-        {!is(drop, slide) && s.direction, "--direction: " + mode + " finds its own"},
+        {!is(drop, lay, pack) && s.bed, "--bed is for drop, lay and pack"},
+        {!is(drop, slide) && s.direction, "--direction is for slide and drop"},
         {s.has_bed() && s.direction && !(s.direction->z < 0.0),
-         "--direction: must lead down to the bed"},
+         "--direction: expected a direction down to the bed, Z below 0"},
         {!is(measure) && s.deviation.wanted(), "--distances and --tolerance-band are for measure"},
         {!is(measure) && s.deviation.no_depth, "--no-depth is for measure"},
         {is(measure) && s.max_travel, "--max-travel: measure moves nothing"},

@@ -58,7 +58,7 @@ void add_steps(command_line& line, request& r) {
 
 void add_options(command_line& line, repair_settings& s) {
     line.group("Options");
-    line.option(s.gap, {"--gap", "DIST", "widest crack to close", "found, at most 0.1%"});
+    line.option(s.gap, {"--gap", "DIST", "close cracks up to this width", "chosen, at most 0.1%"});
     line.option(s.steps.largest_hole, {"--holes", "N", "fill holes of at most N edges", "all"});
     line.option(
         {"--strays", "SHARE", "drop loose open pieces below this share of the area", "0.1%"},
@@ -81,7 +81,7 @@ void add_options(command_line& line, repair_settings& s) {
     line.flag(s.check, {"--check", "",
                         "change nothing; list the defects; exit 1 if there\n"
                         "are any"});
-    line.group("Limits beyond which nothing is written (exit 1)");
+    line.group("Limits (nothing is written beyond them, exit 1)");
     tools::add_max_loss(line, s.limits);
     tools::add_max_move(line, s.limits);
 }
@@ -104,11 +104,11 @@ void check_request(const command_line& line, request& r, common_options& options
     tools::check_curve_path(s.curves);
     if (s.gap && !s.steps.join) refuse("--gap: --no-join skips the step that closes cracks");
     if (line.given("--holes") && (!s.steps.fill || s.steps.sheet))
-        refuse("--holes: no hole is filled with --no-fill or --sheet");
+        refuse("--holes: --no-fill and --sheet fill no holes");
     for (const char* name : {"--inside", "--keep-cuts"})
         if (line.given(name) && !s.steps.resolve)
-            refuse(std::string(name) + ": --no-resolve skips cutting");
-    if (s.steps.keep_cuts && s.steps.sheet) refuse("--keep-cuts: a --sheet is never merged");
+            refuse(std::string(name) + ": --no-resolve skips the cutting");
+    if (s.steps.keep_cuts && s.steps.sheet) refuse("--keep-cuts: --sheet never merges faces");
     if (!options.output.empty()) {
         const std::string format = tools::mesh_format(options, options.output);
         if (!s.source.empty() && format != "ply" && format != "glb")
@@ -116,7 +116,7 @@ void check_request(const command_line& line, request& r, common_options& options
     }
     s.steps.max_loss = s.limits.loss();
     if (!s.check) {
-        tools::require_output(line, options, "--check only says what is wrong");
+        tools::require_output(line, options, "--check only lists the defects");
         return;
     }
     if (tools::wants_mesh(options)) refuse("--check writes no mesh");

@@ -62,7 +62,7 @@ std::string reason(const repair_settings& settings, const tf::repaired_file& mad
         case tf::status::not_certified:
         case tf::status::vanished:
             return text + (known.precision == tf::precision::float32
-                               ? "; --precision double, in a format that has it, may do"
+                               ? "; --precision double, in a format that has it, may help"
                                : "");
         default:
             return text;
@@ -114,17 +114,17 @@ void warn_of_surprises(job& work, const repair_settings& settings, const tf::rep
     const tf::repair_statistics& did = made.statistics;
     if (did.touching > 0)
         work.warn("touching", counted(did.touching, "vertex has", "vertices have") +
-                                  " the coordinates of another one: programs that join them see "
-                                  "edges of more than two faces");
+                                  " the coordinates of another one: for programs that join equal "
+                                  "vertices, edges have more than two faces");
     if (did.vanished_components > 0)
         work.warn("lost-parts", counted(did.vanished_components, "part has", "parts have") +
-                                    " vanished, for they bound nothing");
+                                    " vanished, since they enclose no volume");
     if (did.dropped_shells > 0) {
         const bool is_one = did.dropped_shells == 1;
         const bool is_odd = settings.steps.inside == tf::fill_rule::odd;
         work.warn("dropped-shells", counted(did.dropped_shells, "shell", "shells") +
                                         " within another " + (is_one ? "was" : "were") +
-                                        " dropped, for what is within a solid is solid" +
+                                        " dropped, since the inside of a solid is filled" +
                                         (is_odd   ? ""
                                          : is_one ? "; --inside odd makes a cavity of it"
                                                   : "; --inside odd makes cavities of them"));

@@ -59,8 +59,9 @@ void warn_of_skin(job& work, const dirty_mesh& input, const tf::offset_result& m
     const auto edges = tf::count_topology(joined.points.size(), joined.faces);
     // Where parts overlap or are within each other, volumes say nothing.
     if (edges.boundary_edges <= edges.nonmanifold_edges) return;
-    work.warn("skin", "the wrap covers both sides of the faces: it enters holes wider than about " +
-                          brief(2.0 * made.resolution) + "; a larger --wrap closes them");
+    work.warn("skin",
+              "the wrap covers both sides of faces, since it enters holes wider than about " +
+                  brief(2.0 * made.resolution) + "; a larger --wrap closes them");
 }
 
 }  // namespace
@@ -76,16 +77,17 @@ void add_wrapping(command_line& line, wrap_settings& target) {
 
 void check_wrapping(const command_line& line, const wrap_settings& settings) {
     if (!settings.size) {
-        if (settings.offset) refuse("--offset: needs --wrap");
+        if (settings.offset) refuse("--offset needs --wrap");
         return;
     }
     for (const char* name :
          {"--check", "--gap", "--holes", "--strays", "--inside", "--sheet", "--keep-cuts",
           "--max-loss", "--accept-loss", "--max-move", "--source", "--curves", "--no-join",
           "--no-orient", "--no-fill", "--no-resolve", "--no-detach"})
-        if (line.given(name)) refuse(std::string(name) + ": --wrap takes none of the steps");
-    if (!(settings.size->value > 0.0)) refuse("--wrap: SIZE is positive");
-    if (settings.offset && !(settings.offset->value > 0.0)) refuse("--offset: DIST is positive");
+        if (line.given(name)) refuse(std::string(name) + ": --wrap replaces all steps");
+    if (!(settings.size->value > 0.0)) refuse("--wrap: expected a SIZE greater than 0");
+    if (settings.offset && !(settings.offset->value > 0.0))
+        refuse("--offset: expected a DIST greater than 0");
 }
 
 exit_status wrap(job& work, const dirty_mesh& input, const wrap_settings& settings,

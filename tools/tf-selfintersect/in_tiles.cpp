@@ -71,8 +71,8 @@ bool needs_tiles(job& work, const search_settings& settings, const tile_options&
         const std::uint64_t of_tile = std::min(tiles.per_tile, size / 13) * 320 >> 20;
         throw failure(stopped, "memory",
                       work.name + ": --memory " + std::to_string(allowed >> 20) +
-                          "M is too little; in tiles, " + std::to_string(least + of_tile) +
-                          "M would be enough, and room for what is found");
+                          "M is too little; the search in tiles needs about " +
+                          std::to_string(least + of_tile) + "M, and memory for the pairs found");
     }
     if (why.empty()) return true;
     std::string text = why + " needs the whole mesh in memory";
@@ -164,12 +164,12 @@ findings search_in_tiles(job& work, const search_settings& settings, const tile_
     work.warn_of_non_finite(r.part.non_finite, "face", "faces");
     if (r.started_anew)
         work.warn("started-anew", folder.string() +
-                                      ": what is there is of no use for this input and these "
-                                      "options; started again");
+                                      ": the tiles there are not of this input and these options; "
+                                      "started again");
     work.out.info(
         work.name + ": searched in " + counted(r.tiles, "tile", "tiles") + " in " +
         folder.string() +
-        (r.finished_tiles > 0 ? ", " + grouped(r.finished_tiles) + " finished before" : ""));
+        (r.finished_tiles > 0 ? ", " + grouped(r.finished_tiles) + " finished earlier" : ""));
     enter_tiles(work, r.tiles, folder, {});
     findings result = findings_of(std::move(r));
     group_findings(work, result, settings);

@@ -33,19 +33,17 @@ tf::box3 parse_box(std::string_view text) {
     const auto v = tools::parse_numbers("--box", text, 6);
     const tf::box3 box{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
     if (v[0] > v[3] || v[1] > v[4] || v[2] > v[5])
-        tools::refuse("--box " + std::string(text) + ": the first corner must be the low one");
+        tools::refuse("--box " + std::string(text) + ": expected X0,Y0,Z0 not above X1,Y1,Z1");
     return box;
 }
 
 void add_what_counts(command_line& line, tools::search_settings& s) {
     line.group("What counts");
     line.flag(s.touching, {"--touching", "",
-                           "also count contact without crossing between faces\n"
-                           "that are not neighbors, and pairs with a\n"
-                           "degenerate face",
+                           "also count faces that touch without crossing and are\n"
+                           "not neighbors, and pairs with a degenerate face",
                            "off"});
-    line.flag(s.no_overlap,
-              {"--no-overlap", "", "do not count coplanar overlap, folds, duplicates"});
+    line.flag(s.no_overlap, {"--no-overlap", "", "do not count overlap, fold and duplicate"});
     line.flag(s.between, {"--between", "", "only pairs of different connected components"});
     line.flag(s.within, {"--within", "", "only pairs inside one connected component"});
     static constexpr std::array<const char*, 2> identities{"equal", "file"};
@@ -115,13 +113,13 @@ void check_request(const command_line& line, request& r, common_options& options
                              "--keep-components"})
         if (!r.repairs && line.given(name)) refuse(std::string(name) + " needs --repair");
     if (line.given("--inside") && r.repair.mode != tf::resolve_mode::outer)
-        refuse("--inside: only --repair=outer asks what is solid");
+        refuse("--inside is for --repair=outer");
     if (r.repair.keep_cuts && r.repair.mode != tf::resolve_mode::outer)
-        refuse("--keep-cuts: only --repair=outer merges faces");
+        refuse("--keep-cuts is for --repair=outer");
     if (r.repairs && (r.search.first || r.search.between || r.search.within || r.search.box))
-        refuse("--repair looks at the whole mesh: no --first, --between, --within or --box");
+        refuse("--repair needs all pairs; it excludes --first, --between, --within and --box");
     if (options.in_place && !r.repairs)
-        refuse("--in-place: without --repair this tool changes no mesh; -o writes a marked copy");
+        refuse("--in-place needs --repair; -o writes a copy with the faces colored");
     if (!r.repairs) options.mesh_formats = {"ply", "glb", "3mf"};  // that can hold marks
     if (!options.output.empty()) static_cast<void>(tools::mesh_format(options, options.output));
     if (!tools::wants_mesh(options)) {

@@ -77,16 +77,16 @@ std::string remedy_for(const tf::certificate& known, tf::resolve_mode mode) {
     using enum tf::resolve_mode;
     const bool floats = known.precision == tf::precision::float32;
     if (known.status == tf::status::open_input)
-        return "; --repair=split or --repair=remove do without";
+        return "; --repair=split and --repair=remove accept open surfaces";
     if (known.status == tf::status::excessive_loss) return " (--accept-loss writes it)";
-    if (known.vanished_faces > 0) return floats ? "; --precision double may do" : "";
+    if (known.vanished_faces > 0) return floats ? "; --precision double may help" : "";
     if (known.status == tf::status::vanished)
         return mode == outer
-                   ? ": the faces cancel each other out and bound nothing; --repair=split "
+                   ? ": the faces cancel each other out and enclose no volume; --repair=split "
                      "keeps one of each"
                    : "; --repair=split keeps one of each";
     const bool by_rounding = known.meeting_count > 0 && mode != remove;
-    return floats && by_rounding ? "; --precision double, in a format that has it, may do" : "";
+    return floats && by_rounding ? "; --precision double, in a format that has it, may help" : "";
 }
 
 /// Why the result cannot be taken; empty when it can.
@@ -123,7 +123,7 @@ void say_result(job& work, const repair_settings& settings, const tf::repair_res
             counted(repaired.statistics.vanished_components, "component has", "components have") +
                 " disappeared" +
                 (settings.mode == tf::resolve_mode::split && did.covered > 0
-                     ? ", or all of it lies on others"
+                     ? ", or lie entirely on others"
                      : ""));
 }
 

@@ -107,8 +107,8 @@ void hint_at_near_points(job& work, const findings& result) {
     if (const auto near = tf::count_nearly_equal(mesh.points, lengths[step]); near > 0)
         work.warn("near-corners",
                   counted(near, "vertex lies", "vertices lie") + " within " + brief(lengths[step]) +
-                      " of another without being equal to it; -t " + steps[step] +
-                      (closing ? " joins them and closes the surface" : " would join them"));
+                      " of another one, but not at the same coordinates; -t " + steps[step] +
+                      (closing ? " joins them and closes the surface" : " joins them"));
 }
 
 }  // namespace tools

@@ -57,9 +57,9 @@ void say_details(job& work, const findings& result) {
     }
     const tf::predicate_counters& predicates = result.found.predicates;
     out.debug(work.name + ": " + grouped(result.found.box_pairs) + " pairs of boxes, " +
-              grouped(result.found.exact_pairs) + " left to the exact stage; " +
+              grouped(result.found.exact_pairs) + " tested by the exact stage; " +
               grouped(predicates.calls) + " predicates, " + grouped(predicates.undecided) +
-              " not settled by their filter");
+              " not decided by the filter");
 }
 
 }  // namespace tools

@@ -70,19 +70,19 @@ tf::weld_stream_options library_options(job& work, const weld_request& request,
 
 void say_of_damaged(job& work, const tf::cloud_survey& survey, const tile_options& tiles) {
     for (const fs::path& file : survey.damaged)
-        work.warn("damaged", file.string() + ": this tile's files are not what was written" +
-                                 (tiles.finish || tiles.plan ? "" : "; done again"));
+        work.warn("damaged", file.string() + ": the files of this tile are damaged" +
+                                 (tiles.finish || tiles.plan ? "" : "; it is welded again"));
 }
 
 void say_of_earlier_work(job& work, const tf::cloud_survey& survey, const fs::path& folder) {
     if (survey.started_anew)
         work.warn("started-anew", folder.string() +
-                                      ": what is there is of no use for this input and these "
-                                      "options; started again");
+                                      ": the tiles there are not of this input and these options; "
+                                      "started again");
     if (survey.continued)
         work.out.info(work.name + ": continued in " + folder.string() + ", " +
                       grouped(survey.finished_tiles) + " of " +
-                      counted(survey.tiles, "tile", "tiles") + " finished before");
+                      counted(survey.tiles, "tile", "tiles") + " finished earlier");
 }
 
 void enter_sources(job& work, const tf::cloud_survey& survey, const tf::cloud_inputs& inputs,
@@ -121,7 +121,7 @@ void say_plan(job& work, const tf::cloud_survey& survey, const fs::path& folder)
     if (survey.disk_bytes_free.value_or(survey.disk_bytes) < survey.disk_bytes)
         work.warn("space",
                   folder.string() + ": only " + grouped(*survey.disk_bytes_free / 1000000) +
-                      " MB left on the disk of " + needed + " needed; --work names another");
+                      " MB free on the disk, " + needed + " needed; --work names another folder");
 }
 
 /// Files as asked for, each in a place of its own until all are whole.

@@ -35,26 +35,26 @@ void add_what_is_merged(command_line& line, weld_settings& s, bool& exact) {
                 [&s](std::string_view text) { tools::parse_rule(text, s.options); });
     line.offer("--rule", {"first", "chain"});
     line.option({"--same", "P[=TOL],...",
-                 "merge only if property P agrees, too (within TOL),\n"
-                 "e.g. --same classification,nx=0.01"},
+                 "merge only points with equal P (or within TOL), such\n"
+                 "as --same classification,nx=0.01"},
                 [&s](std::string_view text) { s.options.same = tools::parse_same(text); });
     line.option({"--across", "P,...",
-                 "mesh seams (normal, uv, color) are kept unless\n"
-                 "named here, e.g. --across normal,uv"},
+                 "merge across mesh seams in P, which are kept by\n"
+                 "default: normal, uv, color"},
                 [&s](std::string_view text) { s.options.across = tools::parse_across(text); });
     line.flag(s.options.only_borders,
-              {"--borders", "", "only vertices on open edges (stitch shells)"});
+              {"--borders", "", "merge only vertices on open edges (stitch shells)"});
     line.flag(exact, {.names = "--exact"});
 }
 
 void add_which_one_stays(command_line& line, tf::weld_options& options) {
-    line.group("Which one stays");
+    line.group("Which point of a group is kept");
     line.option({"--keep", "WHICH", "first | last | mean | min:P | max:P", "first"},
                 [&options](std::string_view text) { tools::parse_keep(text, options); });
     line.offer("--keep", {"first", "last", "mean", "min:", "max:"});
     line.option({"--order", "P",
-                 "P or min:P | max:P: visit points by rising or\n"
-                 "falling P; ties in file order, NaN last",
+                 "P or min:P | max:P: visit points by ascending or\n"
+                 "descending P; ties in file order, NaN last",
                  "file order"},
                 [&options](std::string_view text) { tools::parse_order(text, options); });
     line.offer("--order", {"min:", "max:"});
@@ -63,7 +63,7 @@ void add_which_one_stays(command_line& line, tf::weld_options& options) {
 void add_what_to_give_back(command_line& line, weld_outputs& outputs, common_options& options) {
     line.group("Output");
     line.output(options.output, {"-o, --output", "FILE",
-                                 "the welded set; all other properties are kept\n"
+                                 "the welded points or mesh, with all their properties\n"
                                  "(meshes: obj ply stl off glb; points: ply pcd\n"
                                  "las laz xyz csv). \"-\" = stdout, with --output-format"});
     line.output(outputs.map, {"--map", "FILE",
@@ -74,7 +74,7 @@ void add_what_to_give_back(command_line& line, weld_outputs& outputs, common_opt
     line.flag(outputs.withhold, {"--withhold", "",
                                  "drop nothing; set the flag \"withheld\" of points\n"
                                  "that would be dropped (output in LAS or LAZ)"});
-    line.flag(outputs.check, {"--check", "", "only count; exit 1 if anything would be merged"});
+    line.flag(outputs.check, {"--check", "", "only count; exit 1 if points would be merged"});
 }
 
 void add_columns(command_line& line, common_options& o, bool& mixed) {
@@ -86,36 +86,37 @@ void add_columns(command_line& line, common_options& o, bool& mixed) {
     line.flag(o.drop_non_finite,
               {"--drop-non-finite", "", "drop points with a NaN or infinite coordinate first"});
     line.option({"--drop", "P,...",
-                 "do not write these properties of points; normal, uv:\n"
-                 "also of corners"},
+                 "do not write these properties of points; for normal\n"
+                 "and uv, also those of corners"},
                 [&o](std::string_view text) { o.drop = tools::parse_properties("--drop", text); });
     line.option({"--rename", "P=NAME,...", "write property P of points as NAME"},
                 [&o](std::string_view text) {
                     o.rename = tools::parse_names("--rename", text);
                     for (auto& [name, source] : o.rename) std::swap(name, source);
                 });
-    line.option({"--las-scale", "S[,S,S]", "scale of LAS coordinates, one or one for each axis",
-                 "of the input, else chosen"},
+    line.option({"--las-scale", "S[,S,S]", "scale of LAS coordinates, for all axes or for each",
+                 "as in the input, else chosen"},
                 [&o](std::string_view text) {
                     o.las_scale = tools::parse_axes("--las-scale", text);
                     for (const double s : *o.las_scale)
                         if (!(s > 0.0))
-                            refuse("--las-scale " + std::string(text) + ": not above 0");
+                            refuse("--las-scale " + std::string(text) +
+                                   ": expected numbers greater than 0");
                 });
     line.option(
-        {"--las-offset", "X[,Y,Z]", "offset of LAS coordinates", "of the input, else chosen"},
+        {"--las-offset", "X[,Y,Z]", "offset of LAS coordinates", "as in the input, else chosen"},
         [&o](std::string_view text) { o.las_offset = tools::parse_axes("--las-offset", text); });
     line.flag(mixed, {"--mixed", "",
-                      "--join LAS of different reference systems or time\n"
-                      "types; the output has those of the first"});
+                      "--join LAS files even if their reference systems or\n"
+                      "time types differ; the output has those of the first"});
 }
 
 void add_meshes(command_line& line, weld_settings& s) {
     line.group("Meshes");
     line.flag(s.options.keep_degenerate,
-              {"--keep-degenerate", "", "keep faces that collapse", "drop and count"});
+              {"--keep-degenerate", "", "keep collapsed faces", "drop and count them"});
     line.flag(s.options.keep_manifold, {"--keep-manifold", "",
-                                        "do not merge a pair if that would make an edge of\n"
+                                        "do not merge two points if that would make an edge of\n"
                                         "more than two faces or a bow-tie vertex"});
 }
 
@@ -130,7 +131,7 @@ void check_what_is_marked(const weld_outputs& outputs, const weld_settings& s,
         refuse(option + " drops nothing; it excludes --keep and --keep-degenerate");
     if (outputs.withhold && !outputs.label.empty()) refuse("--withhold excludes --label");
     for (const char* axis : {"x", "y", "z"})
-        if (outputs.label == axis) refuse("--label " + outputs.label + ": is a coordinate");
+        if (outputs.label == axis) refuse("--label " + outputs.label + ": a coordinate");
     if (outputs.label.find_first_of(" \t\r\n,;\"") != std::string::npos)
         refuse("--label " + outputs.label + ": expected a name without blanks and commas");
 }
@@ -158,7 +159,7 @@ void check_request(const command_line& line, const tools::weld_request& r,
             if (condition.property == name) refuse(name + " is named by --same and by --across");
     const tf::weld_options& options = r.settings.options;
     if (!options.order_by.empty() && options.keep != tf::weld_keep::first)
-        refuse("--order says which point stays; it excludes --keep " +
+        refuse("--order decides which point is kept; it excludes --keep " +
                tools::keep_in_words(options));
     check_what_is_marked(outputs, r.settings, o);
     tools::check_tile_options(tiles, line, o);

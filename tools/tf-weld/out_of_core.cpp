@@ -54,7 +54,7 @@ std::string what_needs_memory(const job& work, const weld_request& request,
     if (!header.indexed && chooses) return "--keep of an STL";
     if (!header.indexed && !request.outputs.label.empty()) return "--label of an STL";
     if (!header.indexed && request.settings.tolerance.value > 0.0 && !o.chain)
-        return "-t of an STL (not of a PLY that tf-weld without -t makes of it)";
+        return "-t of an STL (first make a PLY by tf-weld without -t)";
     const std::string format = path ? form_of(work, header, *path).format : std::string();
     if (path && !is_of_blocks(format, is_mesh))
         return "the output format " + format + (is_mesh ? " of a mesh" : " of a cloud");
@@ -62,8 +62,8 @@ std::string what_needs_memory(const job& work, const weld_request& request,
         (header.stored_as == tf::precision::float64 || o.keep == tf::weld_keep::mean))
         return "--precision float of a mesh in doubles";
     const bool looks_again = chooses || work.options.precision == "float";
-    if (path && *path == "-" && looks_again) return "looking again at what goes to standard output";
-    if (format == "obj" && looks_again) return "looking again at an OBJ";
+    if (path && *path == "-" && looks_again) return "reading back what goes to standard output";
+    if (format == "obj" && looks_again) return "reading back an OBJ";
     return {};
 }
 
@@ -104,8 +104,8 @@ exit_status weld_mesh(job& work, const weld_request& request, const tile_options
         return weld_in_memory(work, request, tiles.per_tile > 0 ? words : remark_on_folder(tiles));
     const auto not_enough = [&] {
         return failure(stopped, "memory",
-                       work.name + ": " + words + "; --memory is not enough for " +
-                           in_megabytes(size) + " of file");
+                       work.name + ": " + words + "; --memory is not enough for a file of " +
+                           in_megabytes(size));
     };
     if (size > work.options.memory) throw not_enough();
     try {
@@ -141,8 +141,8 @@ exit_status weld_files(job& work, const weld_request& request, const tile_option
         throw failure(
             bad_input, "read",
             work.name +
-                ": is no cloud, plain PLY or binary STL, which several processes read by blocks; "
-                "other meshes are welded by one, in memory");
+                ": not a cloud, plain PLY or binary STL; other meshes can only be welded by one "
+                "process, in memory");
     if (!header)
         return weld_mesh(
             work, request, tiles, size,
@@ -161,7 +161,7 @@ exit_status weld_files(job& work, const weld_request& request, const tile_option
     throw failure(asked ? bad_usage : stopped, asked ? "usage" : "memory",
                   work.name + ": " + only + " needs the whole " + (is_mesh ? "mesh" : "cloud") +
                       " in memory, about " + in_megabytes(needed) +
-                      "; without it, a smaller --memory would do");
+                      "; without it, a smaller --memory is enough");
 }
 
 }  // namespace
@@ -176,7 +176,8 @@ exit_status weld_somewhere(job& work, const weld_request& request, const tile_op
     inputs.paths.assign(inputs.names.begin(), inputs.names.end());
     const auto piped = std::ranges::find(inputs.paths, fs::path("-"));
     if (tiles.has_others() && std::ranges::any_of(inputs.paths, is_read_once))
-        throw failure(bad_usage, "usage", "several processes read files only, no pipes");
+        throw failure(bad_usage, "usage",
+                      "several processes cannot share a pipe as input; expected files");
     if (piped == inputs.paths.end()) return weld_files(work, request, tiles, inputs);
     if (o.memory == 0 && tiles.per_tile == 0) return weld_in_memory(work, request);
     std::optional<spooled_input> spooled;

@@ -32,12 +32,12 @@ void warn_of_near_points(job& work, bool rounded, std::uint64_t again,
                          const weld_request& request) {
     if (again == 0) return;
     work.warn(rounded ? "precision" : "within-tolerance",
-              counted(again, "point", "points") + " that were kept " +
+              counted(again, "kept point is", "kept points are") +
+                  " within the tolerance of another one" +
                   (request.settings.options.keep == tf::weld_keep::first
-                       ? "came within the tolerance of another by rounding; --precision double "
-                         "keeps them apart where the format has it"
-                       : "are within the tolerance of another again; only --keep first rules "
-                         "that out"));
+                       ? ", because of rounding; --precision double, in a format that has it, "
+                         "avoids this"
+                       : "; only --keep first avoids this"));
 }
 
 void look_for_folds(job& work, const tf::mesh& welded) {
@@ -66,7 +66,7 @@ void check_formats(const job& work, const weld_request& request, const tf::mesh_
     if (!path) return;
     const std::string format = form_of(work, file, *path).format;
     if ((work.options.las_scale || work.options.las_offset) && format != "las" && format != "laz")
-        refuse(path->string() + ": --las-scale and --las-offset are of the formats las and laz");
+        refuse(path->string() + ": --las-scale and --las-offset need the format las or laz");
     if (!request.outputs.label.empty() && !is_of_points(format))
         refuse(path->string() +
                ": --label needs a format with properties: ply, pcd, las, laz, xyz, csv");
@@ -202,13 +202,14 @@ void write_removed(job& work, pending_outputs& outputs, const tf::mesh_file& fil
 }
 
 void warn_of_replaced(job& work, const std::string& label) {
-    work.warn("replaced", "property " + label + " was there before; its values are replaced");
+    work.warn("replaced",
+              "the input already has the property " + label + "; its values are replaced");
 }
 
 void warn_of_las_grid(job& work, const std::string& what, double moved) {
     if (moved > 0.0)
         work.warn("las-grid",
-                  what + " are rounded to the steps of the LAS file, by at most " + brief(moved));
+                  what + " are rounded to the scale of the LAS file, by at most " + brief(moved));
 }
 
 void enter_result(job& work, const weld_request& request, const std::filesystem::path& path,

@@ -89,7 +89,7 @@ void add_distances(scene& shown, const tf::mesh_file& file, const welding& w) {
         if (near.distance > 0.0) distances.push_back(near.distance);
     if (distances.empty()) return;
     const auto [low, high] = std::ranges::minmax(distances);
-    scene_histogram shape{.title = "How far points are from the nearest other one",
+    scene_histogram shape{.title = "Distance from each point to its nearest neighbor",
                           .low = low * 0.99,
                           .high = std::max(high, w.tolerance) * 1.01,
                           .counts = std::vector<std::uint64_t>(bins, 0),
@@ -101,13 +101,13 @@ void add_distances(scene& shown, const tf::mesh_file& file, const welding& w) {
     }
     if (w.tolerance > 0.0) shape.marks.emplace_back(w.tolerance, "tolerance " + brief(w.tolerance));
     shape.note =
-        "The scale is logarithmic. A tolerance in a gap of it merges what is meant to be "
-        "one point, and nothing else.";
+        "The scale is logarithmic. A tolerance inside a gap of the histogram merges only points "
+        "that are meant to be one.";
     const std::uint64_t equal = w.points - w.result.statistics.non_finite - places.size();
     if (equal > 0)
         shape.note += " " + counted(equal, "point has", "points have") +
-                      " the coordinates of an earlier one, and no place here.";
-    if (step > 1) shape.note += " One point of " + grouped(step) + " was asked.";
+                      " the coordinates of an earlier one and not in the histogram.";
+    if (step > 1) shape.note += " It samples one point in " + grouped(step) + ".";
     shown.histograms.push_back(std::move(shape));
 }
 

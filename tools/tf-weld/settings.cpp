@@ -34,7 +34,7 @@ std::string known_properties(const tf::attributes& known) {
     if (const tf::element* const vertices = known.find("vertex"))
         for (const tf::column& c : vertices->columns)
             if (c.role == tf::column_role::data) names += (names.empty() ? "" : ", ") + c.name;
-    return names.empty() ? "the points have none but x, y, z" : "the points have " + names;
+    return names.empty() ? "the points have only x, y, z" : "the points have " + names;
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ void check_properties(const job& work, const tf::mesh_file& file) {
         if (has(name) || name == "x" || name == "y" || name == "z")
             throw failure(
                 bad_input, "property",
-                "--rename " + source + "=" + name + ": there is a property " + name + " already");
+                "--rename " + source + "=" + name + ": the property " + name + " already exists");
     }
 }
 

@@ -19,7 +19,7 @@ std::string faces_in_words(const welding& w, const weld_settings& settings) {
     if (w.triangles == 0) return {};
     std::string text = "; " + counted(w.triangles_kept(), "triangle", "triangles") + " kept";
     if (r.collapsed > 0) text += ", " + grouped(r.collapsed) + " collapsed";
-    if (r.degenerate > 0) text += ", " + grouped(r.degenerate) + " repeated a corner before";
+    if (r.degenerate > 0) text += ", " + grouped(r.degenerate) + " already degenerate";
     return settings.options.keep_degenerate || r.collapsed + r.degenerate == 0
                ? text
                : text + " (dropped)";
@@ -46,12 +46,12 @@ std::string verdict(const welding& w, const weld_request& request) {
     else if (!request.outputs.label.empty())
         text = all + " labeled, in " + counted(w.distinct(), "group", "groups");
     else if (request.outputs.withhold)
-        text = grouped(w.removed()) + " of " + all + " withheld, " + grouped(w.distinct()) +
-               " left as they are";
+        text = grouped(w.removed()) + " of " + all + " marked as withheld, " +
+               grouped(w.distinct()) + " unchanged";
     else
         text = grouped(w.removed()) + " of " + all + " merged, " + grouped(w.distinct()) + " kept";
     text += " (" + reach(w, request.settings);
-    if (!w.conditions.empty()) text += ", with the same " + names_of(w.conditions);
+    if (!w.conditions.empty()) text += ", only with equal " + names_of(w.conditions);
     return text + ")" + faces_in_words(w, request.settings);
 }
 
@@ -59,14 +59,14 @@ void warn_of_defects(job& work, const welding& w) {
     const tf::weld_statistics& r = w.result.statistics;
     if (r.non_finite > 0)
         work.warn("non-finite", counted(r.non_finite, "point", "points") +
-                                    " with a NaN or infinite coordinate left as they are");
+                                    " with a NaN or infinite coordinate kept unmerged");
     if (r.nonmanifold_after > r.nonmanifold_before)
-        work.warn("nonmanifold", counted(r.nonmanifold_after, "edge", "edges") +
-                                     " of more than two faces, " + grouped(r.nonmanifold_before) +
-                                     " before; --keep-manifold leaves such points apart");
+        work.warn("nonmanifold", counted(r.nonmanifold_after, "edge has", "edges have") +
+                                     " more than two faces, " + grouped(r.nonmanifold_before) +
+                                     " before; --keep-manifold prevents such merges");
     if (r.flipped > 0)
         work.warn("flipped", counted(r.flipped, "face", "faces") +
-                                 " turned over; the tolerance is larger than details");
+                                 " flipped: the tolerance is larger than details of the mesh");
 }
 
 void say_details(job& work, const welding& w) {
@@ -77,7 +77,8 @@ void say_details(job& work, const welding& w) {
     if (w.triangles == 0) return;
     work.out.info(work.name + ": " + counted(r.nonmanifold_after, "edge", "edges") +
                   " of more than two faces, " + grouped(r.nonmanifold_before) + " before; " +
-                  counted(r.kept_apart, "group", "groups") + " left apart to stay manifold");
+                  counted(r.kept_apart, "group", "groups") +
+                  " not merged completely, to stay manifold");
 }
 
 }  // namespace tools

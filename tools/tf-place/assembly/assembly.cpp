@@ -14,7 +14,9 @@ namespace {
 void add_shared_options(command_line& line, assembly_settings& s) {
     line.group("Options");
     line.option(s.clearance, {"--clearance", "DIST",
-                              "least distance of parts; \"0.1%\" is of the diagonal of\nall", "0"});
+                              "least distance of parts; \"0.1%\" is a share of the\n"
+                              "diagonal of all parts together",
+                              "0"});
     line.repeatable_option(s.ignored, {"--ignore", "A:B",
                                        "do not test A against B (repeatable); * stands for\n"
                                        "any characters, ? for one"});
@@ -22,24 +24,25 @@ void add_shared_options(command_line& line, assembly_settings& s) {
 
 void add_clash_options(command_line& line, assembly_settings& s, common_options& o) {
     add_shared_options(line, s);
-    line.flag(s.no_depth, {"--no-depth", "", "skip depths, which take longest"});
+    line.flag(s.no_depth, {"--no-depth", "", "skip the depths, the slowest part"});
     line.group("Output");
     line.output(o.output, {"-o, --output", "FILE",
-                           "all parts; PLY, GLB: faces that penetrate others are\n"
-                           "red, touching yellow"});
+                           "all parts; in PLY and GLB, faces that penetrate others\n"
+                           "are red, touching ones yellow"});
 }
 
 void add_check_options(command_line& line, assembly_settings& s) {
     add_shared_options(line, s);
     line.option(s.poses, {"--poses", "FILE", "the poses; see below"});
-    line.flag(s.first_only, {"--first", "", "only name the first clash of a pose"});
+    line.flag(s.first_only, {"--first", "", "report only the first clash of each pose"});
     line.repeatable_option(s.package_folders,
                            {"--package-dir", "DIR",
                             "folder for package://... in a URDF file (repeatable);\n"
                             "default: the file's folder and those above it"});
     line.group("Output");
     line.output(s.results, {"--results", "FILE",
-                            "a line of JSON for each pose: its clashes;\n\"-\" = stdout"});
+                            "the clashes of each pose, a line of JSON for each;\n"
+                            "\"-\" = stdout"});
 }
 
 /// "bolts" of "dir/bolts.stl", and a part's name behind it.
@@ -78,7 +81,7 @@ assembly_command::assembly_command(const std::string& mode)
     add_common_options(line_, options_, features);
     for (const char* name : {"--html", "--png", "--view", "--png-size"})
         if (!clash_)
-            line_.refuse(name, true, "is for clash; check tests many poses, and shows none");
+            line_.refuse(name, true, "is not for check, which tests many poses and shows none");
     line_.epilogue(sections_of(assembly_help)[clash_ ? 0 : 1].second);
 }
 
@@ -130,7 +133,7 @@ std::vector<tf::part_pair> ignored_pairs(job& work, const assembly_settings& set
                                     std::string_view(one).substr(at + 1));
         if (one.find(':') == std::string::npos)
             refuse("--ignore " + one + ": expected two names, A:B");
-        if (found.empty()) work.warn("ignore", "--ignore " + one + ": names no pair of parts");
+        if (found.empty()) work.warn("ignore", "--ignore " + one + ": no pair of parts matches");
         pairs.insert(found.begin(), found.end());
     }
     return {pairs.begin(), pairs.end()};

@@ -68,7 +68,7 @@ movable read_parts(job& work, const assembly_settings& settings) {
     const auto is_urdf = [](const std::string& path) { return extension_of(path) == "urdf"; };
     const auto& inputs = work.options.inputs;
     if (std::any_of(inputs.begin(), inputs.end(), is_urdf)) {
-        if (inputs.size() > 1) refuse("a URDF file stands alone");
+        if (inputs.size() > 1) refuse("a URDF file must be the only INPUT");
         return read_robot(work, settings);
     }
     if (!settings.package_folders.empty()) refuse("--package-dir is for URDF files");

@@ -60,13 +60,13 @@ json clash_entry(const named_assembly& all, const tf::part_clash& one) {
 std::string sentence(const named_assembly& all, const tf::part_clash& one) {
     std::string text = all.names[one.a] + " and " + all.names[one.b] + ": " + name_of(one.how);
     if (one.how == mesh_relation::closer_than_clearance) return text + ", " + brief(one.distance);
-    if (one.a_inside_b) text += ", the first inside";
-    if (one.b_inside_a) text += ", the second inside";
+    if (one.a_inside_b) text += ", the first inside the second";
+    if (one.b_inside_a) text += ", the second inside the first";
     if (one.depth) text += ", at most " + brief(*one.depth) + " deep";
-    if (one.volume) text += ", volume in common " + brief(*one.volume);
+    if (one.volume) text += ", common volume " + brief(*one.volume);
     if (one.depth) text += cut_in_words(one.depth_effort);
     if (!one.regions.empty())
-        text += "; " + counted(one.regions.size(), "place", "places") + ", " +
+        text += "; " + counted(one.regions.size(), "region", "regions") + ", " +
                 counted(one.face_pairs, "pair", "pairs") + " of faces";
     return text;
 }
@@ -91,7 +91,7 @@ void say(job& work, const named_assembly& all, const tf::clash_result& r) {
         work.out.result(work.name + ": " + sentence(all, *worst[i]));
     if (worst.size() > shown)
         work.out.result(work.name + ": and " + counted(worst.size() - shown, "pair", "pairs") +
-                        " more; -v names all");
+                        " more; -v lists all");
     work.out.result(work.name + ": " + totals(all, r));
 }
 

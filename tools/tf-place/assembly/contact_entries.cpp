@@ -51,7 +51,7 @@ json contact_entry(const tf::body_set& moving, const tf::body_set& fixed,
 std::string cut_in_words(const tf::search_effort& effort) {
     if (effort.cut == 0) return {};
     return "; the search ended after " + counted(effort.pairs, "pair", "pairs") +
-           " of faces: a shorter way may exist";
+           " of faces, so a shorter translation may exist";
 }
 
 }  // namespace tools

@@ -27,8 +27,8 @@ void enter_depth(job& work, const tf::body_set& moving, const tf::body_set& fixe
     if (!found || found->status != tf::status::ok) return;
     work.entry["depth"] = {
         {"bound", found->depth}, {"move", found->move}, {"effort", effort_entry(found->effort)}};
-    work.out.result(work.name + ": at most " + brief(found->depth) + " deep: moved by " +
-                    in_words(found->move) + " it is out of " + fixed.label(other) +
+    work.out.result(work.name + ": at most " + brief(found->depth) + " deep: a translation by " +
+                    in_words(found->move) + " moves it out of " + fixed.label(other) +
                     cut_in_words(found->effort));
 }
 
@@ -115,7 +115,7 @@ void warn_of_inside_out(job& work, const tf::prepared_mesh& body, const std::str
             (components == 1 ? "is inside out"
                              : grouped(count) + " of " + grouped(components) + " components " +
                                    (count == 1 ? "is" : "are") + " inside out") +
-            ": its faces point inward; treated as the solid that they bound");
+            ": faces point inward; used as the solid that they bound");
 }
 
 void add_deviation_options(command_line& line, deviation_settings& settings) {

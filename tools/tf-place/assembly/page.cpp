@@ -78,8 +78,8 @@ void add_ways(scene& shown, const std::vector<const tf::part_clash*>& pairs) {
 
 scene_table table_of(const named_assembly& all, const std::vector<const tf::part_clash*>& pairs) {
     scene_table table{.title = "Pairs",
-                      .columns = {"part", "and", "", "distance", "depth at most",
-                                  "volume in common", "places", "pairs of faces"}};
+                      .columns = {"part", "other part", "relation", "distance", "depth at most",
+                                  "common volume", "regions", "pairs of faces"}};
     const auto or_blank = [](const std::optional<double>& value) {
         return value ? json(*value) : json("");
     };

@@ -36,8 +36,7 @@ tf::transform<3> transform_of(const std::vector<double>& v) {
 tf::transform<3> transform_of(const json& matrix) {
     std::vector<double> values;
     const auto add = [&](const json& one) {
-        if (!one.is_number())
-            throw std::invalid_argument("a matrix has numbers in it, nothing else");
+        if (!one.is_number()) throw std::invalid_argument("an entry of a matrix is not a number");
         values.push_back(one.get<double>());
     };
     if (!matrix.is_array()) throw std::invalid_argument("a matrix is 16 numbers, or 4 rows of 4");
@@ -52,8 +51,9 @@ tf::transform<3> transform_of(const json& matrix) {
 /// An object. \throws std::invalid_argument
 json object_of(const std::string& text) {
     json object = json::parse(text, nullptr, false);
-    if (object.is_discarded()) throw std::invalid_argument("no JSON");
-    if (!object.is_object()) throw std::invalid_argument("a pose is an object: {\"name\": ...}");
+    if (object.is_discarded()) throw std::invalid_argument("not valid JSON");
+    if (!object.is_object())
+        throw std::invalid_argument("a pose must be a JSON object: {\"name\": ...}");
     return object;
 }
 
@@ -94,7 +94,7 @@ void pose_file::begin_report() {
     const json report = json::parse(text_, nullptr, false);
     if (!report.is_object() || !report.contains("files")) return;  // a pose that looks like one
     form_ = form::report;
-    if (robot_) fail("a report has no angles of joints");
+    if (robot_) fail("poses of a robot need joint values, which a report does not have");
     try {
         for (const json& file : report["files"])
             if (file.contains("matrix") && !file["matrix"].is_null())
@@ -146,7 +146,7 @@ void pose_file::enter_parts(const std::string& line, std::vector<tf::transform<3
     const json object = object_of(line);
     for (const auto& [name, matrix] : object.items()) {
         const auto at = std::find(parts_->begin(), parts_->end(), name);
-        if (at == parts_->end()) throw std::invalid_argument("there is no part " + name);
+        if (at == parts_->end()) throw std::invalid_argument("no part is named " + name);
         pose[static_cast<std::size_t>(at - parts_->begin())] = transform_of(matrix);
     }
     poses.insert(poses.end(), pose.begin(), pose.end());
@@ -157,7 +157,7 @@ void pose_file::enter_joints(const std::string& line, std::vector<tf::transform<
     const json object = object_of(line);
     for (const auto& [name, value] : object.items()) {
         if (!value.is_number())
-            throw std::invalid_argument("the value of joint " + name + " is no number");
+            throw std::invalid_argument("the value of joint " + name + " is not a number");
         values[name] = value.get<double>();
     }
     const auto at = robot_->link_transforms(values);
@@ -178,8 +178,8 @@ bool pose_file::next_matrices(std::vector<tf::transform<3>>& poses) {
     }
     if (values.empty()) return false;
     if (values.size() < 16 * part_count_)
-        fail("ends in a pose: a pose has 16 numbers for each of " + std::to_string(part_count_) +
-             " parts");
+        fail("the file ends within a pose: each pose has 16 numbers for each of " +
+             std::to_string(part_count_) + " parts");
     try {
         for (std::size_t i = 0; i < part_count_; ++i) {
             const auto first = values.begin() + static_cast<std::ptrdiff_t>(16 * i);

@@ -25,16 +25,17 @@ void add_lay_options(command_line& line, lay_settings& s) {
         {"--face-point", "X,Y,Z", "lay: on the side that contains this point"},
         [&s](std::string_view text) { s.options.point = parse_point("--face-point", text); });
     line.flag(s.options.most_stable, {"--stable", "",
-                                      "lay: on the side with the largest tip angle; the mass\n"
-                                      "of an open mesh is its surface"});
+                                      "lay: on the side with the largest tip angle; of an\n"
+                                      "open mesh, the surface has the mass"});
     line.option(s.flatness, {"-t, --tolerance", "DIST",
-                             "lay: points this near to the plane of a side belong to\n"
-                             "it, and are made flat; 0 = exactly coplanar only",
+                             "lay: points within DIST of the plane of a side belong\n"
+                             "to the side and are moved onto it; 0: exactly coplanar\n"
+                             "ones only",
                              "0.0001%"});
     line.flag(s.options.keep_spin, {"--keep-spin", "", "lay: do not rotate about the vertical"});
     line.option({"--overhang-angle", "DEG",
-                 "lay: the report's overhang has faces that look down,\n"
-                 "by more than this angle from the vertical",
+                 "lay: faces that lean outward by more than this angle\n"
+                 "from the vertical count as overhang in the report",
                  "45"},
                 [&s](std::string_view text) {
                     const double angle = parse_number("--overhang-angle", text);

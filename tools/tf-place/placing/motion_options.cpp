@@ -21,7 +21,7 @@ feature_pick parse_pick(std::string_view option, std::string_view text) {
     if (text.find(',') != std::string_view::npos) return {.point = parse_point(option, text)};
     const std::uint64_t face = parse_count(option, text);
     if (face > std::numeric_limits<std::uint32_t>::max())
-        refuse(std::string(option) + " " + std::string(text) + ": there is no such face");
+        refuse(std::string(option) + " " + std::string(text) + ": no face has this number");
     return {.face = static_cast<std::uint32_t>(face)};
 }
 
@@ -93,12 +93,12 @@ json feature_entry(const tf::mesh_feature& f) {
 }  // namespace
 
 void add_turn_options(command_line& line, turn_settings& s) {
-    line.option({"--axis", "X,Y,Z", "turn: direction of the axis; right-handed turn", "0,0,1"},
+    line.option({"--axis", "X,Y,Z", "turn: direction of the axis (right-hand rule)", "0,0,1"},
                 [&s](std::string_view text) { s.axis = parse_direction("--axis", text); });
     line.option({"--origin", "X,Y,Z", "turn: a point of the axis", "0,0,0"},
                 [&s](std::string_view text) { s.origin = parse_point("--origin", text); });
     line.option(
-        {"--max-angle", "DEG", "turn: largest angle (exit 1 if it is not enough)", "360"},
+        {"--max-angle", "DEG", "turn: largest angle; exit 1 without contact within it", "360"},
         [&s](std::string_view text) {
             s.max_angle = parse_number("--max-angle", text);
             if (!(s.max_angle > 0.0 && s.max_angle <= 360.0))
@@ -113,16 +113,17 @@ std::span<const char* const> turn_option_names() {
 
 void add_feature_options(command_line& line, feature_settings& s) {
     line.option({"--feature", "KIND",
-                 "mate: planes or axes, the largest of each mesh, then\n"
-                 "slide along them until contact: plane | axis"},
+                 "mate: plane | axis: bring the largest planes or axes\n"
+                 "together, then slide along them until contact"},
                 [&s](std::string_view text) {
                     s.kind = static_cast<tf::feature_kind>(parse_choice("--feature", text, kinds));
                 });
     line.offer("--feature", {kinds.begin(), kinds.end()});
     line.option({"--pick", "FACE|X,Y,Z", "mate: the feature of MOVING at this face or point"},
                 [&s](std::string_view text) { s.moving = parse_pick("--pick", text); });
-    line.option({"--pick-fixed", "FACE|X,Y,Z", "mate: that of --fixed"},
-                [&s](std::string_view text) { s.fixed = parse_pick("--pick-fixed", text); });
+    line.option(
+        {"--pick-fixed", "FACE|X,Y,Z", "mate: the feature of --fixed at this face or point"},
+        [&s](std::string_view text) { s.fixed = parse_pick("--pick-fixed", text); });
     line.flag(s.flip,
               {"--flip", "", "mate: normals of planes point the same way; axes are\nreversed"});
 }
@@ -142,8 +143,8 @@ std::optional<mating> mate_by_features(const feature_settings& s, const tf::body
     if (!of_moving || !of_fixed) {
         const bool picked =
             of_moving ? s.fixed.face || s.fixed.point : s.moving.face || s.moving.point;
-        reason = std::string(of_moving ? "the fixed mesh has no " : "has no ") + kind +
-                 (picked ? " there" : "");
+        reason = std::string(of_moving ? "the fixed mesh has no " : "MOVING has no ") + kind +
+                 (picked ? " at the picked face or point" : "");
         return std::nullopt;
     }
     mating result{std::move(of_moving->feature), std::move(of_fixed->feature), of_fixed->body, {}};

@@ -39,8 +39,8 @@ unsigned parse_at_most(std::string_view option, std::string_view text, std::uint
 void add_pack_options(command_line& line, pack_settings& s) {
     tf::pack_options& o = s.pack;
     line.option({"--size", "X,Y[,Z]",
-                 "pack: the bed; with Z a box, filled to its height:\n"
-                 "parts also go above and into one another"},
+                 "pack: size of the bed; with Z, of a box that is\n"
+                 "filled: parts also go above and into one another"},
                 [&o](std::string_view text) { o.size = parse_size3(text); });
     line.flag(s.flat, {"--flat", "", "pack: all parts stand on the bed; Z is a limit"});
     line.option({"--spacing", "DIST", "pack: least distance between parts", "2"},
@@ -49,7 +49,7 @@ void add_pack_options(command_line& line, pack_settings& s) {
                     if (spacing.relative) refuse("--spacing: expected a length");
                     o.spacing = spacing.value;
                 });
-    line.option({"--rotate", "SET", "pack: none | 90 | 45 | any", "90"},
+    line.option({"--rotate", "SET", "pack: allowed rotations: none | 90 | 45 | any", "90"},
                 [&o](std::string_view text) {
                     o.turns = turns_of_set[parse_choice("--rotate", text, sets_of_turns)];
                 });
@@ -58,21 +58,21 @@ void add_pack_options(command_line& line, pack_settings& s) {
                            {"--count", "FILE:N", "pack: N copies of this MOVING (repeatable)"});
     line.option(
         {"--plates", "N",
-         "pack: up to N plates, side by side along x, a\n"
-         "fifth of their length apart",
+         "pack: use up to N plates, side by side along x, with\n"
+         "gaps of a fifth of their length",
          "1"},
         [&o](std::string_view text) { o.plates = parse_at_most("--plates", text, 10'000); });
     line.option(
         {"--tries", "N",
-         "pack: most orders and rotations to try, until all\n"
-         "parts are placed (and few plates are used)",
+         "pack: try up to N orders and rotations, until all\n"
+         "parts are placed (on few plates)",
          "32"},
         [&o](std::string_view text) { o.tries = parse_at_most("--tries", text, 1'000'000); });
     line.option({"--time", "SEC",
                  "pack: start no more tries after SEC seconds; the\n"
                  "result may then depend on the speed of the machine"},
                 [&o](std::string_view text) { o.seconds = parse_seconds("--time", text); });
-    line.option(o.seed, {"--seed", "N", "pack: same N, same result", "0"});
+    line.option(o.seed, {"--seed", "N", "pack: random seed: same N, same result", "0"});
 }
 
 std::span<const char* const> pack_option_names() {
@@ -98,7 +98,7 @@ std::vector<std::uint64_t> counts_of(const pack_settings& settings,
             counts[i] = count;
             known = true;
         }
-        if (!known) refuse("--count " + text + ": " + file + " is not one of MOVING");
+        if (!known) refuse("--count " + text + ": " + file + " is not a MOVING");
     }
     return counts;
 }
