@@ -44,16 +44,17 @@ void check(mesh_view mesh, const mesh_arrangement& cut,
                cut.cover_begin[f + 1] > cut.covers.size();
     });
     if (bad_face != cut.faces.size())
-        refuse("nothing covers face " + std::to_string(bad_face) + " of the arrangement");
+        refuse("face " + std::to_string(bad_face) + " of the arrangement has no cover");
     const std::size_t bad_cover = first_bad(
         cut.covers.size(), [&](std::size_t i) { return cut.covers[i].face >= mesh.faces.size(); });
     if (bad_cover != cut.covers.size())
-        refuse("a cover is no face: " + std::to_string(cut.covers[bad_cover].face));
-    if (operand_of_face.size() != mesh.faces.size()) refuse("not as many operands as faces");
+        refuse("a cover is not a face: " + std::to_string(cut.covers[bad_cover].face));
+    if (operand_of_face.size() != mesh.faces.size())
+        refuse("expected one operand number for each face");
     const std::size_t bad_operand = first_bad(
         operand_of_face.size(), [&](std::size_t f) { return operand_of_face[f] >= operand_count; });
     if (bad_operand != operand_of_face.size())
-        refuse("face " + std::to_string(bad_operand) + " is of no operand");
+        refuse("face " + std::to_string(bad_operand) + " has an operand out of range");
 }
 
 /// What crossing the surface from front to behind adds to the windings.

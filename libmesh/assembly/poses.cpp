@@ -76,7 +76,7 @@ void check_pose_input(std::span<const prepared_mesh> parts, std::span<const tran
         throw std::invalid_argument(name + "the clearance is negative or not finite");
     if (parts.empty() ? !poses.empty() : poses.size() % parts.size() != 0)
         throw std::invalid_argument(name + std::to_string(poses.size()) +
-                                    " transforms are no multiple of " +
+                                    " transforms are not a multiple of " +
                                     std::to_string(parts.size()) + " parts");
     for (std::size_t i = 0; i < poses.size(); ++i)
         if (!poses[i].finite())

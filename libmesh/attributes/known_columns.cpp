@@ -206,7 +206,7 @@ void translation::choose(element& columns, std::span<const std::string> drop,
         for (std::size_t i = 0; i < columns.columns.size(); ++i)
             if (columns.columns[i].role == column_role::data && columns.columns[i].name == name)
                 return i;
-        throw std::invalid_argument("treeform::write: no property '" + name + "' of points");
+        throw std::invalid_argument("treeform::write: points have no property '" + name + "'");
     };
     for (const std::string& name : drop) {
         const std::vector<std::string> meant = columns.columns_called(name);
@@ -216,8 +216,7 @@ void translation::choose(element& columns, std::span<const std::string> drop,
     for (const auto& [name, source] : renamed_) {
         const std::size_t at = find(source);
         if (columns.find(name) != nullptr)
-            throw std::invalid_argument("treeform::write: there is a property '" + name +
-                                        "' already");
+            throw std::invalid_argument("treeform::write: property '" + name + "' already exists");
         columns.columns[at].name = name;
     }
     // What is dropped is no part of anything.
@@ -241,7 +240,8 @@ void translation::plan(const element& columns, std::vector<bool>& done) {
     if (!is_same_ && to_ != "stl") plan_colors(columns, done);  // STL has none
     for (std::size_t i = 0; i < done.size(); ++i)
         if (!done[i]) plan_column(columns, i);
-    if (!narrowed_.empty()) say("types", narrowed_ + " written as float32, as PCL reads them");
+    if (!narrowed_.empty())
+        say("types", narrowed_ + " written as float32, the type that PCL reads");
     std::ranges::stable_sort(targets_, {}, [](const target& t) { return t.from.front(); });
 }
 
@@ -321,14 +321,14 @@ void translation::choose_scale(const std::vector<const column*>& channels) {
     } else if (all([](const column* c) { return c->type == uint16; })) {
         if (most(65535.0) < 256.0) {
             if (from_words_ == dialect::las || to_words_ == dialect::las)
-                say("colors", "colors in fields of 16 bits are all below 256: taken for 8 bits");
+                say("colors", "16-bit colors are all below 256 and were read as 8-bit colors");
             return;
         }
         scale_ = from_words_ == dialect::las ? color_scale::high_byte : color_scale::word;
         if (to_words_ != dialect::las && !keeps_words_)
             say("colors",
-                std::string("colors of 16 bits are written with 8, ") +
-                    (from_words_ == dialect::las ? "the high ones, as LAS means them" : "rounded"));
+                std::string("16-bit colors are written with 8 bits: ") +
+                    (from_words_ == dialect::las ? "the high ones, as LAS defines" : "rounded"));
     }
 }
 
@@ -383,11 +383,11 @@ void translation::plan_intensity(target& t, const column& c) {
     if (r != nullptr && r->least >= 0.0 && r->greatest <= 1.0 && !r->whole) {
         t.factor = 65535.0;
         return say("scaled", c.name +
-                                 " is from 0 to 1, and is multiplied by 65535: LAS has whole "
+                                 " is from 0 to 1 and is multiplied by 65535, since LAS has whole "
                                  "numbers");
     }
     if (r == nullptr || !r->whole || r->least < 0.0 || r->greatest > 65535.0)
-        say("scaled", c.name + " is rounded to whole numbers from 0 to 65535, as LAS has it");
+        say("scaled", c.name + " is rounded to whole numbers from 0 to 65535, as LAS stores it");
 }
 
 std::uint8_t translation::byte_of(const column& c, std::size_t row) const {

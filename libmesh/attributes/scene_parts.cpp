@@ -54,7 +54,7 @@ std::vector<std::uint32_t> names_of_faces(std::size_t faces, std::span<const par
 std::vector<scene_part> scene_parts(mesh_view mesh, std::span<const part> names,
                                     std::span<const std::uint32_t> number) {
     if (!number.empty() && number.size() != mesh.faces.size())
-        throw std::invalid_argument("treeform::scene_parts: as many numbers as faces are needed");
+        throw std::invalid_argument("treeform::scene_parts: expected one number for each face");
     detail::base::check_faces("scene_parts", mesh.points.size(), mesh.faces);
     const name_table table(names);
     const std::vector<std::uint32_t> name = names_of_faces(mesh.faces.size(), names, number, table);

@@ -107,8 +107,8 @@ void check_expression(const char* function, std::span<const mesh_view> operands,
                       const boolean_expression& expression) {
     if (expression.operand_count() != operands.size())
         throw std::invalid_argument("treeform::" + std::string(function) + ": the expression has " +
-                                    std::to_string(expression.operand_count()) +
-                                    " operands, given are " + std::to_string(operands.size()));
+                                    std::to_string(expression.operand_count()) + " operands, but " +
+                                    std::to_string(operands.size()) + " were given");
 }
 
 /// The result as it is returned: a solid as a manifold, which takes a `split` where it may not be
@@ -150,7 +150,7 @@ boolean_result evaluate(const char* function, std::span<const mesh_view> operand
                         const boolean_options& options, bool solid, const Make& make) {
     if (!solid && (options.min_volume > 0.0 || options.gap > 0.0))
         throw std::invalid_argument("treeform::" + std::string(function) +
-                                    ": a least volume, or a gap to fill, is of solids only");
+                                    ": min_volume and gap need solids");
     return with_checks(function, operands, options, [&] {
         near_result made = make(operands, options);
         return finished(std::move(made.result), solid && !made.is_manifold, options);
@@ -270,7 +270,7 @@ near_result clip_of(std::span<const mesh_view> views, std::uint32_t sheet,
         throw std::invalid_argument("treeform::clip: the sheet is not an operand");
     if (!expression.needs(sheet))
         throw std::invalid_argument(
-            "treeform::clip: the expression may be true outside of the sheet");
+            "treeform::clip: the expression must be false outside of the sheet");
     bundled_operands operands(views, sheet);
     if (operands.all()[1].known->open.count > 0) {
         std::vector<mesh_view> solids(views.begin(), views.end());

@@ -142,25 +142,24 @@ class reader {
         const auto found = std::ranges::find(*names_, name);
         const auto number = static_cast<std::size_t>(found - names_->begin());
         if (found != names_->end()) return number;
-        if (!may_add_)
-            refuse(begin, "no operand has the name " + std::string(name) + list_of_names());
+        if (!may_add_) refuse(begin, "no operand is named " + std::string(name) + list_of_names());
         names_->emplace_back(name);
         return number;
     }
 
-    /// "; there are body, bolt_1"
+    /// "; the names are body, bolt_1"
     [[nodiscard]] std::string list_of_names() const {
         constexpr std::size_t most = 10;
         std::string list;
         for (std::size_t i = 0; i < std::min(most, names_->size()); ++i)
-            list += (i == 0 ? "; there are " : ", ") + (*names_)[i];
+            list += (i == 0 ? "; the names are " : ", ") + (*names_)[i];
         return names_->size() > most ? list + ", ..." : list;
     }
 
     void read_operator() {
         if (text_[at_] == ')') {
             while (!waiting_.empty() && waiting_.back().operation != bracket) emit_waiting();
-            if (waiting_.empty()) refuse(at_, "no bracket is open here");
+            if (waiting_.empty()) refuse(at_, "this bracket was not opened");
             waiting_.pop_back();
             ++at_;
             return;

@@ -164,7 +164,7 @@ void require_union(const char* function, const boolean_expression& expression) {
             is_union = is_union && token == boolean_expression::add;
     if (!is_union || std::ranges::count(is_there, 0) > 0)
         throw std::invalid_argument("treeform::" + std::string(function) +
-                                    ": gaps are filled in a union of all operands only");
+                                    ": only a union of all operands can fill gaps");
 }
 
 filled_gaps::filled_gaps(std::span<const mesh_view> operands, double width)

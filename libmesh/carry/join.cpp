@@ -123,7 +123,7 @@ class joiner {
         constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max() - 1;
         if (points > most || triangles > most || values > most)
             throw std::length_error(
-                "treeform::join: all inputs together have more points or triangles than 32-bit "
+                "treeform::join: the inputs together have more points or triangles than 32-bit "
                 "numbers can name");
     }
 
@@ -227,7 +227,7 @@ class joiner {
         const auto type = wider(c.type, other.type);
         if (!type || c.list_length.has_value() != other.list_length.has_value())
             throw std::invalid_argument("treeform::join: property " + c.name +
-                                        " is not of one kind in all inputs");
+                                        " has different types in the inputs");
         c.type = *type;
         if (c.list_length) c.list_length = wider(*c.list_length, *other.list_length);
     }
@@ -246,7 +246,7 @@ class joiner {
                 append_nothing(c, rows);
                 if (from != nullptr) continue;  // what corners have
                 warn("missing-property", names_[i] + ": no " + element_name + " property " +
-                                             c.name + "; " + filler_of(c) + " there");
+                                             c.name + "; filled with " + filler_of(c));
             }
         }
     }

@@ -103,9 +103,9 @@ void refuse_mixed(const las_header& a, const std::string& name_of_a, const las_h
         throw std::invalid_argument("treeform::join: " + both +
                                     " have different reference systems: " + x.name + ", " + y.name);
     if (has_time(a) && has_time(b) && counts_from_epoch(a) != counts_from_epoch(b))
-        throw std::invalid_argument(
-            "treeform::join: " + both + " count GPS time in different ways: from " +
-            (counts_from_epoch(a) ? "its epoch, within a week" : "within a week, from its epoch"));
+        throw std::invalid_argument("treeform::join: " + both + " have different GPS times: " +
+                                    (counts_from_epoch(a) ? "since the epoch, within a week"
+                                                          : "within a week, since the epoch"));
 }
 
 struct las_bounds {

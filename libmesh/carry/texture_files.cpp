@@ -46,7 +46,7 @@ class renumberer {
         }
         if (wrong > 0)
             warn(name, std::to_string(wrong) + (wrong == 1 ? " face has a" : " faces have a") +
-                           " " + number_name + " that names no texture file; -1 there");
+                           " " + number_name + " without a texture file; replaced by -1");
         const bool was_there = given != nullptr;
         element& faces = file.attributes.find_or_add("face", file.stored_faces);
         if (faces.set(column::of<std::int32_t>(number_name, numbers)) && !was_there)

@@ -45,7 +45,7 @@ const known_unit& unit_named(const std::string& name) {
     const auto at = std::ranges::find(units, name, &known_unit::name);
     if (at == units.end())
         throw std::invalid_argument("treeform: unit " + name +
-                                    " is not known: mm, cm, m, in, ft or um");
+                                    " is unknown; expected mm, cm, m, in, ft or um");
     return *at;
 }
 

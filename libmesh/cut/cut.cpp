@@ -156,8 +156,8 @@ cut_result cut_to_fit(const mesh_ref& mesh, const point3& size, const cut_option
         most *= std::max(count, 1.0);
         if (!(size[axis] > 0.0) || !(count <= most_planes) || most > most_pieces)
             throw std::invalid_argument(
-                "treeform::cut_to_fit: a size that is not positive, or for which there would be "
-                "more than 2^16 planes across an axis or 2^20 pieces");
+                "treeform::cut_to_fit: a size is not positive, or would make more than 2^16 planes "
+                "across an axis or 2^20 pieces");
         for (double i = 1.0; i < count; i += 1.0)
             heights[axis].push_back(low + extent * (i / count));
     }

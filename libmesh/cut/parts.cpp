@@ -144,7 +144,8 @@ mesh concatenate(const mesh_refs& meshes) {
         const mesh_view one = given.view();
         if (all.points.size() + one.points.size() > 0xffffffffU ||
             all.faces.size() + one.faces.size() > 0xffffffffU)
-            throw std::length_error("treeform::concatenate: more than 32 bits can number");
+            throw std::length_error(
+                "treeform::concatenate: more elements than 32-bit numbers can name");
         const auto first = static_cast<std::uint32_t>(all.points.size());
         all.points.insert(all.points.end(), one.points.begin(), one.points.end());
         for (const auto& [a, b, c] : one.faces)

@@ -127,7 +127,7 @@ void add_layer(section_result& result, const drawn_layer& layer, double height, 
     totals.first_loop = static_cast<std::uint32_t>(result.loops.size());
     totals.loop_count = static_cast<std::uint32_t>(layer.loops.size());
     if (result.loops.size() + layer.loops.size() >= section_loop::none)
-        throw std::length_error("treeform::section: more loops than 32 bits can number");
+        throw std::length_error("treeform::section: more loops than 32-bit numbers can name");
     for (section_loop loop : layer.loops) {
         loop.first_point += result.points.size();
         if (loop.parent != section_loop::none) loop.parent += totals.first_loop;
@@ -208,8 +208,7 @@ std::vector<double> oriented_plane::layer_heights(points_view points, double thi
     }
     if (!(thickness > 0.0) || (high - low) / thickness > 0x1p24)
         throw std::invalid_argument(
-            "treeform::oriented_plane::layer_heights: a thickness that is not positive, or of "
-            "which there would be "
+            "treeform::oriented_plane::layer_heights: the thickness is not positive, or would make "
             "more than 2^24 layers");
     std::vector<double> heights;
     for (std::size_t i = 0;; ++i) {

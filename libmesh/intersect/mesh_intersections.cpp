@@ -27,8 +27,8 @@ namespace {
 void check_tree(const char* function, const char* which, mesh_view mesh, const tree<3>& tree) {
     if (tree.size() != mesh.faces.size())
         throw std::invalid_argument(std::string(function) + ": the tree of the " + which +
-                                    " mesh is over " + std::to_string(tree.size()) +
-                                    " primitives, the mesh has " +
+                                    " mesh has " + std::to_string(tree.size()) +
+                                    " primitives, but the mesh has " +
                                     std::to_string(mesh.faces.size()) + " faces");
 }
 

@@ -69,8 +69,8 @@ mesh_hit hit_of(const face_contact& c) {
 
 ray_query::ray_query(mesh_view mesh, const tree<3>& tree) : mesh_(mesh), tree_(&tree) {
     if (tree.size() != mesh.faces.size())
-        throw std::invalid_argument("treeform::ray_query: a tree over " +
-                                    std::to_string(tree.size()) + " elements for " +
+        throw std::invalid_argument("treeform::ray_query: the tree has " +
+                                    std::to_string(tree.size()) + " elements, but the mesh has " +
                                     std::to_string(mesh.faces.size()) + " faces");
 }
 

@@ -39,11 +39,11 @@ void check(mesh_view mesh, const intersection_options& options) {
     const std::size_t labels = options.component_of_face.size();
     if (labels != mesh.faces.size() && (labels != 0 || options.between || options.within))
         throw std::invalid_argument("treeform::self_intersections: " + std::to_string(labels) +
-                                    " components for " + std::to_string(mesh.faces.size()) +
+                                    " component numbers for " + std::to_string(mesh.faces.size()) +
                                     " faces");
     if (options.between && options.within)
         throw std::invalid_argument(
-            "treeform::self_intersections: between and within leave no pair");
+            "treeform::self_intersections: between and within exclude each other");
 }
 
 bool fits_filter(const tree<3>& tree) {

@@ -78,24 +78,24 @@ parts_gltf parts_of_gltf(const source& in) {
     const std::string_view all(in.begin(), in.size());
     parts_gltf parts{.json = all};
     if (!all.starts_with("glTF")) return parts;
-    if (all.size() < head_size + chunk_head) in.fail("cut short");
+    if (all.size() < head_size + chunk_head) in.fail("truncated");
     if (word_at(all, 4) == 1) {
         constexpr std::size_t head_1 = 20;
         const std::size_t size = word_at(all, head_size);
-        if (size > all.size() - head_1) in.fail("cut short");
+        if (size > all.size() - head_1) in.fail("truncated");
         return {.json = all.substr(head_1, size), .is_version_1 = true};
     }
     if (word_at(all, 4) != 2)
-        in.fail("GLB of version " + std::to_string(word_at(all, 4)) + " is not read, only 2");
+        in.fail("GLB version " + std::to_string(word_at(all, 4)) + " is not supported, only 2");
     const std::size_t length = word_at(all, 8);
-    if (length > all.size()) in.fail("cut short");
+    if (length > all.size()) in.fail("truncated");
     parts.trailing = all.size() - length;
     bool first = true;
     for (std::size_t at = head_size; length > at && length - at >= chunk_head;) {
         const std::size_t size = word_at(all, at);
         const std::string_view type = all.substr(at + 4, 4);
         at += chunk_head;
-        if (size > length - at) in.fail("cut short");
+        if (size > length - at) in.fail("truncated");
         const std::string_view chunk = all.substr(at, size);
         if (first && type != "JSON") in.fail_byte(chunk.data() - 4, "the first chunk is not JSON");
         if (first) parts.json = chunk;
@@ -103,7 +103,7 @@ parts_gltf parts_of_gltf(const source& in) {
         first = false;
         at += size;
     }
-    if (first) in.fail("cut short");
+    if (first) in.fail("truncated");
     return parts;
 }
 
@@ -125,7 +125,7 @@ std::string_view buffers_gltf::bytes_of_view(std::size_t number) {
     if (!view.compression.empty())
         fail("bufferViews", number,
              "needs the extension " + view.compression +
-                 ", which is not read; gltf-transform copy IN OUT unpacks it");
+                 ", which is not supported; gltf-transform copy IN OUT unpacks it");
     auto& bytes = loaded_[view.buffer];
     if (!bytes) bytes = load(view.buffer);
     if (view.offset > bytes->size() || view.size > bytes->size() - view.offset)
@@ -139,13 +139,13 @@ std::string_view buffers_gltf::load(std::size_t number) {
     constexpr std::string_view data = "data:";
     if (!buffer.uri) {
         if (number != 0 || !binary_)
-            fail("buffers", number, "has no bytes: no uri, no binary part");
+            fail("buffers", number, "has no data: neither a uri nor a binary chunk");
         bytes = *binary_;
     } else if (buffer.uri->starts_with(data)) {
         const std::string_view uri = *buffer.uri;
         const std::size_t comma = uri.find(',');
         if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(";base64"))
-            fail("buffers", number, "is a 'data:' without base64");
+            fail("buffers", number, "is a 'data:' uri without base64");
         auto decoded = from_base64(uri.substr(comma + 1));
         if (!decoded) fail("buffers", number, "is not valid base64");
         bytes = decoded_.emplace_back(*std::move(decoded));
@@ -154,7 +154,8 @@ std::string_view buffers_gltf::load(std::size_t number) {
     }
     if (bytes.size() < buffer.size)
         fail("buffers", number,
-             "has " + std::to_string(bytes.size()) + " bytes of " + std::to_string(buffer.size));
+             "has " + std::to_string(bytes.size()) + " of " + std::to_string(buffer.size) +
+                 " bytes");
     return bytes.substr(0, buffer.size);
 }
 
@@ -163,16 +164,17 @@ std::string_view buffers_gltf::load_file(std::size_t number, const std::string& 
     if (has_scheme(uri) || name.empty() || name.starts_with('\\') || leaves_folder(name) ||
         name.find('\0') != std::string::npos)
         fail("buffers", number,
-             "names '" + uri + "': only files in the folder of the glTF are read");
+             "refers to '" + uri + "'; only files in the folder of the glTF are read");
     if (!has_folder_)
-        fail("buffers", number, "is in the file '" + name + "', which needs a path to be found");
+        fail("buffers", number,
+             "is in the file '" + name + "', which cannot be found without the path of the glTF");
     std::error_code error;
     std::filesystem::path path = folder_ / name;
     // Not all programs encode names.
     if (!std::filesystem::exists(path, error) && std::filesystem::exists(folder_ / uri, error))
         path = folder_ / uri;
     if (!std::filesystem::is_regular_file(path, error))
-        fail("buffers", number, "is in the file '" + path.string() + "', which is not there");
+        fail("buffers", number, "is in the file '" + path.string() + "', which does not exist");
     try {
         const source& file = files_.emplace_back(source::open(path));
         return {file.begin(), file.size()};

@@ -65,9 +65,8 @@ void check_axes(const write_job& job, bool text, const element& declared,
     for (const column& c : declared.columns) {
         if (c.role == column_role::data || (text && keeps_digits(c))) continue;
         if (!fits(points, c.role, c.type))
-            throw std::invalid_argument("point_writer: a coordinate is no " +
-                                        std::string(name_of(c.type)) + ", as column " + c.name +
-                                        " wants it");
+            throw std::invalid_argument("point_writer: a coordinate does not fit column " + c.name +
+                                        " of type " + std::string(name_of(c.type)));
     }
 }
 

@@ -66,13 +66,13 @@ void refuse_unless_text(const source& in) {
 }
 
 [[noreturn]] void refuse_e57(const source& in) {
-    in.fail("E57 is not read; convert it first, with PDAL: pdal translate in.e57 out.laz");
+    in.fail("E57 is not supported; convert it first with PDAL: pdal translate in.e57 out.laz");
 }
 
 [[noreturn]] void refuse_ptx(const source& in) {
     in.fail(
-        "PTX is not read, since each scan has its own transform; write it as LAS or PTS "
-        "first, with CloudCompare: CloudCompare -O in.ptx -C_EXPORT_FMT LAS -SAVE_CLOUDS");
+        "PTX is not supported, since each scan has its own transform; convert it first with "
+        "CloudCompare: CloudCompare -O in.ptx -C_EXPORT_FMT LAS -SAVE_CLOUDS");
 }
 
 [[nodiscard]] std::optional<detected> by_magic(const source& in, std::string_view extension) {
@@ -107,7 +107,7 @@ void refuse_unless_text(const source& in) {
     if (worded && (is_text(head) || (holds_word(head, "facet") && holds_word(head, "vertex"))))
         return {file_kind::stl_text};
     refuse_utf16(in);
-    if (is_text(head)) in.fail("text that does not start with 'solid', and not a binary STL");
+    if (is_text(head)) in.fail("neither a binary STL nor text that starts with 'solid'");
     return {file_kind::stl_binary};
 }
 
@@ -165,9 +165,9 @@ detected detect(const source& in, std::string_view format, std::string_view exte
         return {*kind};
     }
     if (!wanted.empty() && scene_format(wanted)) return {file_kind::scene, std::string(wanted)};
-    if (!format.empty()) in.fail("format '" + std::string(format) + "' is not read");
+    if (!format.empty()) in.fail("format '" + std::string(format) + "' is not supported");
     if (auto found = by_first_line(in)) return *std::move(found);
-    in.fail("not a format that is read");
+    in.fail("not in a supported format");
 }
 
 }  // namespace treeform::detail::io

@@ -28,11 +28,11 @@ namespace {
 /// What is wrong with the head, in words: the decoder makes room for all faces that it announces.
 [[nodiscard]] std::string fault_of_head(std::string_view bytes) {
     constexpr std::size_t head = 11;
-    if (bytes.size() < head || !bytes.starts_with("DRACO")) return "no draco";
+    if (bytes.size() < head || !bytes.starts_with("DRACO")) return "not a Draco header";
     const bool is_mesh = bytes[7] == 1;
     const bool has_metadata = (static_cast<unsigned char>(bytes[10]) & 0x80U) != 0;
     if (!is_mesh || bytes[5] != 2 || bytes[6] < 2 || has_metadata)
-        return "draco data of a kind that glTF does not have";
+        return "of a kind that glTF does not allow";
     const bool is_edgebreaker = bytes[8] == 1;
     std::size_t at = is_edgebreaker ? head + 1 : head;
     const std::uint64_t first = varint_at(bytes, at);
@@ -40,8 +40,7 @@ namespace {
     const std::uint64_t faces = is_edgebreaker ? second : first;
     const std::uint64_t points = is_edgebreaker ? first : second;
     const std::uint64_t most = (std::uint64_t{1} << 20) + 1000 * bytes.size();
-    if (faces > most || points > 3 * faces)
-        return "draco data with more faces than its bytes can hold";
+    if (faces > most || points > 3 * faces) return "more faces than its bytes can hold";
     return {};
 }
 
@@ -75,13 +74,13 @@ class unpacker {
         draco::DecoderBuffer in;
         in.Init(bytes.data(), bytes.size());
         auto decoded = draco::Decoder().DecodeMeshFromBuffer(&in);
-        if (!decoded.ok()) fail("damaged draco data");
+        if (!decoded.ok()) fail("damaged");
         const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
         for (const auto& [name, id] : primitive.draco->attributes) {
             const auto accessor = primitive.attributes.find(name);
             if (!is_read(name) || accessor == primitive.attributes.end()) continue;
             const draco::PointAttribute* const values = mesh->GetAttributeByUniqueId(id);
-            if (values == nullptr) fail("draco without its " + name);
+            if (values == nullptr) fail(name + " is missing");
             give_attribute(*mesh, *values, accessor->second);
         }
         if (primitive.indices) give_indices(*mesh, *primitive.indices);
@@ -89,7 +88,7 @@ class unpacker {
 
   private:
     [[noreturn]] void fail(const std::string& what) const {
-        buffers_.fail("meshes", mesh_, "is packed by " + what);
+        buffers_.fail("meshes", mesh_, "has invalid Draco data: " + what);
     }
 
     void give_attribute(const draco::Mesh& mesh, const draco::PointAttribute& values,
@@ -97,7 +96,7 @@ class unpacker {
         const accessor_gltf& accessor = model_.accessors[number];
         const std::size_t count = mesh.num_points();
         if (accessor.components == 0 || accessor.count != count)
-            fail("draco data of another size than its accessors");
+            fail("its size differs from that of its accessors");
         give(number, count, [&]<class T>(std::size_t i, T* to) {
             const auto at = values.mapped_index(draco::PointIndex(static_cast<std::uint32_t>(i)));
             return values.ConvertValue<T>(at, static_cast<std::int8_t>(accessor.components), to);
@@ -108,7 +107,7 @@ class unpacker {
         const accessor_gltf& accessor = model_.accessors[number];
         const std::size_t count = std::size_t{3} * mesh.num_faces();
         if (accessor.components != 1 || accessor.count != count)
-            fail("draco data of another size than its accessors");
+            fail("its size differs from that of its accessors");
         give(number, count, [&]<class T>(std::size_t i, T* to) {
             const auto& face = mesh.face(draco::FaceIndex(static_cast<std::uint32_t>(i / 3)));
             *to = static_cast<T>(face[i % 3].value());
@@ -121,7 +120,7 @@ class unpacker {
         const accessor_gltf& accessor = model_.accessors[number];
         std::string bytes = with_type(
             accessor.type, [&]<class T>(T) { return filled<T>(count, accessor.components, put); });
-        if (bytes.empty()) fail("draco data whose types differ from the accessors");
+        if (bytes.empty()) fail("its types differ from those of its accessors");
         buffers_.give_values(number, std::move(bytes));
     }
 

@@ -17,7 +17,8 @@ inline void remark_on_short_faces(std::uint64_t count, std::vector<io_warning>& 
     if (count > 0)
         warnings.push_back(
             {"short-faces", std::to_string(count) + (count == 1 ? " face" : " faces") +
-                                " of fewer than three corners left out, and not numbered"});
+                                " with fewer than three corners left out; faces are numbered "
+                                "without them"});
 }
 
 class face_sink {

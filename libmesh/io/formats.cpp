@@ -204,11 +204,11 @@ std::vector<io_warning> left_out(const known_format& format, const mesh_file& fi
     std::vector<io_warning> lost;
     const auto say = [&](const char* code, const std::string& what) {
         if (!what.empty())
-            lost.push_back({code, what + " left out: " + name + " does not hold them"});
+            lost.push_back({code, what + " left out: " + name + " cannot hold them"});
     };
     say("columns-dropped", columns_left_out(format, file, points, text));
     if (!holds.has_faces && !file.mesh.faces.empty())
-        lost.push_back({"faces-dropped", name + " holds points only: faces are left out"});
+        lost.push_back({"faces-dropped", "faces left out: " + name + " holds points only"});
     say("corner-values", corner_values_left_out(holds, all.corners, points));
     const auto has_material = [](const part& p) { return !p.material.empty(); };
     if (!holds.materials && std::ranges::any_of(all.parts, has_material))
@@ -218,10 +218,10 @@ std::vector<io_warning> left_out(const known_format& format, const mesh_file& fi
     say("left-out", rest_left_out(format, file, text));
     if (const std::size_t loose = format.extension == "stl" ? count_loose_points(file.mesh) : 0)
         lost.push_back({"left-out", std::to_string(loose) + (loose == 1 ? " point" : " points") +
-                                        " of no face left out: STL holds faces only"});
+                                        " without faces left out: STL holds faces only"});
     if (const std::string names = names_left_out(points);
         format.extension == "xyz" && !names.empty())
-        lost.push_back({"columns", "XYZ has no names; its columns are x y z" + names});
+        lost.push_back({"columns", "XYZ has no column names; the columns are x y z" + names});
     return lost;
 }
 

@@ -74,20 +74,21 @@ class json_entry {
         if (value_->is_number_unsigned()) return value_->get<std::uint64_t>();
         const double number = value_->is_number_float() ? value_->get<double>() : -1.0;
         if (!(number >= 0.0 && number < 0x1p53) || number != std::floor(number))
-            fail("is not an integer of 0 or more");
+            fail("is not a non-negative integer");
         return static_cast<std::uint64_t>(number);
     }
     /// The number of one of `count` things.
     [[nodiscard]] std::size_t number_of(std::size_t count, const char* things) const {
         const std::uint64_t number = whole();
         if (number >= count)
-            fail("is " + std::to_string(number) + ", of " + std::to_string(count) + " " + things);
+            fail("is " + std::to_string(number) + ", but there are " + std::to_string(count) + " " +
+                 things);
         return static_cast<std::size_t>(number);
     }
     [[nodiscard]] bool is_number() const { return value_->is_number(); }
     [[nodiscard]] bool is_object() const { return value_->is_object(); }
     [[nodiscard]] double number() const {
-        if (!value_->is_number()) fail("is no number");
+        if (!value_->is_number()) fail("is not a number");
         return value_->get<double>();
     }
     template <std::size_t N>
@@ -102,11 +103,11 @@ class json_entry {
         return all;
     }
     [[nodiscard]] const std::string& text() const {
-        if (!value_->is_string()) fail("is no text");
+        if (!value_->is_string()) fail("is not a string");
         return value_->get_ref<const std::string&>();
     }
     [[nodiscard]] bool flag() const {
-        if (!value_->is_boolean()) fail("is neither true nor false");
+        if (!value_->is_boolean()) fail("is not a boolean");
         return value_->get<bool>();
     }
 

@@ -86,13 +86,13 @@ class las_opener {
         if (get<std::uint8_t>(at(24)) != 1 || h.version_minor > 4)
             in_.fail_byte(at(24), "LAS " + std::to_string(get<std::uint8_t>(at(24))) + '.' +
                                       std::to_string(h.version_minor) +
-                                      " is not read, only 1.0 to 1.4");
+                                      " is not supported, only 1.0 to 1.4");
         const std::size_t size = get<std::uint16_t>(at(94));
         const std::size_t least = h.version_minor == 4 ? 375 : h.version_minor == 3 ? 235 : 227;
         if (size < least || size > in_.size())
-            in_.fail_byte(at(94), "a header of " + std::to_string(size) + " bytes, of LAS 1." +
-                                      std::to_string(h.version_minor) + " it has " +
-                                      std::to_string(least));
+            in_.fail_byte(at(94), "the header has " + std::to_string(size) +
+                                      " bytes; that of LAS 1." + std::to_string(h.version_minor) +
+                                      " has " + std::to_string(least));
         h.block = bytes_between(in_.begin(), at(size));
         file_.first_point = get<std::uint32_t>(at(96));
         if (file_.first_point < size || file_.first_point > in_.size())
@@ -119,11 +119,11 @@ class las_opener {
         file_.record_size = get<std::uint16_t>(at(105));
         if (file_.header.point_format > 10)
             in_.fail_byte(at(104), "point data format " + std::to_string(stored) +
-                                       " is not read, only 0 to 10");
+                                       " is not supported, only 0 to 10");
         const std::size_t least = las_record_size(file_.header.point_format);
         if (file_.record_size < least)
-            in_.fail_byte(at(105), "points of " + std::to_string(file_.record_size) +
-                                       " bytes, those of format " +
+            in_.fail_byte(at(105), "points have " + std::to_string(file_.record_size) +
+                                       " bytes; those of format " +
                                        std::to_string(file_.header.point_format) + " have " +
                                        std::to_string(least));
     }
@@ -140,8 +140,8 @@ class las_opener {
         }
         if (h.records.size() < stated)
             warnings_.push_back({"records", "the header announces " + std::to_string(stated) +
-                                                " records, " + std::to_string(h.records.size()) +
-                                                " are there"});
+                                                " records, but the file has " +
+                                                std::to_string(h.records.size())});
         h.behind_records = bytes_between(next, end);
     }
 
@@ -162,9 +162,8 @@ class las_opener {
         }
         if (h.extended_records.size() < stated)
             warnings_.push_back({"records", "the header announces " + std::to_string(stated) +
-                                                " extended records, " +
-                                                std::to_string(h.extended_records.size()) +
-                                                " are there"});
+                                                " extended records, but the file has " +
+                                                std::to_string(h.extended_records.size())});
     }
 
     /// LAS 1.3 has one extended record, of waveforms, if they are not in a file of their own.
@@ -180,7 +179,8 @@ class las_opener {
         const las_record* const r = find_record(file_.header.records, "laszip encoded", 22204);
         if (!packed_) return;
         if (r == nullptr || r->data.size() < 34)
-            in_.fail("packed points without the LASzip record: convert it with LASzip or PDAL");
+            in_.fail(
+                "compressed points without a LASzip record; convert the file with LASzip or PDAL");
         const char* const d = reinterpret_cast<const char*>(r->data.data());
         las_packing packing;
         const auto compressor = get<std::uint16_t>(d);
@@ -198,12 +198,13 @@ class las_opener {
             compressor != (packing.chunked ? usual : 1) ||
             (packing.chunked && packing.chunk_size == 0) || get<std::uint16_t>(d + 2) != 0)
             in_.fail(
-                "points are packed in a way that is not read; convert it with LASzip or PDAL: "
-                "pdal translate in.laz out.las");
+                "this compression of points is not supported; convert the file with LASzip or "
+                "PDAL: pdal translate in.laz out.las");
         if (laz::record_size(packing.items) != file_.record_size)
-            in_.fail_byte(at(105),
-                          "packed points have " + std::to_string(laz::record_size(packing.items)) +
-                              " bytes, the header says " + std::to_string(file_.record_size));
+            in_.fail_byte(at(105), "compressed points have " +
+                                       std::to_string(laz::record_size(packing.items)) +
+                                       " bytes, but the header says " +
+                                       std::to_string(file_.record_size));
         file_.packing = std::move(packing);
     }
 
@@ -213,13 +214,12 @@ class las_opener {
             in_.fail_byte(at(file_.first_point),
                           "the file ends in the points: " + std::to_string(file_.count) +
                               " announced, " + std::to_string(there / file_.record_size) +
-                              " there");
+                              " found");
         const std::uint64_t room = (end_of_points() - file_.first_point) / file_.record_size;
         if (!file_.packing && file_.count < room)
             warnings_.push_back({"count", "the header counts " + std::to_string(file_.count) +
                                               " points, and there is room for " +
-                                              std::to_string(room) +
-                                              ": what is behind was not read"});
+                                              std::to_string(room) + ": the rest was not read"});
     }
 
     /// Where what the header names begins behind the points, else the end of the file.

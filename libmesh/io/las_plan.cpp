@@ -191,8 +191,8 @@ class las_planner {
                                .data = std::move(descriptions)});
         }
         if (plan_.record_size > 0xffff)
-            throw las_fault("points of " + std::to_string(plan_.record_size) +
-                            " bytes; LAS has at most 65535");
+            throw las_fault("points have " + std::to_string(plan_.record_size) +
+                            " bytes; LAS allows at most 65535");
     }
 
     /// The least version that has the format, unless the file's is later.
@@ -243,7 +243,7 @@ las_grid_wish las_grid_wish_of(const write_options& options) {
         for (const double x : *given)
             if (!std::isfinite(x) || (is_scale && x <= 0.0))
                 throw std::invalid_argument(
-                    is_scale ? "treeform::write: a scale of LAS is not above 0"
+                    is_scale ? "treeform::write: a scale of LAS is not greater than 0"
                              : "treeform::write: an offset of LAS is not finite");
     };
     check(options.las_scale, true);

@@ -32,8 +32,7 @@ struct chunk_fault {
 };
 
 [[nodiscard]] std::string too_large(const column& c, double value) {
-    return "a value of " + c.name +
-           " that its field in LAS does not hold: " + std::to_string(value);
+    return "a value of " + c.name + " is out of range for its LAS field: " + std::to_string(value);
 }
 
 struct record_rows {
@@ -49,12 +48,12 @@ void put_axes(std::span<const point3> points, const record_rows& rows, const las
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double x = points[rows.first + i][axis];
             if (!std::isfinite(x)) {
-                fault.at(rows.first + i, "a coordinate that is not finite, which LAS cannot hold");
+                fault.at(rows.first + i, "a coordinate is not finite, which LAS cannot hold");
                 continue;
             }
             const double step = nearest_step(grid, axis, x);
             if (!is_las_step(step)) {
-                fault.at(rows.first + i, "a coordinate beyond what 32 bits hold with this scale");
+                fault.at(rows.first + i, "a coordinate needs more than 32 bits at this scale");
                 continue;
             }
             const double by = grid.coordinate(axis, static_cast<std::int32_t>(step)) - x;
@@ -190,20 +189,20 @@ void put_single_return(const record_rows& rows, const las_dimension& d) {
 void las_tally::remark(std::vector<io_warning>& warnings) const {
     if (rounded_.by > 0.0)
         warnings.push_back({"extra-bytes", "values of " + rounded_.column +
-                                               " are rounded to the steps of its scale in the "
-                                               "LAS file, by at most " +
+                                               " are rounded to its scale in the LAS file, by at "
+                                               "most " +
                                                std::to_string(rounded_.by)});
     if (wholes_.count > 0) {
         std::string names;
         for (const std::string& name : wholes_.columns) names += (names.empty() ? "" : ", ") + name;
         warnings.push_back({"types", base::counted(wholes_.count, "whole number", "whole numbers") +
                                          " of " + names +
-                                         " rounded: they are floating-point numbers in LAS"});
+                                         " rounded: LAS stores floating-point numbers there"});
     }
     if (without_value_ > 0)
         warnings.push_back({"extra-bytes", std::to_string(without_value_) +
-                                               " values of extra bytes are no number, and are "
-                                               "stored as 0: their description names no other"});
+                                               " values of extra bytes are NaN and are stored as "
+                                               "0: their description has no no-data value"});
 }
 
 las_tally::las_tally(const las_plan& plan)
@@ -233,7 +232,7 @@ void las_tally::put(std::vector<std::byte>& block, const las_grid& grid, std::ui
     constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
     const bool legacy = format < 6 && count <= most;
     if (!legacy && version_minor < 4)
-        throw las_fault("more than 4294967295 points, which LAS holds from 1.4 on");
+        throw las_fault("more than 4294967295 points, which need LAS 1.4");
     at(107, static_cast<std::uint32_t>(legacy ? count : 0));
     for (std::size_t r = 0; r < 5; ++r)
         at(111 + 4 * r, static_cast<std::uint32_t>(legacy ? by_return_[r + 1] : 0));

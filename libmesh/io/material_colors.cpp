@@ -134,8 +134,8 @@ void add_material_colors(mesh_file& file, const std::filesystem::path& path) {
     }
     if (has_transparency)
         file.warnings.push_back({"materials",
-                                 "transparencies Tr of materials were not read, which programs "
-                                 "mean in two ways; d is read"});
+                                 "transparency Tr of materials was not read, since programs "
+                                 "disagree on its meaning; d is read"});
 }
 
 }  // namespace treeform::detail::io

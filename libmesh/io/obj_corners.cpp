@@ -34,7 +34,7 @@ std::size_t numbers(text& t, std::size_t least, std::string_view what,
         if (count == 3) t.fail("more than three numbers");
         values[count] = number(t, what);
     }
-    if (count < least) t.fail("the line ends where " + std::string(what) + " should stand");
+    if (count < least) t.fail("expected " + std::string(what) + ", but the line ends");
     return count;
 }
 
@@ -50,8 +50,7 @@ std::size_t numbers(text& t, std::size_t least, std::string_view what,
 
 void obj_numbers::refuse(const text& t, const parsed<std::int64_t>& index) const {
     const std::string kind(kind_);
-    if (index.end == nullptr)
-        t.fail(quoted(t.at, t.end) + " where a " + kind + " index should stand");
+    if (index.end == nullptr) t.fail("expected a " + kind + " index, found " + quoted(t.at, t.end));
     if (index.value == 0) t.fail(kind + " index 0 (OBJ counts from 1)");
     t.fail(kind + " index " + quoted(t.at, index.end) + " is out of range");
 }
@@ -84,11 +83,11 @@ corner_values obj_corners::take(std::vector<io_warning>& warnings) {
     if (lacks_textures()) {
         values_.texture_of_corner.clear();
         warnings.push_back({"no-texture-coordinates",
-                            "corners name texture coordinates, of which the file has none"});
+                            "corners refer to texture coordinates, but the file has none"});
     }
     if (lacks_normals()) {
         values_.normal_of_corner.clear();
-        warnings.push_back({"no-normals", "corners name normals, of which the file has none"});
+        warnings.push_back({"no-normals", "corners refer to normals, but the file has none"});
     }
     return std::move(values_);
 }

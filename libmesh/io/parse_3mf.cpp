@@ -85,7 +85,8 @@ class part_reader {
             if (space != core_3mf && space != materials_3mf && space != production_3mf &&
                 space != triangle_sets_3mf)
                 xml_.fail(root, "requires the extension '" + prefix.substr(0, 40) + "' (" +
-                                    std::string(space.substr(0, 120)) + "), which is not read");
+                                    std::string(space.substr(0, 120)) +
+                                    "), which is not supported");
         }
     }
 
@@ -128,7 +129,7 @@ class part_reader {
             const auto found = object_of_.find(id);
             if (found == object_of_.end())
                 xml_.fail("has no object " + std::to_string(id) +
-                          ", which an item or a component of the root names");
+                          ", to which an item or a component of the root model refers");
             read_object(found->second, model_.objects[{number_, id}]);
         }
         if (number_ == 0) model_.unread.not_built = object_of_.size() - read;
@@ -144,7 +145,7 @@ class part_reader {
             if (*path != '/') xml_.fail(user, "has a path that does not start with '/'");
             placed.object.part = needed_.number_of(path);
         } else if (!object_of_.contains(placed.object.id)) {
-            xml_.fail(user, "objectid=" + std::to_string(placed.object.id) + " names no object");
+            xml_.fail(user, "objectid=" + std::to_string(placed.object.id) + " is not an object");
         }
         if (!model_.objects.contains(placed.object))
             needed_.ids[placed.object.part].insert(placed.object.id);
@@ -185,7 +186,7 @@ class part_reader {
 
     [[nodiscard]] std::string name_in(pugi::xml_node node, const char* attribute) const {
         std::string name = node.attribute(attribute).value();
-        if (name.size() > longest_object_name) xml_.fail(node, "has a name without end");
+        if (name.size() > longest_object_name) xml_.fail(node, "has a name that is too long");
         return name;
     }
 
@@ -212,7 +213,7 @@ class part_reader {
         }
         const pugi::xml_node vertices = child(mesh, "vertices");
         const pugi::xml_node triangles = child(mesh, "triangles");
-        if (!vertices || !triangles) xml_.fail(mesh, "lacks its vertices or its triangles");
+        if (!vertices || !triangles) xml_.fail(mesh, "has no vertices or no triangles");
         for (const pugi::xml_node v : vertices.children(vertex_.c_str()))
             object.points.push_back(
                 {xml_.number(v, "x"), xml_.number(v, "y"), xml_.number(v, "z")});

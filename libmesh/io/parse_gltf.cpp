@@ -43,14 +43,14 @@ void refuse_versions(const source& in, const json_entry& root) {
     const auto least = root.find("asset", "minVersion");
     const std::string& needed = least ? least->text() : version->text();
     if (!needed.starts_with("2.") || (least && needed != "2.0"))
-        in.fail("glTF " + needed + " is not read, only 2.0");
+        in.fail("glTF " + needed + " is not supported, only 2.0");
 }
 
 void refuse_extensions(const source& in, const json_entry& root) {
     root.for_each("extensionsRequired", [&](const json_entry& name) {
         if (is_harmless(name.text()) || (name.text() == draco_extension && reads_draco())) return;
         const bool packs = name.text() == draco_extension || name.text() == meshopt;
-        in.fail("the file requires the extension " + name.text() + ", which is not read" +
+        in.fail("the file requires the extension " + name.text() + ", which is not supported" +
                 (packs ? "; gltf-transform copy IN OUT unpacks it" : ""));
     });
 }
@@ -244,7 +244,7 @@ class parser {
         }
         if (const auto r = e.find("rotation")) {
             rotation = r->numbers<4>();
-            if (!is_rotation(rotation)) r->fail("is no rotation");
+            if (!is_rotation(rotation)) r->fail("is not a rotation");
         }
         return transform_of(translation, rotation, scale);
     }
@@ -294,7 +294,7 @@ model_gltf parse_gltf(const source& in, std::string_view json) {
         text = nlohmann::json::parse(json.begin(), json.end());
     } catch (const nlohmann::json::parse_error& error) {
         const std::size_t byte = std::min(std::max<std::size_t>(error.byte, 1) - 1, json.size());
-        in.fail_byte(json.data() + byte, "the JSON has an error here, or is truncated");
+        in.fail_byte(json.data() + byte, "the JSON is invalid here, or truncated");
     } catch (const nlohmann::json::exception&) {
         in.fail("the JSON has a number that is too large");
     }

@@ -30,7 +30,8 @@ constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
         if (added) layout.materials.push_back(rgba);
         if (layout.materials.size() > most_colors) {
             job.result.warnings.push_back(
-                {"colors-dropped", "more than 256 different colors of faces; none was written"});
+                {"colors-dropped",
+                 "faces have more than 256 different colors; no face colors were written"});
             layout.materials.assign(1, full);
             layout.has_colors = false;
             return std::vector<std::uint32_t>(material.size(), 0);
@@ -117,7 +118,7 @@ void say_unused(const write_job& job) {
     const auto unused = std::count(used.begin(), used.end(), false);
     if (unused > 0)
         job.result.warnings.push_back(
-            {"left-out", std::to_string(unused) + " points that no face has were left out"});
+            {"left-out", std::to_string(unused) + " points without faces left out"});
 }
 
 }  // namespace

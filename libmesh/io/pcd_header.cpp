@@ -132,21 +132,20 @@ class pcd_header_reader {
     [[nodiscard]] std::size_t number(std::size_t most, std::int64_t least = 1) {
         const std::int64_t value = text_.integer("a number");
         if (value < least || static_cast<std::size_t>(value) > most)
-            fail("a number from " + std::to_string(least) + " to " + std::to_string(most) +
-                 " should stand here");
+            fail("expected a number from " + std::to_string(least) + " to " + std::to_string(most));
         return static_cast<std::size_t>(value);
     }
 
     [[nodiscard]] std::uint64_t number_at_word() {
         text_.skip_blanks();
         const std::int64_t value = text_.integer("a number");
-        if (value < 0) fail("a negative number");
+        if (value < 0) fail("the number is negative");
         return static_cast<std::uint64_t>(value);
     }
 
     [[nodiscard]] char kind() {
         const std::string_view word = text_.word();
-        if (word != "I" && word != "U" && word != "F") fail("a type other than I, U, F");
+        if (word != "I" && word != "U" && word != "F") fail("expected type I, U or F");
         return word[0];
     }
 
@@ -170,7 +169,7 @@ class pcd_header_reader {
             if (f.count == 0) continue;  // padding that is not needed
             const auto type = type_of(f);
             if (!type)
-                text_.file.fail("field " + f.name + ": no type " + f.kind + " has " +
+                text_.file.fail("field " + f.name + ": type " + f.kind + " cannot have " +
                                 std::to_string(f.size) + " bytes");
             if ((values += f.count) > most_values) text_.file.fail("too many values in a row");
             if (f.name != "_" || header_.encoding == pcd_encoding::ascii) add_columns(f, *type);
@@ -201,7 +200,7 @@ class pcd_header_reader {
     }
 
     void count_points() {
-        if (!points_ && !width_) text_.file.fail("no number of points in the header");
+        if (!points_ && !width_) text_.file.fail("the header does not have the number of points");
         const std::uint64_t height = height_.value_or(1);
         // Numbers are below 2^44, so the product of two can be too large for 64 bits.
         const bool product_fits =
@@ -209,7 +208,8 @@ class pcd_header_reader {
         const std::uint64_t product =
             product_fits ? width_.value_or(0) * height : ~std::uint64_t{0};
         if (points_ && width_ && product != *points_)
-            text_.file.fail("POINTS is " + std::to_string(*points_) + ", but WIDTH times HEIGHT " +
+            text_.file.fail("POINTS is " + std::to_string(*points_) +
+                            ", but WIDTH times HEIGHT is " +
                             (product_fits ? std::to_string(product) : "more"));
         header_.vertices.rows = points_.value_or(product);
         auto& info = header_.remarks.obj_info;
@@ -257,10 +257,10 @@ packed_pcd find_packed_pcd(const source& in, const pcd_header& header) {
         in.fail_byte(header.body,
                      "the file ends in the data: " + std::to_string(packed) + " bytes announced");
     if (size / header.row_size != header.vertices.rows || size % header.row_size != 0)
-        in.fail_byte(header.body + 4, std::to_string(size) + " bytes of data are not those of " +
+        in.fail_byte(header.body + 4, std::to_string(size) + " bytes of data do not match " +
                                           std::to_string(header.vertices.rows) + " points");
     if (size / lzf_most_ratio > packed)
-        in.fail_byte(header.body, "the data cannot unpack to the announced size");
+        in.fail_byte(header.body, "the data cannot be unpacked to the announced size");
     return {{header.body + 8, packed}, size, there - 8 > packed};
 }
 

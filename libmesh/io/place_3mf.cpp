@@ -61,8 +61,7 @@ class counter {
         to.faces += more.faces;
         to.depth = std::max(to.depth, more.depth);
         if (to.placed > most_placed)
-            fail(key, "is or has one of more than " + std::to_string(most_placed) +
-                          " objects that the build places");
+            fail(key, "makes more than " + std::to_string(most_placed) + " objects in the build");
         if (to.points > most_numbered || to.faces > most_numbered)
             fail(key, "makes more points or faces than 32-bit numbers can count");
     }
@@ -119,7 +118,7 @@ class placer {
             const point3 at = moved(t, p);
             if (!std::isfinite(at.x) || !std::isfinite(at.y) || !std::isfinite(at.z))
                 in_.fail(model_.parts[key.part] + ": object " + std::to_string(key.id) +
-                         " is moved beyond all numbers by its transform");
+                         ": its transform moves it beyond the range of doubles");
             file_.mesh.points.push_back(at);
         }
         const bool turned = mirrors(t);
@@ -172,9 +171,9 @@ void say_what_is_unread(const unread_3mf& unread, std::vector<io_warning>& warni
         if (count > 0) warnings.push_back({code, std::to_string(count) + what});
     };
     say(unread.not_built, "not-built", " objects are not in the build and were not read");
-    say(unread.other, "not-built", " items and components of the type 'other' were not read");
-    say(unread.support, "support", " items and components are supports, read as all others are");
-    say(unread.not_printable, "support", " items are not to be printed, read as all others are");
+    say(unread.other, "not-built", " items and components of type 'other' were not read");
+    say(unread.support, "support", " items and components are supports; they were read, too");
+    say(unread.not_printable, "support", " items are not printable; they were read, too");
     say(unread.extensions, "skipped-elements", " elements of extensions in meshes were not read");
     say(unread.property_uses, "materials", " faces have mixed materials, which were not read");
     if (unread.images) warnings.push_back({"materials", "images of textures were not read"});

@@ -46,7 +46,7 @@ void check_room(const Values& values, const element& e) {
 template <class Values>
 void look_behind(Values& values, std::vector<io_warning>& warnings) {
     if (!values.only_blanks_left())
-        warnings.push_back({"trailing-bytes", "there is more after the last element"});
+        warnings.push_back({"trailing-bytes", "data after the last element were not read"});
     values.remark(warnings);
 }
 

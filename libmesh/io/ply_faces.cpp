@@ -44,8 +44,7 @@ class ply_faces {
             }
             if (is_part_ && block_.left_out > 0)
                 throw io_error(
-                    "a face of fewer than three corners, which several processes cannot "
-                    "number; one can");
+                    "a face with fewer than three corners, which only a single process can read");
             if (block_.rows.name == "face") add(triangles);
             next_ += block_.rows.rows + block_.left_out;
             left_out_ += block_.left_out;

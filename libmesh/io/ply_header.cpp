@@ -52,7 +52,8 @@ class ply_header_reader {
     /// ends lines, so exactly one line end is taken after the header.
     void learn_newline() {
         text_.skip_blanks();
-        if (text_.done() || !is_newline(*text_.at)) text_.fail("no 'ply' alone on the first line");
+        if (text_.done() || !is_newline(*text_.at))
+            text_.fail("expected only 'ply' on the first line");
         only_returns_ = text_.starts_with("\r") && !text_.starts_with("\r\n");
         end_line();
     }
@@ -144,7 +145,7 @@ class ply_header_reader {
         const parsed<std::int64_t> rows = parse_integer(text_.at, text_.end);
         const bool ended = rows.end != nullptr && (rows.end == text_.end || is_space(*rows.end));
         if (name.empty() || !ended || *start == '-')
-            fail_at(start, "an element needs a name and how many there are");
+            fail_at(start, "an element needs a name and a count");
         text_.at = rows.end;
         for (const element& e : header_.elements)
             if (e.name == name) fail_at(name.data(), "element declared twice");
@@ -162,13 +163,14 @@ class ply_header_reader {
     }
 
     void declare_property() {
-        if (header_.elements.empty()) text_.fail("a property before all elements");
+        if (header_.elements.empty()) text_.fail("a property before the first element");
         column c;
         text_.skip_blanks();
         const char* const start = text_.at;
         if (text_.word() == "list") {
             c.list_length = type();
-            if (!is_integer(*c.list_length)) fail_at(start, "a list needs an integer length");
+            if (!is_integer(*c.list_length))
+                fail_at(start, "the length of a list must be an integer");
         } else {
             text_.at = start;
         }

@@ -33,7 +33,7 @@ namespace {
     for (const element& e : header.attributes.elements) {
         has_vertices = has_vertices || e.name == "vertex";
         if (!has_vertices && e.rows > 0)
-            refuse_block("rows of " + e.name + " cannot be ahead of the points");
+            refuse_block("rows of " + e.name + " cannot precede the points");
         element& mine = head.attributes.elements.emplace_back();
         detail::io::restart(mine, e);
         detail::io::check_columns(mine);
@@ -110,7 +110,7 @@ struct point_writer::state {
         if (points_end || points.size() > count - written)
             refuse_block("more points than were announced");
         if (properties.rows != points.size())
-            refuse_block("another number of rows than there are points");
+            refuse_block("the number of rows differs from the number of points");
         if (!same_columns(properties, given ? &*given : nullptr))
             refuse_block("the columns are not those of the header");
         detail::io::check_columns(properties);
@@ -126,13 +126,13 @@ struct point_writer::state {
         while (!behind.empty() && is_over(behind.front())) behind.erase(behind.begin());
         if ((written != count && !points_end) || behind.empty() ||
             given.name != behind.front().name)
-            refuse_block("rows of " + given.name + " are not what comes next");
+            refuse_block("rows of " + given.name + " are out of order");
         if (given.rows > behind.front().rows)
-            refuse_block("more rows of " + given.name + " than the header says");
+            refuse_block("more rows of " + given.name + " than the header announces");
         if (!same_columns(given, &behind.front()))
             refuse_block("the columns of " + given.name + " are not those of the header");
         if (given.name == "face" && block.first_corner.size() != given.rows + 1)
-            refuse_block("not the corners of each face");
+            refuse_block("first_corner does not match the number of faces");
         detail::io::check_columns(given);
         behind.front().rows -= given.rows;
     }
@@ -189,9 +189,11 @@ write_result point_writer::commit() {
     state& s = *state_;
     if (s.written != s.count)
         throw io_error(s.file->name() + ": " + std::to_string(s.count) +
-                       " points were announced and " + std::to_string(s.written) + " came");
+                       " points were announced, but " + std::to_string(s.written) +
+                       " were written");
     if (s.rows_left() > 0)
-        throw io_error(s.file->name() + ": fewer rows behind the points came than were announced");
+        throw io_error(s.file->name() +
+                       ": fewer rows after the points were written than announced");
     if (s.rows.finish) s.rows.finish();
     s.out->flush();
     s.file->commit();

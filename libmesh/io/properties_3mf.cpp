@@ -26,7 +26,7 @@ constexpr std::size_t longest_name = 1024;
         if (stop == end && error == std::errc())
             return text.size() == 9 ? value : value << 8 | 0xffU;
     }
-    part.fail(element, std::string(attribute) + " is no color #RRGGBB or #RRGGBBAA");
+    part.fail(element, std::string(attribute) + " is not a color #RRGGBB or #RRGGBBAA");
 }
 
 /// Calls f(entry) for each child of that name, and returns how many there were.
@@ -47,7 +47,7 @@ template <class F>
     const std::string name = std::string(prefix_of(group.name())) + "base";
     read.count = for_each_entry(group, name, [&](pugi::xml_node base) {
         std::string material = part.required(base, "name");
-        if (material.size() > longest_name) part.fail(base, "has a name without end");
+        if (material.size() > longest_name) part.fail(base, "has a name that is too long");
         model.palette.push_back(color_of(part, base, "displaycolor"));
         model.materials.push_back(std::move(material));
     });
@@ -102,7 +102,7 @@ triangle_properties::triangle_properties(const xml_part& part, const property_gr
 void triangle_properties::add(pugi::xml_node triangle) {
     const property_group_3mf* group = find(triangle);
     const std::optional<std::uint32_t> first = part_.optional_integer(triangle, "p1");
-    if (group != nullptr && !first) part_.fail(triangle, "has a pid and no p1");
+    if (group != nullptr && !first) part_.fail(triangle, "has a pid but no p1");
     if (group == nullptr) group = group_of_object_;
     if (group == nullptr) return;
     face indices{};
@@ -123,7 +123,7 @@ const property_group_3mf* triangle_properties::find(pugi::xml_node user) const {
     if (!id) return nullptr;
     const auto found = groups_.find(*id);
     if (found == groups_.end())
-        part_.fail(user, "pid=" + std::to_string(*id) + " names no group of properties");
+        part_.fail(user, "pid=" + std::to_string(*id) + " is not a property group");
     return &found->second;
 }
 

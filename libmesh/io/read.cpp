@@ -61,8 +61,8 @@ namespace {
     if (const std::size_t concave = detail::io::count_concave_faces(file))
         file.warnings.push_back(
             {"concave-faces", std::to_string(concave) + (concave == 1 ? " face is" : " faces are") +
-                                  " not convex: some triangles of the fan from the first "
-                                  "corner lie on each other"});
+                                  " not convex: triangles of their fan from the first corner "
+                                  "overlap"});
     const std::size_t dropped = how.options.drop_non_finite ? file.drop_non_finite() : 0;
     if (dropped > 0)
         file.warnings.push_back({"non-finite", std::to_string(dropped) +

@@ -23,13 +23,13 @@ constexpr const char* package_relationships = "_rels/.rels";
         if (local_name(relationship.name()) != "Relationship") continue;
         if (std::strcmp(relationships.required(relationship, "Type"), model_relationship_3mf) != 0)
             continue;
-        if (!root.empty()) relationships.fail(relationship, "is a second start model");
+        if (!root.empty()) relationships.fail(relationship, "is a second root model");
         root = relationships.required(relationship, "Target");
         if (root.starts_with('/')) root.erase(0, 1);
         if (!archive.holds(root))
-            relationships.fail(relationship, "leads to a file that is not in the archive");
+            relationships.fail(relationship, "refers to a file that is not in the archive");
     }
-    if (root.empty()) relationships.fail("no relationship leads to a model: not a 3MF");
+    if (root.empty()) relationships.fail("no relationship refers to a model: not a 3MF");
     return root;
 }
 
@@ -40,9 +40,8 @@ mesh_file read_3mf(const source& in) {
     const std::string root = root_of(in, archive);
     mesh_file file = place_3mf(in, parse_3mf(in, archive, root));
     if (archive.bytes_ahead() > 0)
-        file.warnings.push_back(
-            {"bytes-ahead", std::to_string(archive.bytes_ahead()) +
-                                " bytes ahead of the archive were passed over"});
+        file.warnings.push_back({"bytes-ahead", std::to_string(archive.bytes_ahead()) +
+                                                    " bytes before the archive were skipped"});
     return file;
 }
 

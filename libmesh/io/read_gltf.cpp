@@ -14,7 +14,8 @@ namespace {
 [[nodiscard]] mesh_file read_gltf_1(const source& in, const std::filesystem::path& path,
                                     const parts_gltf& parts) {
     if (!reads_scenes())
-        in.fail("glTF 1.0 needs a build with assimp; gltf-pipeline -i IN -o OUT makes 2.0 of it");
+        in.fail(
+            "glTF 1.0 needs a build with assimp; gltf-pipeline -i IN -o OUT converts it to 2.0");
     return read_scene(in, path, parts.is_version_1 ? "glb" : "gltf");
 }
 
@@ -31,7 +32,7 @@ mesh_file read_gltf(const source& in, const std::filesystem::path& path) {
     file.format = parts.json.data() == in.begin() ? "gltf" : "glb";
     if (parts.trailing > 0)
         file.warnings.push_back({"trailing-bytes", std::to_string(parts.trailing) +
-                                                       " bytes behind the end of the GLB ignored"});
+                                                       " bytes after the end of the GLB ignored"});
     return file;
 }
 

@@ -45,7 +45,7 @@ struct placed_chunk {
     if (byte == -1) byte = place(in.end() - 8);
     if (byte < static_cast<std::int64_t>(file.first_point) + 8 ||
         byte > static_cast<std::int64_t>(in.size()))
-        in.fail_byte(first, "the table of chunks is missing: the file was not written to its end");
+        in.fail_byte(first, "the chunk table is missing: the file was not written completely");
     return in.begin() + byte;
 }
 
@@ -75,14 +75,15 @@ struct placed_chunk {
         const std::uint64_t points =
             packing.sizes_vary() ? c.points : std::min<std::uint64_t>(packing.chunk_size, left);
         if (c.bytes > static_cast<std::size_t>(table - at) || points > left)
-            in.fail_byte(table, "the table of chunks is damaged");
+            in.fail_byte(table, "the chunk table is damaged");
         if (points > 0) placed.push_back({at, c.bytes, static_cast<std::uint32_t>(points)});
         at += c.bytes;
         left -= points;
     }
     if (left > 0)
         in.fail_byte(table, "the header announces " + std::to_string(file.count) +
-                                " points, the chunks have " + std::to_string(file.count - left));
+                                " points, but the chunks have " +
+                                std::to_string(file.count - left));
     return placed;
 }
 
@@ -120,8 +121,8 @@ class chunk_run {
         for (; end < chunks_.size() && (end == next_ || points * size_ < at_once); ++end) {
             const placed_chunk& c = chunks_[end];
             if (c.points > (c.bytes + 1) * most_points_a_byte)
-                in_.fail_byte(c.first, "a chunk of " + std::to_string(c.points) + " points in " +
-                                           std::to_string(c.bytes) + " bytes");
+                in_.fail_byte(c.first, "a chunk cannot have " + std::to_string(c.points) +
+                                           " points in " + std::to_string(c.bytes) + " bytes");
             points += c.points;
         }
         records_.assign(points * size_, '\0');

@@ -71,7 +71,7 @@ class obj_reader {
             obj_row_counts::any)
             text_.file.fail("more vertices or triangles than 32-bit numbers can name");
         if (file_.mesh.points.empty() && file_.mesh.faces.empty() && has_other_lines_)
-            text_.file.fail("no vertex and no face found: not an OBJ file?");
+            text_.file.fail("no vertices or faces found: not an OBJ file?");
     }
 
     /// True when each row that a corner names is there.
@@ -92,7 +92,7 @@ class obj_reader {
         if (odd_vertices_ > 0)
             file_.warnings.push_back(
                 {"skipped-numbers", std::to_string(odd_vertices_) +
-                                        " vertices have further numbers, such as weights, which "
+                                        " vertices have more numbers, such as weights, which "
                                         "were not read"});
         faces_.remark(file_.warnings);
         text_.remark(file_.warnings);
@@ -171,7 +171,7 @@ class obj_reader {
         corners_.add(text_, number, triangles);
         if (text_.done() || is_space(*text_.at) || *text_.at == '#' || *text_.at == '\\') return;
         text_.at = start;
-        text_.fail(quoted(start, text_.end) + " where a corner should stand");
+        text_.fail("expected a corner, found " + quoted(start, text_.end));
     }
 
     /// Names of files, between blanks; those within a name can be told only where names end as
@@ -217,7 +217,7 @@ class obj_reader {
         const std::size_t count = file_.mesh.points.size();
         if (colors_.size() != 3 * count) {
             file_.warnings.push_back(
-                {"vertex-colors", "only some vertices have a color; none was kept"});
+                {"vertex-colors", "only some vertices have a color; no colors were kept"});
             return;
         }
         element& vertices = file_.attributes.find_or_add("vertex", count);

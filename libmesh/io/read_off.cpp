@@ -66,7 +66,7 @@ class off_reader {
         else
             store_list();
         if (!text_.text_done())
-            file_.warnings.push_back({"trailing-bytes", "there is more after the last face"});
+            file_.warnings.push_back({"trailing-bytes", "data after the last face were not read"});
         faces_.remark(file_.warnings);
         text_.remark(file_.warnings);
         if (file_.mesh.faces.size() > std::numeric_limits<std::uint32_t>::max())
@@ -77,7 +77,7 @@ class off_reader {
 
   private:
     void read_kind() {
-        if (text_.text_done()) text_.fail("no counts: cut off?");
+        if (text_.text_done()) text_.fail("no counts: truncated?");
         const char* const start = text_.at;
         std::string_view word = text_.word();
         if (!word.ends_with("OFF") && (is_digit(*start) || *start == '-')) {
@@ -93,8 +93,8 @@ class off_reader {
             text_.at = word.data() + 3;  // no blank ahead of the counts
             return;
         }
-        if (word != "OFF") text_.fail(quoted(start, text_.end) + " where 'OFF' should stand");
-        if (text_.text_done()) text_.fail("no counts: cut off?");
+        if (word != "OFF") text_.fail("expected 'OFF', found " + quoted(start, text_.end));
+        if (text_.text_done()) text_.fail("no counts: truncated?");
         if (text_.starts_with("BINARY")) text_.fail("binary OFF is not read");
         if (kind_.dimension && text_.integer("the dimension") != 3)
             text_.fail("only points of three dimensions are read");
@@ -132,7 +132,7 @@ class off_reader {
         point3 p;
         for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = next_number("a coordinate");
         if (kind_.weight && next_number("a weight") != 1.0)
-            text_.fail("a weight other than 1: the point would have to be rounded");
+            text_.fail("a weight other than 1 is not supported, since points would be rounded");
         if (kind_.normal)
             for (int i = 0; i < 3; ++i) normals_.values.push_back(next_number("a normal"));
         if (kind_.normal) normals_.end_row();
@@ -140,7 +140,7 @@ class off_reader {
         const std::size_t least = (kind_.color ? 3U : 0U) + (kind_.texture ? 2U : 0U);
         if (vertices_extra_.width < least || (least == 0 && vertices_extra_.width > 0) ||
             !vertices_extra_.even)
-            text_.fail("a vertex with other numbers than the first word of the file says");
+            text_.fail("the numbers of this vertex do not match the first word of the file");
         file_.mesh.points.push_back(p);
         text_.file.release_before(text_.at);
     }

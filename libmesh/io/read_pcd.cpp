@@ -21,7 +21,7 @@ namespace {
 using warnings = std::vector<io_warning>;
 
 void look_behind(bool more, warnings& said) {
-    if (more) said.push_back({"trailing-bytes", "there is more after the last point"});
+    if (more) said.push_back({"trailing-bytes", "data after the last point were not read"});
 }
 
 [[noreturn]] void fail_short(const source& in, const pcd_header& header) {

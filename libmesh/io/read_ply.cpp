@@ -59,7 +59,7 @@ class body_reader {
         if (with_role(*strips, column_role::corners) == nullptr)
             in_.fail("element 'tristrips' has no list of vertex_indices");
         if (faces != nullptr && faces->rows > 0)
-            in_.fail("faces and triangle strips in one file are not read");
+            in_.fail("a file with both faces and triangle strips is not supported");
     }
 
     void read_rows(element& e) {
@@ -148,7 +148,7 @@ class body_reader {
     void store_strips() {
         std::erase_if(file_.attributes.elements,
                       [](const element& e) { return e.name == "tristrips" || e.name == "face"; });
-        file_.warnings.push_back({"triangle-strips", "the faces are those of triangle strips"});
+        file_.warnings.push_back({"triangle-strips", "the faces were read from triangle strips"});
     }
 
     const source& in_;

@@ -74,14 +74,14 @@ class scene_reader {
         file_.indexed = false;
         file_.stored_as = precision::float32;
         if (scene_.mRootNode != nullptr) add_nodes();
-        if (file_.mesh.points.empty()) in_.fail("no triangle found");
+        if (file_.mesh.points.empty()) in_.fail("no triangles found");
         if (dropped_ > 0)
             file_.warnings.push_back(
                 {"skipped-elements", std::to_string(dropped_) + " points and lines were not read"});
         file_.warnings.push_back(
             {"precision",
-             "precision: float; vertices as the loader splits them, without normals, colors, "
-             "texture coordinates and materials"});
+             "read through assimp: coordinates are float32, vertices may be split, and normals, "
+             "colors, texture coordinates and materials were not read"});
         return std::move(file_);
     }
 
@@ -157,7 +157,7 @@ constexpr int unwanted = aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGEN
     const bool about_file = said.find(name_of_bytes) != std::string::npos ||
                             said.find('"' + std::string(in.name()) + '"') != std::string::npos;
     if (!said.empty() && !about_file) return said;
-    return "cannot be read as '" + hint + "': damaged or cut short";
+    return "cannot be read as '" + hint + "': damaged or truncated";
 }
 
 /// The scene, which belongs to the importer.
@@ -215,7 +215,7 @@ mesh_file read_scene(const source& in, const std::filesystem::path& path,
                      std::string_view extension) {
     const std::string hint(extension);
     scene_importer importer(hint);
-    if (importer.GetImporterCount() == 0) in.fail("format '" + hint + "' is not read");
+    if (importer.GetImporterCount() == 0) in.fail("format '" + hint + "' is not supported");
     importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, unwanted);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     refuse_deep_scene(in);

@@ -36,13 +36,14 @@ T little(const char* at) {
 std::size_t facet_count(const source& in, std::size_t stated, std::vector<io_warning>& warnings) {
     const std::size_t body = in.size() - header_bytes;
     const std::size_t whole = body / record_bytes;
-    const std::string says =
-        "header says " + std::to_string(stated) + " triangles, file holds " + std::to_string(whole);
+    const std::string says = "the header announces " + std::to_string(stated) +
+                             " triangles, the file has " + std::to_string(whole);
     if (whole > 0 && body % record_bytes == 0) {
         warnings.push_back({"wrong-count", says + "; these were read"});
         return whole;
     }
-    if (stated == 0 || whole < stated) in.fail_byte(in.begin() + 80, says + ": damaged or cut off");
+    if (stated == 0 || whole < stated)
+        in.fail_byte(in.begin() + 80, says + ": damaged or truncated");
     const std::size_t behind = body - stated * record_bytes;
     warnings.push_back({"trailing-bytes", std::to_string(behind) +
                                               (behind == 1 ? " byte" : " bytes") + " after the " +
@@ -54,7 +55,7 @@ std::size_t facet_count(const source& in, std::size_t stated, std::vector<io_war
 /// No more than the file holds; found before anything is allocated.
 std::uint32_t facet_count(const source& in, std::vector<io_warning>& warnings) {
     if (in.size() < header_bytes)
-        in.fail("shorter than the 84 bytes ahead of a binary STL, and not the text of one");
+        in.fail("neither an ASCII STL nor as long as the header of a binary STL, 84 bytes");
     std::size_t count = little<std::uint32_t>(in.begin() + 80);
     if (in.size() != header_bytes + count * record_bytes) count = facet_count(in, count, warnings);
     if (count > std::numeric_limits<std::uint32_t>::max() / 3)

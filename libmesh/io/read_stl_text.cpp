@@ -111,9 +111,8 @@ class stl_text_reader {
     void expect(std::string_view keyword) {
         if (accept(keyword)) return;
         if (text_.done())
-            text_.fail("the file ends where '" + std::string(keyword) + "' should stand: cut off?");
-        text_.fail(quoted(text_.at, text_.end) + " where '" + std::string(keyword) +
-                   "' should stand");
+            text_.fail("expected '" + std::string(keyword) + "', but the file ends: truncated?");
+        text_.fail("expected '" + std::string(keyword) + "', found " + quoted(text_.at, text_.end));
     }
 
     void solid() {
@@ -189,7 +188,7 @@ class stl_text_reader {
 
     void facet() {
         skip_to_word();
-        if (text_.done()) text_.fail("the file ends without 'endsolid': cut off?");
+        if (text_.done()) text_.fail("the file ends without 'endsolid': truncated?");
         expect("facet");
         // The normal follows from the corners; files hold anything there, even -nan(ind).
         for (int word = 0; !accept("outer"); ++word) {
@@ -237,7 +236,7 @@ class stl_text_reader {
             file_.warnings.push_back(
                 {"stray-words", std::to_string(stray_words_) +
                                     (stray_words_ == 1 ? " word" : " words") +
-                                    " after 'endloop' or 'endfacet' not read, the first in line " +
+                                    " after 'endloop' or 'endfacet' ignored, the first in line " +
                                     std::to_string(text_.file.line_of(first_stray_))});
         if (zero_bytes_ > 0)
             file_.warnings.push_back(

@@ -28,7 +28,7 @@ class xyz_reader {
                std::span<const std::pair<std::string, std::string>> chosen)
         : text_(in), pts_(format == "pts"), chosen_(chosen) {
         skip_heading();
-        if (done()) text_.file.fail("no point found");
+        if (done()) text_.file.fail("no points found");
         learn_columns();
         facts_.clear();
     }
@@ -91,7 +91,7 @@ class xyz_reader {
     void check_count(std::uint64_t count) {
         if (!promised_ || count == *promised_) return;
         const std::string both =
-            std::to_string(*promised_) + " points announced, " + std::to_string(count) + " there";
+            std::to_string(*promised_) + " points announced, " + std::to_string(count) + " found";
         if (count < *promised_) text_.fail("the file ends in the points: " + both);
         warnings_.push_back({"count", both});
     }
@@ -112,7 +112,7 @@ class xyz_reader {
     }
 
     static constexpr const char* uneven =
-        "the columns after x y z differ between lines; none was kept";
+        "lines have different numbers of columns; only x y z were kept";
 
   private:
     static constexpr std::size_t no_axis = 3;
@@ -196,8 +196,8 @@ class xyz_reader {
         if (!axes && has_angles(names))
             text_.file.fail_line(
                 heading_.data(),
-                "latitude and longitude are angles, not coordinates: project them to "
-                "meters first, for instance by cs2cs or pdal");
+                "latitude and longitude are angles, not coordinates: first project them to "
+                "meters, for instance with cs2cs or pdal");
         if (axes) {
             if (!is_chosen) tell_axes(names, *axes);
             axis_of_.assign(1 + *std::max_element(axes->begin(), axes->end()), no_axis);

@@ -58,7 +58,7 @@ class text_values {
         if (count >= 0 && static_cast<std::size_t>(count) <= bytes_left())
             return static_cast<std::size_t>(count);
         text_.at = start;
-        text_.fail("a list of " + quoted(start, text_.end) + " values");
+        text_.fail("a list cannot have " + quoted(start, text_.end) + " values");
     }
 
     [[nodiscard]] double coordinate(const column&) {
@@ -77,7 +77,7 @@ class text_values {
             const parsed<T> n = parse<T>();
             if (n.end == nullptr || (n.end != text_.end && !is_space(*n.end))) {
                 if (text_.done() || is_newline(*text_.at)) text_.fail("the row ends too early");
-                text_.fail(quoted(text_.at, text_.end) + " is no value for " + c.name);
+                text_.fail(quoted(text_.at, text_.end) + " is not a valid value of " + c.name);
             }
             append(c.values, text_.take(n));
         });

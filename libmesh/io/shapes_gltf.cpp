@@ -55,7 +55,7 @@ void check_type(const buffers_gltf& buffers, const model_gltf& model, std::size_
                 std::size_t components, std::uint64_t count, const std::string& name) {
     const accessor_gltf& a = model.accessors[accessor];
     if (a.components != components)
-        buffers.fail("accessors", accessor, "has another type than " + name + " has");
+        buffers.fail("accessors", accessor, "has a type that " + name + " cannot have");
     if (a.count != count)
         buffers.fail("accessors", accessor,
                      "has " + std::to_string(a.count) + " values of " + name + " for " +
@@ -69,7 +69,7 @@ void survey_colors(const buffers_gltf& buffers, const model_gltf& model, std::si
     check_type(buffers, model, accessor, has_alpha ? 4 : 3, count, "COLOR_0");
     if (a.type != scalar_type::float32 && a.type != scalar_type::uint8 &&
         a.type != scalar_type::uint16)
-        buffers.fail("accessors", accessor, "has another type than COLOR_0 has");
+        buffers.fail("accessors", accessor, "has a type that COLOR_0 cannot have");
     survey.with_colors += count;
     survey.has_alpha = survey.has_alpha || has_alpha;
     if (!survey.color_type)
@@ -206,7 +206,7 @@ class decoder {
         for (std::size_t i = 0; i < indices.size(); ++i)
             if (indices.index(i) >= shape.points)
                 buffers_.fail("meshes", mesh_,
-                              "has index " + std::to_string(indices.index(i)) + ", of " +
+                              "has index " + std::to_string(indices.index(i)) + ", but there are " +
                                   std::to_string(shape.points) + " points");
         add_faces(shape, [&](std::size_t i) {
             return static_cast<std::uint32_t>(shape.first_point + indices.index(i));
@@ -237,7 +237,7 @@ void check_indices(buffers_gltf& buffers, const model_gltf& model, std::size_t a
     const accessor_gltf& a = model.accessors[accessor];
     if (a.components != 1 || (a.type != scalar_type::uint8 && a.type != scalar_type::uint16 &&
                               a.type != scalar_type::uint32))
-        buffers.fail("accessors", accessor, "has another type than indices have");
+        buffers.fail("accessors", accessor, "has a type that indices cannot have");
     check_bytes(buffers, model, accessor, survey);
 }
 

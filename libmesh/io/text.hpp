@@ -102,7 +102,8 @@ struct text {
     /// What is unusual about the numbers read so far.
     void remark(std::vector<io_warning>& warnings) const {
         if (hexadecimal)
-            warnings.push_back({"hexadecimal", "numbers are written in hexadecimal, as 0x1.8p1"});
+            warnings.push_back(
+                {"hexadecimal", "the file has hexadecimal numbers, such as 0x1.8p1"});
     }
 
     [[noreturn]] void fail(std::string_view reason) const { file.fail_line(at, reason); }
@@ -113,15 +114,15 @@ struct text {
     }
     [[noreturn]] void fail_number(std::string_view what, const char* stop) const {
         const std::string subject(what);
-        if (at == end) fail("the file ends where " + subject + " should stand");
-        if (is_newline(*at)) fail("the line ends where " + subject + " should stand");
+        if (at == end) fail("expected " + subject + ", but the file ends");
+        if (is_newline(*at)) fail("expected " + subject + ", but the line ends");
         // "1,5" has a decimal mark, "1.5, 2" and "1, 2" a separator.
         if (stop != nullptr && *stop == ',')
-            fail(quoted(at, end) + " for " + subject +
+            fail("expected " + subject + ", found " + quoted(at, end) +
                  (stop + 1 < end && is_digit(stop[1])
-                      ? ": the decimal mark is the point"
+                      ? ": the decimal separator must be a point"
                       : ": numbers are separated by blanks, not by commas"));
-        fail(quoted(at, end) + " where " + subject + " should stand");
+        fail("expected " + subject + ", found " + quoted(at, end));
     }
 };
 

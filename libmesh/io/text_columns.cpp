@@ -22,7 +22,7 @@ namespace {
         return number - 1;
     std::string known;
     for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
-    in.fail("columns: none is '" + wanted + "' among " + known);
+    in.fail("columns: there is no column '" + wanted + "' among " + known);
 }
 
 [[nodiscard]] bool is_whole(const text_column& fact) { return fact.whole && fact.gaps == 0; }
@@ -81,7 +81,7 @@ std::optional<std::array<std::size_t, 3>> choose_columns(
     if (!axes[0] || !axes[1] || !axes[2])
         in.fail("columns: choose x, y and z together, or none of them");
     if (axes[0] == axes[1] || axes[0] == axes[2] || axes[1] == axes[2])
-        in.fail("columns: x, y and z are three columns");
+        in.fail("columns: x, y and z must be three different columns");
     return std::array{*axes[0], *axes[1], *axes[2]};
 }
 
@@ -115,10 +115,12 @@ void remark_on_cells(const element& declared, std::span<const text_column> facts
     if (gaps > 0)
         warnings.push_back({"columns", std::to_string(gaps) +
                                            (gaps == 1 ? " cell of " : " cells of ") + empty +
-                                           " empty or no number: NaN there"});
+                                           " empty or not a number: read as NaN"});
     if (!rounded.empty())
-        warnings.push_back({"columns", "whole numbers beyond 2^53 are rounded: " + rounded +
-                                           " has others beside them"});
+        warnings.push_back({"columns",
+                            "whole numbers beyond 2^53 are rounded, since other values "
+                            "of the column are not whole numbers: " +
+                                rounded});
 }
 
 void append_cells(column& to, std::span<const text_cell> cells, const cell_places& places) {

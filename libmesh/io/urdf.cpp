@@ -38,7 +38,8 @@ class urdf_reader {
             document_.load_buffer_inplace(text.data(), text.size(), pugi::parse_default);
         if (parsed.status == pugi::status_out_of_memory) throw std::bad_alloc();
         if (!parsed)
-            fail("byte " + std::to_string(parsed.offset) + ": no XML: " + parsed.description());
+            fail("byte " + std::to_string(parsed.offset) +
+                 ": invalid XML: " + parsed.description());
         const pugi::xml_node root = document_.child("robot");
         if (!root) fail("no <robot>: not a URDF file? (run xacro first)");
         robot_.name = root.attribute("name").value();
@@ -131,7 +132,7 @@ class urdf_reader {
     [[nodiscard]] double length(pugi::xml_node node, const char* attribute,
                                 const std::string& whose) const {
         const double value = numbers<1>(node, attribute, {0.0}, whose)[0];
-        if (!(value > 0.0)) fail(whose + ": " + attribute + " is missing, or not above 0");
+        if (!(value > 0.0)) fail(whose + ": " + attribute + " is missing, or not greater than 0");
         return value;
     }
 
@@ -142,7 +143,7 @@ class urdf_reader {
         if (kind == "box") {
             const auto size = numbers<3>(shape, "size", {}, of);
             if (!(std::min({size[0], size[1], size[2]}) > 0.0))
-                fail(of + ": size is missing, or not above 0");
+                fail(of + ": size is missing, or not greater than 0");
             made = detail::io::box_shape(size);
         } else if (kind == "cylinder") {
             made = detail::io::cylinder_shape(length(shape, "radius", of),
@@ -150,14 +151,16 @@ class urdf_reader {
         } else if (kind == "sphere") {
             made = detail::io::sphere_shape(length(shape, "radius", of));
         } else {
-            robot_.skipped.push_back(
-                whose + ": " + (kind.empty() ? "empty geometry" : "a " + kind) + " is not read");
+            robot_.skipped.push_back(whose + ": " +
+                                     (kind.empty() ? "empty geometry" : "a " + kind) +
+                                     " is not supported");
             return;
         }
         if (!detail::base::all_finite(made.points)) fail(of + ": is too large");
         if (kind != "box")
-            robot_.approximated.push_back(of + " is " + std::to_string(made.faces.size()) +
-                                          " triangles around it");
+            robot_.approximated.push_back(of + " is replaced by " +
+                                          std::to_string(made.faces.size()) +
+                                          " triangles that enclose it");
         robot_.meshes.push_back({link, {}, origin_of(node, whose), std::move(made)});
     }
 
@@ -187,8 +190,8 @@ class urdf_reader {
         std::error_code ignored;
         for (const auto& one : tried)
             if (std::filesystem::is_regular_file(one, ignored)) return one.lexically_normal();
-        fail(whose + ": its mesh " + name + " is not found" +
-             (name.starts_with(package) ? "; where are its packages?" : ""));
+        fail(whose + ": its mesh " + name + " was not found" +
+             (name.starts_with(package) ? "; give the folder of its package" : ""));
     }
 
     [[nodiscard]] std::uint32_t link_of(pugi::xml_node joint, const char* end,
@@ -196,7 +199,7 @@ class urdf_reader {
         const std::string_view name = joint.child(end).attribute("link").value();
         const auto found = numbers_.find(name);
         if (found == numbers_.end())
-            fail(whose + ": its " + end + " link \"" + std::string(name) + "\" is not there");
+            fail(whose + ": its " + end + " link \"" + std::string(name) + "\" does not exist");
         return found->second;
     }
 
@@ -210,8 +213,8 @@ class urdf_reader {
         const std::string_view kind = node.attribute("type").value();
         const auto at = std::find(kinds.begin(), kinds.end(), kind);
         if (at == kinds.end())
-            fail(whose + ": of type \"" + std::string(kind) +
-                 "\"; only fixed, revolute, continuous and prismatic joints are read");
+            fail(whose + ": type \"" + std::string(kind) +
+                 "\" is not supported, only fixed, revolute, continuous and prismatic");
         joint.kind = static_cast<urdf_joint_kind>(at - kinds.begin());
         joint.parent = link_of(node, "parent", whose);
         joint.child = link_of(node, "child", whose);
@@ -260,7 +263,7 @@ class urdf_reader {
         robot_.joints = std::move(ordered);
         for (const urdf_joint& joint : robot_.joints)
             if (!joint.mimics.empty() && !joint_names_.contains(joint.mimics))
-                fail("joint " + joint.name + ": mimics " + joint.mimics + ", which is not there");
+                fail("joint " + joint.name + " mimics " + joint.mimics + ", which does not exist");
     }
 
     std::filesystem::path path_;

@@ -100,7 +100,7 @@ void check_faces(const mesh_file& file) {
     if (const auto fault = file.attributes.corners.fault(faces.size()); !fault.empty())
         refuse_file(fault);
     if (stored.empty()) return;
-    if (stored.size() != faces.size()) refuse_file("stored_face has another size than faces");
+    if (stored.size() != faces.size()) refuse_file("stored_face and faces differ in size");
     if (stored[0] != 0) refuse_file("stored_face does not start with face 0");
     for (std::size_t f = 1; f < faces.size(); ++f) {
         if (stored[f] == stored[f - 1]) {
@@ -108,7 +108,7 @@ void check_faces(const mesh_file& file) {
             if (!continues_fan(faces, f) || !continues_fan(corners.texture_of_corner, f) ||
                 !continues_fan(corners.normal_of_corner, f))
                 refuse_file("the triangles of stored face " + std::to_string(stored[f]) +
-                            " are no fan");
+                            " are not a fan");
         } else if (stored[f] != stored[f - 1] + 1) {
             refuse_file("stored_face skips a face before triangle " + std::to_string(f));
         }
@@ -118,9 +118,10 @@ void check_faces(const mesh_file& file) {
 void check_attributes(const mesh_file& file) {
     for (const element& e : file.attributes.elements) {
         if (e.name == "vertex" && e.rows != file.mesh.points.size())
-            refuse_file("element vertex has another number of rows than there are points");
+            refuse_file("the number of rows of element vertex differs from the number of points");
         if (e.name == "face" && e.rows != detail::io::stored_face_count(file))
-            refuse_file("element face has another number of rows than there are stored faces");
+            refuse_file(
+                "the number of rows of element face differs from the number of stored faces");
         detail::io::check_columns(e);
     }
 }
@@ -172,14 +173,14 @@ class writing {
             result_.max_displacement = detail::io::largest_move(file.mesh.points, 0, name_);
         if (!may_round && result_.max_displacement > 0.0)
             throw io_error(name_ + ": " + result_.format +
-                           " would round coordinates that were certified; ask for "
-                           "precision::float32 where they are made, write a format of doubles, or "
-                           "set write_options::round");
+                           " would round certified coordinates; compute the result with "
+                           "precision::float32, write a format that holds doubles, or set "
+                           "write_options::round");
         if (file.mesh.faces.empty() && !file.mesh.points.empty() &&
             (format_.extension == "stl" || format_.extension == "glb" ||
              format_.extension == "3mf"))
             throw io_error(name_ + ": " + std::string(format_.extension) +
-                           " holds no points without faces");
+                           " cannot hold points without faces");
     }
 
     write_result run(detail::io::sink& out) {

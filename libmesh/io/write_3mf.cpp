@@ -116,17 +116,18 @@ class model_writer {
         if (looks_.leaves_out_points())
             job_.result.warnings.push_back(
                 {"colors-dropped",
-                 "colors of points left out: their faces have colors or materials"});
+                 "colors of points left out, since their faces have colors or materials"});
         if (count_named(job_.file) > objects_.size())
             job_.result.warnings.push_back(
-                {"left-out", "names of parts left out: those that share points are one object"});
+                {"left-out",
+                 "names of parts left out, since parts that share points are one object"});
         if (looks_.rounds_colors())
             job_.result.warnings.push_back({"colors", "colors are rounded to 8 bits"});
         if (looks_.lacks_colors())
             job_.result.warnings.push_back(
-                {"materials",
-                 "materials are written in white: " + job_.file.attributes.material_files[0] +
-                     ", which has their colors, was not read"});
+                {"materials", "materials are written in white, since " +
+                                  job_.file.attributes.material_files[0] +
+                                  ", which has their colors, was not read"});
     }
 
   private:
@@ -266,7 +267,7 @@ void write_3mf(const write_job& job) {
     constexpr const char* model_name = "3D/3dmodel.model";
     for (const point3& p : job.file.mesh.points)
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            throw io_error("3MF holds finite coordinates only");
+            throw io_error("3MF can hold only finite coordinates");
     std::string bytes;
     {
         zip_builder archive(bytes);

@@ -67,7 +67,7 @@ struct box {
     box b{points[0], points[0]};
     for (const point3& p : points) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (!std::isfinite(p[axis])) throw io_error("GLB holds finite coordinates only");
+            if (!std::isfinite(p[axis])) throw io_error("GLB can hold only finite coordinates");
             b.min[axis] = std::min(b.min[axis], p[axis]);
             b.max[axis] = std::max(b.max[axis], p[axis]);
         }
@@ -333,11 +333,9 @@ class document_glb {
             texture_parts += attributes_.lacks_texture(p) ? 1 : 0;
         }
         const std::string in_all =
-            "some corners have none or none of a length: glb holds those of "
-            "all or none";
+            "some corners have none or one of length 0, and glb has one for every corner or none";
         if (normal_parts > 0) warn("corner-values", "normals left out: " + in_all);
-        if (texture_parts > 0)
-            warn("corner-values", "texture coordinates 0 0 for corners that have none");
+        if (texture_parts > 0) warn("corner-values", "corners without texture coordinates got 0 0");
         std::string names;
         const auto add = [&](const std::string& name) {
             names += (names.empty() ? "" : ", ") + name;
@@ -351,8 +349,7 @@ class document_glb {
                     std::find(face_colors.begin(), face_colors.end(), &c) == face_colors.end())
                     add(c.name);
         if (!names.empty())
-            warn("columns-dropped",
-                 "glb does not hold these properties, which are left out: " + names);
+            warn("columns-dropped", "properties left out, since glb cannot hold them: " + names);
     }
 
     const write_job& job_;

@@ -64,7 +64,7 @@ class las_writer {
           first_point_(plan_.header.block.size() + size_of_records(plan_.header) +
                        plan_.header.behind_records.size()) {
         if (!job.out.can_replace())
-            throw las_fault("LAS and LAZ are not written to a pipe: name a file");
+            throw las_fault("LAS and LAZ cannot be written to a pipe; name a file");
         if (first_point_ > std::numeric_limits<std::uint32_t>::max())
             throw las_fault("more than 4 GB of records before the points");
         put_block();

@@ -75,7 +75,8 @@ class pcd_writer {
         for (const column* c : columns_) row_size_ += size_of(c->type);
         if (encoding_ == pcd_encoding::compressed && !can_pack(count_, row_size_)) {
             encoding_ = pcd_encoding::binary;
-            job.result.warnings.push_back({"compression", "too many points to be compressed"});
+            job.result.warnings.push_back(
+                {"compression", "too many points for compression; written uncompressed"});
         }
         job.result.format = name_of(encoding_);
         put_header();

@@ -152,8 +152,8 @@ class ply_writer {
             if (c.role == column_role::data && has_texture && c.name == face_texture_name) {
                 job_.result.warnings.push_back(
                     {"corner-values", "list " + c.name +
-                                          " of faces left out: texture coordinates "
-                                          "of corners have its name"});
+                                          " of faces left out, since texture coordinates of "
+                                          "corners have the same name"});
                 continue;
             }
             e.columns.push_back(declaration(c));
@@ -187,7 +187,8 @@ class ply_writer {
         sink& out = job_.out;
         if (c.type == scalar_type::int64 || c.type == scalar_type::uint64)
             job_.result.warnings.push_back(
-                {"ply-int64", "not every reader of PLY knows the type of property " + c.name});
+                {"ply-int64",
+                 "property " + c.name + " has a 64-bit type that not every PLY reader supports"});
         out.put("property ");
         if (c.list_length) {
             out.put("list ");

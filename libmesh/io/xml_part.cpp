@@ -37,10 +37,10 @@ xml_part::xml_part(const source& in, std::string_view name, std::string text)
         document_.load_buffer_inplace(text_.data(), text_.size(), what);
     if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
     if (!result)
-        fail("byte " + std::to_string(result.offset) + ": no XML: " + result.description());
+        fail("byte " + std::to_string(result.offset) + ": invalid XML: " + result.description());
     for (const pugi::xml_node node : document_.children())
         if (node.type() == pugi::node_doctype)
-            fail("a document type, which may define entities, is not read");
+            fail("a document type declaration is not allowed, since it may define entities");
 }
 
 const char* xml_part::required(pugi::xml_node element, const char* attribute) const {
@@ -54,7 +54,7 @@ double xml_part::number(pugi::xml_node element, const char* attribute) const {
     const char* const end = value.data() + value.size();
     const parsed<double> number = parse_number(value.data(), end);
     if (number.end != end || number.hexadecimal)  // which the format does not know
-        fail(element, named(attribute, value) + " is no number");
+        fail(element, named(attribute, value) + " is not a number");
     if (!std::isfinite(number.value)) fail(element, named(attribute, value) + " is not finite");
     return number.value;
 }
@@ -64,7 +64,7 @@ std::uint32_t xml_part::integer(pugi::xml_node element, const char* attribute) c
     const char* const end = value.data() + value.size();
     const parsed<std::int64_t> number = parse_integer(value.data(), end);
     if (number.end != end || number.value < 0 || number.value > 0x7fffffff)
-        fail(element, named(attribute, value) + " is no number from 0 to 2147483647");
+        fail(element, named(attribute, value) + " is not an integer from 0 to 2147483647");
     return static_cast<std::uint32_t>(number.value);
 }
 

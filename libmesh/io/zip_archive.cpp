@@ -158,7 +158,7 @@ zip_archive::directory zip_archive::find_directory() const {
         if (all.at == elsewhere32 || all.size == elsewhere32 || all.count == elsewhere16)
             return find_large_directory(place);
         if (field16(end, 4) != 0 || field16(end, 6) != 0 || field16(end, 8) != all.count)
-            in_.fail("an archive of several files, which is not read");
+            in_.fail("an archive split into several files is not supported");
         if (all.size > place || all.at > place - all.size)
             in_.fail("the directory of the archive is damaged");
         // Something else may stand between the directory and its last record.
@@ -177,7 +177,7 @@ zip_archive::directory zip_archive::find_large_directory(std::uint64_t end) cons
     const char* const locator = in_.begin() + end - locator_size;
     const std::uint64_t place = field64(locator, 8);
     if (field32(locator, 4) != 0 || field32(locator, 16) > 1)
-        in_.fail("an archive of several files, which is not read");
+        in_.fail("an archive split into several files is not supported");
     if (end - locator_size < large_end_size || place > end - locator_size - large_end_size)
         damaged();
     const char* record = in_.begin() + place;
@@ -238,20 +238,23 @@ bool zip_archive::holds(std::string_view name) const {
 void zip_archive::check(std::string_view name, const member& m) {
     if ((m.flags & encrypted_flag) != 0) fail(name, "encrypted");
     if (m.method != 0 && m.method != deflated)
-        fail(name, "packed by method " + std::to_string(m.method) + "; only deflate is read");
+        fail(name,
+             "compressed by method " + std::to_string(m.method) + "; only deflate is supported");
     // Members that share bytes would be read again and again.
     packed_read_ += std::min<std::uint64_t>(m.packed, in_.size() + std::uint64_t{1});
     if (packed_read_ > in_.size()) fail(name, "announces more bytes than the archive has");
     const std::uint64_t most = m.method == 0 ? m.packed : m.packed * most_ratio + ratio_slack;
     if (m.size > most)
         fail(name, "announces " + std::to_string(m.size) + " bytes, more than " +
-                       std::to_string(m.packed) + " packed ones can become");
+                       std::to_string(m.packed) + " compressed bytes can hold");
 }
 
 /// Between its own header, which has to fit the directory, and the directory. Sizes are not in the
 /// header where they are elsewhere, or stand behind the bytes.
 std::string_view zip_archive::packed_bytes(std::string_view name, const member& m) const {
-    const auto misfit = [&] { fail(name, "its header does not fit the directory of the archive"); };
+    const auto misfit = [&] {
+        fail(name, "its header does not match the directory of the archive");
+    };
     if (m.at > directory_at_ - ahead_ || directory_at_ - ahead_ - m.at < member_size) misfit();
     const std::uint64_t room = directory_at_ - ahead_ - m.at;
     const char* const header = in_.begin() + ahead_ + m.at;
@@ -279,8 +282,8 @@ std::string zip_archive::unpacked(std::string_view name, const member& m) const 
     // Text of numbers becomes a fifth to a tenth when packed.
     bytes.reserve(static_cast<std::size_t>(std::min(m.size, m.packed * 10)));
     if (!inflater().unpack(packed, m.size, bytes))
-        fail(name,
-             "cannot be unpacked to the " + std::to_string(m.size) + " bytes announced: damaged");
+        fail(name, "cannot be decompressed to the announced " + std::to_string(m.size) +
+                       " bytes: damaged");
     return bytes;
 }
 

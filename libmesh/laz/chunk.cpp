@@ -114,7 +114,7 @@ void unpack_layers(std::span<const item> items, std::span<const std::uint8_t> pa
     layerwise state(items, records);
     const auto stated = static_cast<std::uint32_t>(get32(take(packed, 4).data()));
     if (stated != count)
-        throw damaged("a chunk is said to have " + std::to_string(count) + " points and " +
+        throw damaged("a chunk announces " + std::to_string(count) + " points, and then " +
                       std::to_string(stated));
     const std::size_t layers = layered_point::layers + state.other_layers();
     std::span<const std::uint8_t> sizes = take(packed, 4 * layers);

@@ -178,7 +178,7 @@ void visit(const placed_faces& a, const placed_faces& b, const detail::block_pai
 void check_tree(mesh_view mesh, const transformed<3>& tree) {
     if (mesh.faces.size() != tree.original().size())
         throw std::invalid_argument(
-            "treeform::closest_points: the tree is not one over the mesh's faces");
+            "treeform::closest_points: the tree is not over the faces of the mesh");
 }
 
 std::optional<closest_points_result> search(const placed_faces& a, const placed_faces& b,

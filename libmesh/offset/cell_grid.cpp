@@ -33,7 +33,8 @@ struct level {
     throw std::invalid_argument(
         "treeform::" + std::string(function) + ": the resolution " + base::brief(step) +
         " is too fine: the surface would pass through more than 2^22 cells; " +
-        base::brief(1.1 * step * std::sqrt(std::max(expected / most_cells, 1.0))) + " would do");
+        base::brief(1.1 * step * std::sqrt(std::max(expected / most_cells, 1.0))) +
+        " is coarse enough");
 }
 
 level split(const level& from) {

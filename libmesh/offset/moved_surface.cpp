@@ -40,8 +40,8 @@ void require_agreement(const mesh& surface) {
     if (twice == runs.end()) return;
     throw std::invalid_argument("treeform::thicken: faces " + std::to_string(twice->face) +
                                 " and " + std::to_string((twice + 1)->face) +
-                                " disagree about the front: they run along an edge in the same "
-                                "direction; take both sides, or orient them first");
+                                " are inconsistently oriented, so the surface has no front; "
+                                "thicken it to both sides, or orient its faces first");
 }
 
 point3 normalized(const point3& v) {

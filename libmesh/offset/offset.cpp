@@ -91,7 +91,7 @@ double usual_resolution(mesh_view mesh, double diagonal, double distance, double
 double resolution_for(mesh_view mesh, double distance, wanted_side side, const request& asked) {
     const box3 box = *bounding_box(mesh.points);
     const double size = box.diagonal();
-    if (!(size + distance < 0x1p150)) asked.refuse("lengths of 2^150 and more are not taken");
+    if (!(size + distance < 0x1p150)) asked.refuse("lengths of 2^150 or more are not supported");
     std::array<point3, 2> ends{box.min, box.max};
     for (std::size_t k = 0; k < 3; ++k) {
         ends[0][k] -= distance;
@@ -104,12 +104,12 @@ double resolution_for(mesh_view mesh, double distance, wanted_side side, const r
     asked.require_positive(step, "the resolution");
     if (step > most_share * distance)
         asked.refuse("the resolution " + detail::base::brief(step) +
-                     " is too coarse: half of the distance, " +
-                     detail::base::brief(most_share * distance) + ", is the most");
+                     " is too coarse: it can be at most half of the distance, " +
+                     detail::base::brief(most_share * distance));
     if (step < least)
         asked.refuse("the resolution " + detail::base::brief(step) +
-                     " is finer than coordinates allow there: " + detail::base::brief(least) +
-                     " is the least; move the mesh to the origin, or take float64");
+                     " is too fine for the coordinates there: it must be at least " +
+                     detail::base::brief(least) + "; move the mesh to the origin, or use float64");
     return step;
 }
 
@@ -195,7 +195,7 @@ offset_result hollow(const mesh_ref& given, double wall,
     asked.require_positive(wall, "the wall");
     for (const auto& [at, diameter] : drains) {
         asked.require_positive(diameter, "the diameter of a drain");
-        if (!detail::base::is_finite(at)) asked.refuse("the place of a drain is not finite");
+        if (!detail::base::is_finite(at)) asked.refuse("the position of a drain is not finite");
     }
     boolean_result solid = solid_of(given, asked);
     if (!solid.certificate) return with_certificate(solid.certificate);

@@ -56,11 +56,11 @@ void check(points_view moving, mesh_view fixed, const align_options& o) {
     if (!(o.overlap > 0.0 && o.overlap <= 1.0)) refuse("the overlap is not in (0, 1]");
     if (!(o.max_distance >= 0.0)) refuse("the largest distance is negative or NaN");
     if (!(o.tolerance >= 0.0)) refuse("the tolerance is negative or NaN");
-    if (o.starts == 0) refuse("there are no starts");
+    if (o.starts == 0) refuse("the number of starts is 0");
     if (!(o.least_scale >= 0.0 && std::isfinite(o.least_scale)))
         refuse("the least scale is negative or not finite");
     if (!(o.most_scale > 0.0 && o.most_scale >= o.least_scale))
-        refuse("the largest scale is not positive, or below the least one");
+        refuse("the largest scale is not positive, or less than the least one");
     if (!o.start.finite()) refuse("an entry of the start is not finite");
 }
 

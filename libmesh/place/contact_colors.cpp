@@ -100,7 +100,7 @@ void placement::color(mesh_file& file, std::span<const mesh_relation> relations,
     const bool cloud = file.mesh.faces.empty() && !relations.empty();
     if (relations.size() != (cloud ? file.mesh.points.size() : file.mesh.faces.size()))
         throw std::invalid_argument(
-            "treeform::placement::color: a relation for each triangle is needed");
+            "treeform::placement::color: expected one relation for each triangle");
     row_classes of_row;
     for (const mesh_relation how : relations)
         of_row.push_back(class_of[static_cast<std::size_t>(how)]);

@@ -17,7 +17,8 @@ namespace {
 
 void check_points(points_view points) {
     if (points.size() > std::numeric_limits<std::uint32_t>::max())
-        throw std::invalid_argument("treeform::convex_hull: more points than 32 bits can number");
+        throw std::invalid_argument(
+            "treeform::convex_hull: more points than 32-bit numbers can name");
     for (std::size_t i = 0; i < points.size(); ++i)
         for (std::size_t k = 0; k < 3; ++k)
             if (!std::isfinite(points[i][k]))

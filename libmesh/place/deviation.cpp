@@ -24,7 +24,8 @@ void check_deviation(const deviation_options& o) {
     if (o.bins > (std::size_t{1} << 20))
         throw std::invalid_argument("treeform::deviation: more than 2^20 bins");
     if (o.band && !((*o.band)[0] <= (*o.band)[1]))
-        throw std::invalid_argument("treeform::deviation: the band is NaN or the wrong way round");
+        throw std::invalid_argument(
+            "treeform::deviation: the band is NaN, or its first value is above the second");
 }
 
 void check_finite_points(points_view points) {

@@ -45,12 +45,13 @@ void check(mesh_view mesh, const lay_flat_options& options) {
         throw std::invalid_argument(
             "treeform::lay_flat: the bed, direction or point is not finite");
     if (!(options.overhang_angle >= 0.0 && options.overhang_angle <= 90.0))
-        throw std::invalid_argument("treeform::lay_flat: the overhang angle is not 0 to 90");
+        throw std::invalid_argument(
+            "treeform::lay_flat: the overhang angle is not between 0 and 90");
     if (options.normal == point3{})
         throw std::invalid_argument("treeform::lay_flat: the direction is zero");
     if (options.normal.has_value() + options.point.has_value() + options.most_stable > 1)
         throw std::invalid_argument(
-            "treeform::lay_flat: several choices of a side: normal, point, most_stable");
+            "treeform::lay_flat: normal, point and most_stable exclude each other");
 }
 
 /// Numbers of the points that faces use, ascending; of all when there are no faces.

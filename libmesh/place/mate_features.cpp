@@ -30,7 +30,7 @@ void check(const mesh_feature& a, const mesh_feature& b) {
     const auto refuse = [](const char* what) {
         throw std::invalid_argument(std::string("treeform::mate_features: ") + what);
     };
-    if (a.kind != b.kind) refuse("of_fixed is of another kind than of_moving");
+    if (a.kind != b.kind) refuse("of_fixed and of_moving are of different kinds");
     for (const mesh_feature* f : {&a, &b}) {
         if (!detail::base::is_finite(f->origin)) refuse("the origin of a feature is not finite");
         if (!(std::abs(dot(f->direction, f->direction) - 1.0) < 1e-6))

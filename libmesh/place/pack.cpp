@@ -43,10 +43,10 @@ void check(const pack_options& o) {
     if (!(o.spacing >= 0.0) || std::isinf(o.spacing))
         refuse("the spacing is negative or not finite");
     if (o.stack && std::isinf(o.size.z)) refuse("the box to be filled has no height");
-    if (o.turns == 0 || 24 % o.turns != 0) refuse("the turns are not 1, 2, 3, 4, 6, 8, 12 or 24");
-    if (o.plates == 0) refuse("no plate is allowed");
-    if (o.tries == 0) refuse("no try is allowed");
-    if (!(o.seconds >= 0.0)) refuse("the seconds are negative or NaN");
+    if (o.turns == 0 || 24 % o.turns != 0) refuse("turns is not 1, 2, 3, 4, 6, 8, 12 or 24");
+    if (o.plates == 0) refuse("the number of plates is 0");
+    if (o.tries == 0) refuse("the number of tries is 0");
+    if (!(o.seconds >= 0.0)) refuse("the time limit is negative or NaN");
 }
 
 /// What is known of a try.
@@ -189,7 +189,7 @@ std::string packing::message() const {
         std::to_string(all - not_placed.size()) + " of " + parts_in_words(all) + " placed";
     if (plates_used > 1) text += " on " + std::to_string(plates_used) + " plates";
     if (not_placed.empty()) return text;
-    return text + "; a place for all was not found in " + std::to_string(tries) +
+    return text + "; no arrangement of all was found in " + std::to_string(tries) +
            (tries == 1 ? " try" : " tries");
 }
 

@@ -43,7 +43,7 @@ void check(const placing_options& o) {
         refuse(o, "the clearance is negative or not finite");
     if (o.max_travel && !(*o.max_travel >= 0.0)) refuse(o, "the largest travel is negative or NaN");
     if (o.bed && !std::isfinite(not_below(*o.bed + o.clearance, o.precision)))
-        refuse(o, "no coordinate that can be written is as high as the bed");
+        refuse(o, "the bed is above the range of coordinates that can be written");
 }
 
 }  // namespace

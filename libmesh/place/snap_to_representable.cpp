@@ -154,7 +154,7 @@ snapped snap_to_representable(const prepared_mesh& a, std::span<const shape> par
     settling place(a, parts, motion, options);
     snapped best = place.at(time, true);
     if (!base::all_finite(best.points))
-        throw std::overflow_error("treeform: the coordinates at the place are too large");
+        throw std::overflow_error("treeform: the coordinates at the new place are too large");
     const double unit = place.unit_of_time(best.points);
     const auto closed_in = [&](snapped found) {
         const bool wanted = options.close_in && !options.forward && !(options.clearance > 0.0);

@@ -55,8 +55,8 @@ std::string solid_defects::message() const {
         if (n > 0) add(detail::base::counted(n, one, several));
     };
     add_count(nonfinite_vertices, "vertex that is not finite", "vertices that are not finite");
-    add_count(unusable_faces, "face with a corner that is not finite or no vertex",
-              "faces with a corner that is not finite or no vertex");
+    add_count(unusable_faces, "face with a corner that is not finite or not a vertex",
+              "faces with a corner that is not finite or not a vertex");
     if (without_faces) add("there are points, but no faces");
     if (tetrahedra > 0)
         add("faces are " + detail::base::counted(tetrahedra, "tetrahedron", "tetrahedra"));
@@ -68,7 +68,7 @@ std::string solid_defects::message() const {
     add_count(degenerate, "face without area", "faces without area");
     add_count(repeated, "repeated face", "repeated faces");
     add_count(inverted, "part inside out", "parts inside out");
-    if (wrongly_nested) add("parts lie within each other");
+    if (wrongly_nested) add("parts are wrongly nested");
     return text.empty() ? "none" : text;
 }
 

@@ -66,7 +66,7 @@ rounding_effects find_rounding_defects(mesh_view mesh, points_view placed,
                                        const progress_callback& progress) {
     if (placed.size() != mesh.points.size())
         throw std::invalid_argument(
-            "treeform::find_rounding_defects: not as many points as the mesh has");
+            "treeform::find_rounding_defects: expected as many points as the mesh has");
     const mesh_view there{placed, mesh.faces};
     rounding_effects harm;
     harm.compared = true;

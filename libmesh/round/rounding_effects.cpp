@@ -27,7 +27,7 @@ rounding_effects effects_of_rounding(const mesh_ref& given, const transform<3>& 
     const mesh_view moving = mesh.view();
     if (placed.size() != moving.points.size())
         throw std::invalid_argument(
-            "treeform::effects_of_rounding: as many points placed as there are is needed");
+            "treeform::effects_of_rounding: expected as many placed points as points");
     const bool to_float32 = after == precision::float32 && before == precision::float64;
     rounding_effects found;
     found.max_displacement = detail::max_displacement(moving.points, by, placed);

@@ -29,14 +29,15 @@ bool has_more(const solid_defects& after, const solid_defects& before) {
 simplify_result simplify(const mesh_ref& mesh, double max_distance,
                          const simplify_options& options) {
     if (!(max_distance >= 0.0 && max_distance <= std::numeric_limits<double>::max()))
-        throw std::invalid_argument("simplify: max_distance has to be finite and not negative");
+        throw std::invalid_argument("simplify: max_distance must be finite and not negative");
     const mesh_view view = mesh.view();
     detail::base::check_faces("simplify", view.points.size(), view.faces);
     detail::base::check_finite_faces("simplify", view);
     if (!options.face_groups.empty() && options.face_groups.size() != view.faces.size())
-        throw std::invalid_argument("simplify: face_groups needs one for each face");
+        throw std::invalid_argument("simplify: expected one entry of face_groups for each face");
     if (!options.corner_groups.empty() && options.corner_groups.size() != 3 * view.faces.size())
-        throw std::invalid_argument("simplify: corner_groups needs three for each face");
+        throw std::invalid_argument(
+            "simplify: expected three entries of corner_groups for each face");
     detail::base::work_progress progress(options.progress);
     simplify_options how = options;
     how.progress = progress.part(0.0, 0.9);

@@ -30,8 +30,7 @@ void refuse_lists(const mesh_file& header) {
         for (const column& c : vertices->columns)
             if (c.list_length)
                 throw std::invalid_argument(
-                    "treeform::weld_stream: in tiles, points with lists are kept as they come, by "
-                    "weld_keep::first");
+                    "treeform::weld_stream: in tiles, points with lists need weld_keep::first");
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ std::optional<std::uint64_t> size_of(const std::filesystem::path& path) {
 
 void fail_damaged(const std::filesystem::path& path) {
     throw io_error(kind::tile_damaged, path,
-                   path.string() + ": is not what was written; remove the folder and start again");
+                   path.string() + ": damaged; remove the folder and start again");
 }
 
 }  // namespace treeform::detail::stream

@@ -181,9 +181,9 @@ void tile_steps::check_before_survey() {
     if (!needs_survey()) fail_for_memory(least);
     if (task_.memory >= base_memory && !has_plan()) return;
     const std::uint64_t enough = std::max(least, needs_of_one_tile(points).tiles);
-    fail_for_memory(
-        enough,
-        enough == least ? "" : " in any case, and at least " + in_megabytes(least) + " is needed");
+    fail_for_memory(enough, enough == least ? ""
+                                            : " for any cloud, and at least " +
+                                                  in_megabytes(least) + " is needed");
 }
 
 /// When tiles are finished: their borders, and a look at what is kept, which has tiles, too.

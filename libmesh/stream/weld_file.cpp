@@ -110,7 +110,8 @@ void file_weld_result::withhold(mesh_file& file) const {
     const file_weld_result& welded = *this;
     const std::vector<std::uint32_t>& group_of = welded.groups.group_of_point;
     if (group_of.size() != file.mesh.points.size())
-        throw std::invalid_argument("treeform::withhold: the result of another number of points");
+        throw std::invalid_argument(
+            "treeform::withhold: the result has a different number of points");
     element& vertices = file.attributes.find_or_add("vertex", group_of.size());
     const column* const before = vertices.find("withheld");
     const bool has_flags = before != nullptr && !before->list_length;

@@ -62,7 +62,7 @@ cloud_inputs named(cloud_inputs inputs) {
     if (inputs.names.empty())
         for (const fs::path& path : inputs.paths) inputs.names.push_back(path.string());
     if (inputs.names.size() != inputs.paths.size())
-        throw std::invalid_argument("treeform::weld_stream: not one name for each input");
+        throw std::invalid_argument("treeform::weld_stream: expected one name for each input");
     return inputs;
 }
 
@@ -85,8 +85,8 @@ void check_soup(const mesh_file& header, const weld_stream_options& o) {
     if (header.indexed) return;
     if (o.keep != weld_keep::first || (o.tolerance > 0.0 && !o.chain))
         throw std::invalid_argument(
-            "treeform::weld_stream: an STL is welded in tiles with weld_keep::first, and without a "
-            "tolerance or by chains; a PLY made of it is with all options");
+            "treeform::weld_stream: in tiles, an STL needs weld_keep::first, and no tolerance or "
+            "the rule chain; a PLY supports all options");
 }
 
 /// Whether files with these headers have the same values of what conditions look at. Coordinates

@@ -37,10 +37,10 @@ work_folder::work_folder(fs::path path, const std::string& job, use how)
     : path_(std::move(path)), how_(how) {
     std::error_code error;
     fs::create_directory(path_, error);
-    if (error) refuse(kind::folder, path_, "cannot be made: " + error.message());
+    if (error) refuse(kind::folder, path_, "cannot be created: " + error.message());
     const fs::path lock = path_ / lock_name;
     if (!fs::exists(lock) && !fs::is_empty(path_))
-        refuse(kind::folder_foreign, path_, "holds files of others");
+        refuse(kind::folder_foreign, path_, "contains files of other programs");
     lock_ = ::open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (lock_ < 0)
         refuse(kind::folder, path_,
@@ -50,7 +50,7 @@ work_folder::work_folder(fs::path path, const std::string& job, use how)
         std::array<char, 32> was{};
         const ssize_t size = ::pread(lock_, was.data(), was.size(), 0);
         if (size > 0 && job != std::string_view(was.data(), static_cast<std::size_t>(size)))
-            refuse(kind::folder_foreign, path_, "holds the files of another job");
+            refuse(kind::folder_foreign, path_, "contains the files of another job");
         if (size <= 0 && ::pwrite(lock_, job.data(), job.size(), 0) < 0)
             refuse(kind::folder, path_,
                    std::string("cannot be written to: ") + std::generic_category().message(errno));
@@ -150,12 +150,12 @@ void work_folder::remove_unused() noexcept {
 }
 
 void work_folder::fail_without_tiles() const {
-    refuse(kind::tile_read, path_, "holds no tiles of this input with these options");
+    refuse(kind::tile_read, path_, "contains no tiles of this input with these options");
 }
 
 void work_folder::fail_with_other_tiles() const {
     refuse(kind::folder, path_,
-           "holds tiles of another input or of other options, or damaged ones; remove it first");
+           "contains tiles of another input or other options, or damaged tiles; first remove it");
 }
 
 void work_folder::fail_unfinished(const std::vector<std::size_t>& tiles) const {
@@ -165,7 +165,7 @@ void work_folder::fail_unfinished(const std::vector<std::size_t>& tiles) const {
         text += (i > 0 ? ", " : "") + std::to_string(tiles[i]);
     if (tiles.size() > most) text += " and " + std::to_string(tiles.size() - most) + " more";
     refuse(kind::tile_read, path_,
-           text + (tiles.size() == 1 ? " is" : " are") + " not finished, or not as written");
+           text + (tiles.size() == 1 ? " is" : " are") + " unfinished or damaged");
 }
 
 void work_folder::remove() {

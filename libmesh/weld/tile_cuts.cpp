@@ -56,7 +56,7 @@ std::uint32_t longest_direction(std::span<const point3> points) {
 tile_cuts::tile_cuts(points_view sample, double tolerance, std::size_t count)
     : tolerance_(tolerance) {
     check_tolerance("tile_cuts", tolerance);
-    if (count == 0) throw std::invalid_argument("treeform::tile_cuts: no tile at all");
+    if (count == 0) throw std::invalid_argument("treeform::tile_cuts: the number of tiles is 0");
     std::vector<point3> points(sample.begin(), sample.end());
     split(points, count);
 }

@@ -68,7 +68,7 @@ void check_sizes(const box3& mesh, const box3& around, double offset, precision 
     constexpr double largest = 0x1p150;
     const double extent = around.diagonal();
     if (!(extent < largest) || !(offset > 1.0 / largest))
-        refuse("lengths of 2^150 and more, or 2^-150 and less, are not wrapped");
+        refuse("lengths of 2^150 or more, or 2^-150 or less, are not supported");
     // Corners have to be apart, and where they are meant to be, when they are rounded.
     constexpr double least_steps = 16.0;
     const std::array<point3, 2> ends{mesh.min, mesh.max};
@@ -76,7 +76,7 @@ void check_sizes(const box3& mesh, const box3& around, double offset, precision 
     if (offset < least_steps * step)
         refuse("the offset " + detail::base::brief(offset) + " is too small: coordinates are " +
                detail::base::brief(step) +
-               " apart there; take a larger one, or move the mesh to the origin");
+               " apart there; use a larger offset, or move the mesh to the origin");
 }
 
 /// The faces between inside and outside.

@@ -206,7 +206,7 @@ void dynamic_tree<D>::check_ids(const char* function, std::span<const std::uint3
                                     " id " + std::to_string(id) + why);
     };
     const std::size_t bad = first_bad(ids.size(), [&](std::size_t i) { return !contains(ids[i]); });
-    if (bad != ids.size()) refuse(ids[bad], ", which is not there");
+    if (bad != ids.size()) refuse(ids[bad], ", which is not in the tree");
     if (const auto twice = repeated(ids, id_end())) refuse(*twice, " twice");
 }
 

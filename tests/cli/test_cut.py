@@ -185,7 +185,7 @@ class Cut(ToolTest):
         self.assertTrue(json.loads(run.out)["lines"])
         run = self.run_tool("isolines", "colors.obj", "--value", "gren", "--levels", "0.5", "-n",
                             status=2)
-        self.assertIn("there are height, distance, red, green, blue", run.err)
+        self.assertIn("expected one of height, distance, red, green, blue", run.err)
         run = self.run_tool("isolines", part, "--levels", "5", "-n", "--html", "a.html", status=0)
         self.assertIn("no level is in the range: height is between 0 and 1", run.err)
         self.assertIn("isolines", self.read("a.html"))

@@ -160,7 +160,7 @@ class Assemblies(PlaceTest):
     def test_check_says_what_is_wrong_with_poses(self):
         self.robot()
         for text, words in (('{"bend": "x"}\n',
-                             "poses.jsonl:1: the value of joint bend is no number"),
+                             "poses.jsonl:1: the value of joint bend is not a number"),
                             ('{}\n{"bond": 1}\n', "poses.jsonl:2: there is no joint bond"),
                             ("1 2 3", "poses of a robot are lines of JSON"),
                             ("{}\n{\n", "poses.jsonl:2: not valid JSON")):
@@ -182,7 +182,7 @@ class Assemblies(PlaceTest):
                  "type='planar'><parent link='a'/><child link='b'/></joint></robot>")
         run = self.run_tool("check", "bad.urdf", "--poses", "poses.jsonl")
         self.assertEqual(run.status, 3)
-        self.assertIn('joint j: of type "planar"', run.err)
+        self.assertIn('joint j: type "planar"', run.err)
 
     # ---- measure ----
 

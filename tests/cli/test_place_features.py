@@ -28,7 +28,7 @@ class PlaceFeatures(PlaceTest):
         run = self.run_tool("pack", "a.obj", "--count", "a.obj:5", "--size", "9,4.5",
                             "--spacing",
                             "0.5", "--plates", "2", "--tries", "3", "-n", status=1)
-        self.assertIn("4 of 5 parts placed on 2 plates; a place for all was not found in 3 tries",
+        self.assertIn("4 of 5 parts placed on 2 plates; no arrangement of all was found in 3 tries",
                       run.text)
         for bad in ("a.obj", "a.obj:0", "a.obj:x", ":3", "c.obj:3"):
             self.run_tool("pack", "a.obj", "--count", bad, "--size", "9,9", "-n", status=2)

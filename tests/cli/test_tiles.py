@@ -145,7 +145,7 @@ class Tiles(ToolTest):
         expected = self.look("float.ply")
         work = ["--work", "tiles"]
         run = self.run_tool("float.ply", *work, "--tile", 0, status=3)
-        self.assertIn("holds no tiles of this input", run.err)
+        self.assertIn("contains no tiles of this input", run.err)
         self.assertNotIn("tiles", self.listing())
         run = self.run_tool("float.ply", *work, "--plan", "--tile-faces", 80, status=0)
         tiles = int(run.text.split()[1])
@@ -165,7 +165,7 @@ class Tiles(ToolTest):
         run = self.run_tool("float.ply", *work, "--finish", "-v", "--exit-zero", status=0)
         self.assertIn(f"searched in {tiles} tiles", run.err)
         run = self.run_tool("float.ply", *work, "--plan", "--box", "0,0,0,1,1,1", status=4)
-        self.assertIn("holds tiles of another input or of other options", run.err)
+        self.assertIn("contains tiles of another input or other options", run.err)
         self.put("cloud.xyz", "".join(f"{i} 0 0\n" for i in range(100)))
         weld = subprocess.run([WELD, "cloud.xyz", "-t", "1", "-o", "out.xyz", "--tile-points", "10",
                                "--work", "tiles"], cwd=self.folder, capture_output=True)
@@ -202,7 +202,7 @@ class Tiles(ToolTest):
                 with open(self.path(f"tiles/{victim}.{what}"), "wb") as file:
                     file.write(damage)
                 run = self.run_tool("float.ply", *work, "--finish", status=3)
-                self.assertIn(f"tile {victim} is not finished, or not as written", run.err)
+                self.assertIn(f"tile {victim} is unfinished or damaged", run.err)
                 self.run_tool("float.ply", *work, "--tile", victim, status=0)
                 self.assertEqual(self.read_bytes(f"tiles/{victim}.{what}"), whole[victim])
                 self.assertEqual(self.look("float.ply", *work, "--finish"), expected)
@@ -321,7 +321,7 @@ class Tiles(ToolTest):
         for arguments, status, words in (
                 (["none.stl"], 3, "none.stl"), (["in.stl", "--within"], 2, "needs the whole mesh"),
                 (["in.stl", "--pairs", "none/p.csv"], 4, "no folder none"),
-                (["in.stl", "--work", "none/tiles"], 4, "none/tiles: cannot be made"),
+                (["in.stl", "--work", "none/tiles"], 4, "none/tiles: cannot be created"),
                 (["in.stl", "float.ply"], 2, "under mpirun, expected one INPUT"),
                 (["in.stl", "--work", "tiles", "--plan"], 2, "without mpirun"),
                 (["--help"], 0, "Exit status:")):

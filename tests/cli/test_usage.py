@@ -131,7 +131,7 @@ class Usage(ToolTest):
 
     def test_an_unknown_format_is_refused_and_a_wrong_one_is_an_input_error(self):
         for extension in ("docx", "xxx"):
-            self.assertIn(f"format '{extension}' is not read",
+            self.assertIn(f"format '{extension}' is not supported",
                           self.refused(self.part, "--format", extension))
         self.run_tool(self.part, "--format", "ply", status=3)
         for extension in ("obj", "OBJ", ".obj"):

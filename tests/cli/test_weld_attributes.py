@@ -108,7 +108,7 @@ class Attributes(WeldTest):
             f"{i},0,0,{2 ** 60 + (0 if i < 50 else 2 * i + 1)}\n" for i in range(70)))
         for out in ("out.las", "out.laz"):
             said = self.both("in.csv", out=out)
-            self.assertEqual(said, ["20 whole numbers of gps_time rounded: they are floating-point "
+            self.assertEqual(said, ["20 whole numbers of gps_time rounded: LAS stores floating-point "
                                     "numbers in LAS"])
 
     def test_names_are_those_of_the_format(self):
@@ -122,7 +122,7 @@ class Attributes(WeldTest):
         said = self.both("out.pcd", "--ascii", out="back.ply")
         self.assertEqual((said, self.ply_rows("back.ply")), ([], self.ply_rows("in.ply")))
         said = self.both("in.ply", out="out.obj")
-        self.assertEqual(said, ["curvature of points left out: OBJ does not hold them"])
+        self.assertEqual(said, ["curvature of points left out: OBJ cannot hold them"])
         self.assertIn("\nvn 0 0 1\n", self.read("out.obj"))
         # A condition on what is called otherwise in the output holds all the same.
         self.both("out.pcd", "-t", "1.5", "--same", "normal_x", "--keep", "last", out="thin.ply")
@@ -136,7 +136,7 @@ class Attributes(WeldTest):
         said = self.both("in.csv", "--ascii", out="out.ply")
         self.assertEqual(said[0],
                          "x, y and z are the columns 'Easting', 'Northing' and 'Elevation'")
-        self.assertIn("Code, intensity empty or no number: NaN there", said[1])
+        self.assertIn("Code, intensity empty or not a number: read as NaN", said[1])
         self.assertIn("property uchar red\n", self.read("out.ply"))
         self.write("large.csv", "x,y,z,stamp\n" + "".join(
             f"{i},0,0,{1234567890123456789 - i}\n" for i in range(70)))

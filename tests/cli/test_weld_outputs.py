@@ -184,7 +184,7 @@ class Join(WeldTest):
         self.write("a.ply", ply_text(XYZ + ["float f"], [(0, 0, 0, 1)]))
         self.write("b.ply", ply_text(XYZ + ["list uchar float f"], [(0, 0, 0, 1, 2)]))
         run = self.run_tool("a.ply", "b.ply", "--join", "-o", "all.ply", status=3)
-        self.assertIn("property f is not of one kind", run.err)
+        self.assertIn("property f has different types", run.err)
         self.assertEqual(self.listing(), ["a.ply", "b.ply"])
 
     def test_faces_are_renumbered(self):

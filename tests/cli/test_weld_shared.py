@@ -195,7 +195,7 @@ class Shared(WeldTest):
         for damage in (b"", changed):
             self.write(f"tiles/{victim}.drops", damage)
             run = self.run_tool(*work, "--finish", "-o", "out.ply", status=3)
-            self.assertIn(f"tile {victim} is not finished, or not as written", run.err)
+            self.assertIn(f"tile {victim} is unfinished or damaged", run.err)
             self.assertNotIn("is welded again", run.err)
             run = self.run_tool(*work, "--tile", victim, status=0)
             self.assertIn("are damaged; it is welded again", run.err)
@@ -215,8 +215,8 @@ class Shared(WeldTest):
                 (["--plan"], 2, "need --work DIR"),
                 (["--plan", "--finish", *work], 2, "exclude each other"),
                 (["--tile", 0, *work, "-o", "out.ply"], 2, "--plan and --tile write no output"),
-                (["--tile", 0, *work], 3, "holds no tiles of this input"),
-                (["--finish", *work, "-o", "out.ply"], 3, "holds no tiles of this input"),
+                (["--tile", 0, *work], 3, "contains no tiles of this input"),
+                (["--finish", *work, "-o", "out.ply"], 3, "contains no tiles of this input"),
                 (["--finish", *work], 2, "no output: -o FILE"),
                 (["in.ply", "--plan", *work], 2, "take one INPUT")):
             run = self.run_tool("in.ply", "-t", "0.1", *arguments, status=status)
@@ -228,7 +228,7 @@ class Shared(WeldTest):
         self.assertIn("there are only",
                       self.run_tool("in.ply", "-t", "0.02", "--tile", 99, *work, status=2).err)
         run = self.run_tool("in.ply", "-t", "0.03", "--plan", *work, status=4)
-        self.assertIn("holds tiles of another input or of other options", run.err)
+        self.assertIn("contains tiles of another input or other options", run.err)
         self.write("cube.obj", obj_bytes(cube()))
         self.assertIn("other meshes are welded by one, in memory",
                       self.run_tool("cube.obj", "--plan", "--work", "other", status=3).err)
@@ -453,7 +453,7 @@ class Shared(WeldTest):
             run = self.mpi_each([["in.ply", "-t", "0.1", "-o", "out.ply", *more]
                                  for more in options],
                                 status=4)
-            self.assertEqual(run.err.count("other/tiles: cannot be made"), 1, run.err)
+            self.assertEqual(run.err.count("other/tiles: cannot be created"), 1, run.err)
             self.assertNotIn("out.ply", self.listing())
 
     @unittest.skipIf(NO_MPI, NO_MPI)

@@ -102,7 +102,7 @@ class Usage(WeldTest):
     def test_formats_that_are_not_written_are_refused(self):
         self.refused("in.xyz", "-o", "out.docx")
         self.refused("in.xyz", "--removed", "out.stl")
-        self.assertIn("no points without faces", self.run_tool("in.xyz", "-o", "out.stl",
+        self.assertIn("cannot hold points without faces", self.run_tool("in.xyz", "-o", "out.stl",
                                                                 status=4).err)
 
     def test_mpirun_without_the_plug_in_says_what_to_install(self):

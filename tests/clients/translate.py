@@ -32,7 +32,7 @@ HAVE_MORE = ("las", "laz")  # fields that all points have
 NO_TEXTURE = (float("nan"),) * 6
 # What tools say of coordinates that are not kept, and of rows that are not.
 ROUNDED = r"single precision|float32|rounded"
-FEWER = r"of no face left out|dropped|not read|degenerate|holds points only"
+FEWER = r"without faces left out|dropped|not read|degenerate|holds points only"
 
 
 def run(*words, limit=LIMIT):

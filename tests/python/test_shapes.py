@@ -59,7 +59,7 @@ def test_borders_of_groups_and_values_stay():
     values.set_face("side", np.array(groups))
     made = tf.simplify(tf.Mesh(grid, faces, values), 0.001)
     assert sorted(made.mesh.attributes.face["side"]) == [0, 0, 1, 1]
-    with pytest.raises(ValueError, match="face_groups needs one for each face"):
+    with pytest.raises(ValueError, match="one entry of face_groups for each face"):
         tf.simplify((grid, faces), 0.001, face_groups=[1])
 
 

@@ -152,7 +152,7 @@ void check_format(const common_options& o) {
         static_cast<void>(tf::read(std::span(&blank, 1), "--format", o.format));
     } catch (const tf::io_error& error) {
         const std::string text = error.what();
-        if (text.ends_with("' is not read")) refuse(text);
+        if (text.ends_with("' is not supported")) refuse(text);
     }
 }
 

@@ -437,7 +437,8 @@ TEST_CASE("cells: what is no arrangement is refused") {
     const operands box = join({test::box(1, 1, 1)});
     const tf::mesh_arrangement cut = arrangement_of(box.mesh);
     CHECK_THROWS_WITH_AS(static_cast<void>(tf::find_cells(box.mesh, cut, box.of_face, 0)),
-                         "treeform::find_cells: face 0 is of no operand", std::invalid_argument);
+                         "treeform::find_cells: face 0 has an operand out of range",
+                         std::invalid_argument);
     CHECK_THROWS_AS(static_cast<void>(tf::find_cells({}, cut, box.of_face, 1)),
                     std::invalid_argument);
     CHECK_THROWS_AS(static_cast<void>(tf::find_cells(box.mesh, cut, {}, 1)), std::invalid_argument);

@@ -181,7 +181,7 @@ TEST_CASE("clash: ignored pairs are left out, whichever way round, and have to e
     const std::vector<tf::part_pair> none{{0, 3}};
     options.ignored = none;
     CHECK_THROWS_WITH_AS(clash_of(parts, options),
-                         "treeform::clash: an ignored pair names part 3 of 3",
+                         "treeform::clash: an ignored pair has part 3, but there are 3 parts",
                          std::invalid_argument);
 }
 

@@ -178,7 +178,7 @@ TEST_CASE("poses: what makes no sense is refused, and it stops when told to") {
     const auto parts = prepared({box(1, 1, 1), box(1, 1, 1)});
     std::vector<motion> poses(3);
     CHECK_THROWS_WITH_AS(static_cast<void>(tf::check_poses(parts, poses)),
-                         "treeform::check_poses: 3 transforms are no multiple of 2 parts",
+                         "treeform::check_poses: 3 transforms are not a multiple of 2 parts",
                          std::invalid_argument);
     poses.resize(4);
     poses[3].rows[0][0] = std::nan("");

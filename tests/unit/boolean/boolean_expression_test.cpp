@@ -181,8 +181,8 @@ TEST_CASE("expression: names of operands") {
         return std::string();
     };
     CHECK(complaint_of("body-nut") ==
-          "treeform::boolean_expression: position 6 of \"body-nut\": no operand has the name nut; "
-          "there are body, bolt_1, left bolt, a-b");
+          "treeform::boolean_expression: position 6 of \"body-nut\": no operand is named nut; "
+          "the names are body, bolt_1, left bolt, a-b");
     CHECK(complaint_of("body-'bolt").ends_with("this quote is not closed"));
     CHECK_FALSE(complaint_of("body bolt_1").empty());
     CHECK_FALSE(complaint_of("Body").empty());  // the case of letters matters

@@ -192,7 +192,7 @@ TEST_CASE("shared_search: tiles by several workers, in any order, some of them t
     o.faces_per_tile = 300;
     o.folder = folder.path / "work";
     CHECK_THROWS_WITH_AS((void)tf::shared_search(path, o).tiles(),
-                         doctest::Contains("holds no tiles of this input"), tf::io_error);
+                         doctest::Contains("contains no tiles of this input"), tf::io_error);
     tf::shared_search first(path, o), second(path, o);
     CHECK_THROWS_WITH_AS((void)first.scatter(), doctest::Contains("is in use"), tf::io_error);
     { const tf::shared_search gone = std::move(second); }
@@ -220,7 +220,7 @@ TEST_CASE("shared_search: tiles by several workers, in any order, some of them t
     { const tf::shared_search gone = std::move(first); }
     { const tf::shared_search gone = std::move(other); }
     tf::shared_search last(path, others);
-    CHECK_THROWS_WITH_AS((void)last.scatter(), doctest::Contains("holds tiles of another input"),
+    CHECK_THROWS_WITH_AS((void)last.scatter(), doctest::Contains("contains tiles of another input"),
                          tf::io_error);
     CHECK(told_of(r.part, r.found, r.bounds) == in_memory(path, o));
     last.remove_folder();

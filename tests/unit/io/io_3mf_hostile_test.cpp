@@ -86,7 +86,7 @@ TEST_CASE("3mf hostile: a model part cut after any byte is refused") {
     const std::string text =
         test::model_text("<resources>" + one + "</resources><build>" + built + "</build>");
     for (std::size_t size = 0; size < text.size(); ++size)
-        CHECK(says(refusal_of_3mf(package_3mf(text.substr(0, size))), "no XML"));
+        CHECK(says(refusal_of_3mf(package_3mf(text.substr(0, size))), "invalid XML"));
 }
 
 TEST_CASE("3mf hostile: a package with any byte changed is read or refused by its name") {
@@ -172,7 +172,7 @@ TEST_CASE("3mf hostile: document types are refused, entities are no text") {
     CHECK(says(refusal_of_3mf(package_3mf("<!DOCTYPE a [<!ENTITY b \"c\">]>" + text)),
                "document type"));
     CHECK(says(refusal_of_3mf(package_3mf("<!DOCTYPE model>" + text)), "document type"));
-    CHECK(says(refusal_of_3mf(changed("x=\"0\"", "x=\"&b;\"")), "is no number"));
+    CHECK(says(refusal_of_3mf(changed("x=\"0\"", "x=\"&b;\"")), "is not a number"));
     CHECK(refusal_of_3mf(changed("x=\"0\"", "x=\"&#48;\"")).empty());
 }
 
@@ -189,7 +189,7 @@ TEST_CASE("3mf hostile: coordinates that are no finite numbers are refused at th
 }
 
 TEST_CASE("3mf hostile: references to nothing are refused") {
-    CHECK(says(refusal_of_3mf(hostile_model(one, "<item objectid=\"2\"/>")), "names no object"));
+    CHECK(says(refusal_of_3mf(hostile_model(one, "<item objectid=\"2\"/>")), "is not an object"));
     CHECK(says(refusal_of_3mf(hostile_model(one, "<item/>")), "<item> has no objectid"));
     CHECK(says(refusal_of_3mf(hostile_model("<object>" + tetrahedron_3mf + "</object>", "")),
                "has no id"));
@@ -197,10 +197,10 @@ TEST_CASE("3mf hostile: references to nothing are refused") {
     CHECK(says(refusal_of_3mf(hostile_model("<object id=\"1\"/>", built)),
                "neither a mesh nor components"));
     CHECK(says(refusal_of_3mf(hostile_model("<object id=\"1\"><mesh/></object>", built)),
-               "lacks its vertices"));
+               "has no vertices or no triangles"));
     CHECK(says(
         refusal_of_3mf(hostile_model(one + assembly(2, component(3)), "<item objectid=\"2\"/>")),
-        "objectid=3 names no object"));
+        "objectid=3 is not an object"));
     CHECK(says(refusal_of_3mf(changed("v3=\"1\"", "v3=\"1\" pid=\"9\" p1=\"0\"")), "pid=9"));
     const std::string group =
         "<basematerials id=\"9\"><base name=\"a\" displaycolor=\"#000000\"/>"
@@ -213,7 +213,7 @@ TEST_CASE("3mf hostile: references to nothing are refused") {
     CHECK(with_group(" pid=\"9\" p1=\"0\"").empty());
     CHECK(says(with_group(" pid=\"9\" p1=\"1\""), "property 1 is out of range"));
     CHECK(says(with_group(" pid=\"9\" p1=\"0\" p3=\"2\""), "property 2 is out of range"));
-    CHECK(says(with_group(" pid=\"9\""), "has a pid and no p1"));
+    CHECK(says(with_group(" pid=\"9\""), "has a pid but no p1"));
     CHECK(says(refusal_of_3mf(hostile_model(
                    "<basematerials id=\"9\"><base name=\"a\"/></basematerials>" + one, built)),
                "has no displaycolor"));
@@ -272,10 +272,8 @@ TEST_CASE("3mf hostile: objects in themselves, deep ones and multitudes are refu
     CHECK(says(refusal_of_3mf(hostile_model(chain(1100, 1), item(900) + item(1100))),
                "components deep"));
     CHECK(refusal_of_3mf(hostile_model(chain(10, 2), item(10))).empty());
-    CHECK(says(refusal_of_3mf(hostile_model(chain(64, 2), item(64))),
-               "objects that the build places"));
-    CHECK(says(refusal_of_3mf(hostile_model(chain(64, 10), item(64))),
-               "objects that the build places"));
+    CHECK(says(refusal_of_3mf(hostile_model(chain(64, 2), item(64))), "objects in the build"));
+    CHECK(says(refusal_of_3mf(hostile_model(chain(64, 10), item(64))), "objects in the build"));
 }
 
 TEST_CASE("3mf hostile: paths lead from the root to other model parts, and no further") {

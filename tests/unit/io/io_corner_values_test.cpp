@@ -112,18 +112,19 @@ TEST_CASE("obj: what corners name but is not there is an error of its line") {
     CHECK(obj_complaint(square + rows + "f 1//0 2//1 3//1\n") ==
           "a.obj:11: normal index 0 (OBJ counts from 1)");
     CHECK(obj_complaint(square + rows + "f 1/x 2/1 3/1\n") ==
-          "a.obj:11: '1/x' where a corner should stand");
+          "a.obj:11: expected a corner, found '1/x'");
     CHECK(obj_complaint(square + rows + "f 1/1/1/1 2/1 3/1\n") ==
-          "a.obj:11: '1/1/1/1' where a corner should stand");
+          "a.obj:11: expected a corner, found '1/1/1/1'");
     CHECK(obj_complaint(square + rows + "f 1/- 2/1 3/1\n") ==
-          "a.obj:11: '-' where a texture index should stand");
+          "a.obj:11: expected a texture index, found '-'");
     CHECK(obj_complaint(square + "vt\n") ==
-          "a.obj:5: the line ends where a texture coordinate should stand");
+          "a.obj:5: expected a texture coordinate, but the line ends");
     CHECK(obj_complaint(square + "vn 0 1\n") ==
-          "a.obj:5: the line ends where a coordinate of a normal should stand");
+          "a.obj:5: expected a coordinate of a normal, but the line ends");
     CHECK(obj_complaint(square + "vt 0 1 2 3\n") == "a.obj:5: more than three numbers");
     CHECK(obj_complaint(square + "vt 0,5 1\n") ==
-          "a.obj:5: '0,5' for a texture coordinate: the decimal mark is the point");
+          "a.obj:5: expected a texture coordinate, found '0,5': the decimal separator must be a "
+          "point");
     CHECK(obj_complaint(square + "f 1/99999999999999999999 2 3\n") ==
           "a.obj:5: texture index '99999999999999999999' is out of range");
 }
@@ -136,8 +137,8 @@ TEST_CASE(
     CHECK(file.attributes.corners.texture_of_corner.empty());
     CHECK(file.attributes.corners.normal_of_corner.empty());
     REQUIRE(file.warnings.size() == 2);
-    CHECK(file.warnings[0].text == "corners name texture coordinates, of which the file has none");
-    CHECK(file.warnings[1].text == "corners name normals, of which the file has none");
+    CHECK(file.warnings[0].text == "corners refer to texture coordinates, but the file has none");
+    CHECK(file.warnings[1].text == "corners refer to normals, but the file has none");
     // Where there is one, the rest is missing.
     CHECK(obj_complaint(square + "vt 0 0\nf 1/1 2/2 3/1\n") ==
           "a.obj:6: texture index '2' is out of range");
@@ -151,7 +152,7 @@ TEST_CASE("obj: a normal that is no number is no reason to refuse the mesh") {
         CHECK(all.normals.at(0).z == 1.0);
     }
     CHECK(obj_complaint(square + "vn 0 x 1\n") ==
-          "a.obj:5: 'x' where a coordinate of a normal should stand");
+          "a.obj:5: expected a coordinate of a normal, found 'x'");
 }
 
 TEST_CASE("obj: material files are those of the lines, once each") {
@@ -274,15 +275,15 @@ TEST_CASE("writing: formats that do not hold what corners have say so once") {
     };
     using list = std::vector<std::string>;
     for (const char* const format : {"stl", "off"}) CHECK(warnings(textured, format).size() == 1);
-    CHECK(warnings(textured, "ply") == list{"normals of corners left out: PLY does not hold them"});
+    CHECK(warnings(textured, "ply") == list{"normals of corners left out: PLY cannot hold them"});
     CHECK(warnings(textured, "obj").empty());
     const std::string only_texture = square + rows + "f 1/1 2/2 3/3\n";
     CHECK(warnings(only_texture, "ply").empty());
     CHECK(warnings(only_texture, "stl") ==
-          list{"texture coordinates of corners left out: STL does not hold them"});
+          list{"texture coordinates of corners left out: STL cannot hold them"});
     CHECK(warnings(square + rows + "f 1 2 3\n", "stl").empty());
     CHECK(warnings(square + "vt 0 0 0.5\nf 1/1 2/1 3/1\n", "ply") ==
-          list{"w of texture coordinates of corners left out: PLY does not hold them"});
+          list{"w of texture coordinates of corners left out: PLY cannot hold them"});
     CHECK(warnings(square + "vt 0 0 0\nf 1/1 2/1 3/1\n", "ply").empty());
 }
 
@@ -420,5 +421,5 @@ TEST_CASE(
     CHECK(all.fault(4).empty());
     CHECK(all.fault(5) == "texture coordinate numbers of 4 triangles for 5");
     all.normals.clear();
-    CHECK(all.fault(4) == "a corner of triangle 2 has a normal that is not there");
+    CHECK(all.fault(4) == "a corner of triangle 2 has a normal number that is out of range");
 }

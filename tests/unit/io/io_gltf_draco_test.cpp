@@ -107,13 +107,13 @@ TEST_CASE("gltf, draco: a cube is read with its colors, by both methods") {
 TEST_CASE("gltf, draco: what does not fit the accessors is refused") {
     const std::string cube = packed_cube(draco::MESH_EDGEBREAKER_ENCODING);
     CHECK(draco_refusal(packed_gltf(cube, "9").glb()) ==
-          "a.glb: meshes[0] is packed by draco data of another size than its accessors");
+          "a.glb: meshes[0] has invalid Draco data: its size differs from that of its accessors");
     CHECK(draco_refusal(packed_gltf(cube, "8", R"("POSITION":7)").glb()) ==
-          "a.glb: meshes[0] is packed by draco without its POSITION");
+          "a.glb: meshes[0] has invalid Draco data: POSITION is missing");
     CHECK(draco_refusal(packed_gltf(cube, "8", R"("POSITION":0)").glb()) ==
           "a.glb: accessors[1] has no buffer view");
     CHECK(draco_refusal(packed_gltf("DRACI" + cube.substr(5)).glb()) ==
-          "a.glb: meshes[0] is packed by no draco");
+          "a.glb: meshes[0] has invalid Draco data: not a Draco header");
 }
 
 TEST_CASE("gltf, draco: damaged bytes are read or refused, and announce no more than they hold") {
@@ -132,6 +132,6 @@ TEST_CASE("gltf, draco: damaged bytes are read or refused, and announce no more 
         const std::size_t at = method == draco::MESH_EDGEBREAKER_ENCODING ? 13 : 11;
         many.replace(at, 1, "\xff\xff\xff\xff\x04");
         CHECK(draco_refusal(packed_gltf(many).glb()) ==
-              "a.glb: meshes[0] is packed by draco data with more faces than its bytes can hold");
+              "a.glb: meshes[0] has invalid Draco data: more faces than its bytes can hold");
     }
 }

@@ -132,21 +132,21 @@ TEST_CASE("gltf, hostile: counts and offsets that the bytes cannot hold are refu
     CHECK(accessor(R"("count":8,"byteOffset":1)") == beyond);
     CHECK(accessor(R"("count":8,"byteOffset":18446744073709551604)") == beyond);
     CHECK(accessor(R"("count":0)") == "a.glb: accessors[0].count is 0");
-    CHECK(accessor(R"("count":-8)") == "a.glb: accessors[0].count is not an integer of 0 or more");
-    CHECK(accessor(R"("count":8.5)") == "a.glb: accessors[0].count is not an integer of 0 or more");
+    CHECK(accessor(R"("count":-8)") == "a.glb: accessors[0].count is not a non-negative integer");
+    CHECK(accessor(R"("count":8.5)") == "a.glb: accessors[0].count is not a non-negative integer");
     CHECK(accessor(R"("count":1e300)") ==
-          "a.glb: accessors[0].count is not an integer of 0 or more");
-    CHECK(accessor(R"("count":"8")") == "a.glb: accessors[0].count is not an integer of 0 or more");
+          "a.glb: accessors[0].count is not a non-negative integer");
+    CHECK(accessor(R"("count":"8")") == "a.glb: accessors[0].count is not a non-negative integer");
     CHECK(accessor(R"("byteOffset":0)") == "a.glb: accessors[0] has no 'count'");
     CHECK(with_accessor(
               R"({"bufferView":4294967296,"componentType":5126,"count":8,"type":"VEC3"})") ==
-          "a.glb: accessors[0].bufferView is 4294967296, of 2 buffer views");
+          "a.glb: accessors[0].bufferView is 4294967296, but there are 2 buffer views");
     CHECK(with_accessor(R"({"bufferView":0,"componentType":5124,"count":8,"type":"VEC3"})") ==
           "a.glb: accessors[0].componentType is not a type of glTF 2.0");
     CHECK(with_accessor(R"({"bufferView":0,"componentType":5126,"count":8,"type":"VEC2"})") ==
-          "a.glb: accessors[0] has another type than POSITION has");
+          "a.glb: accessors[0] has a type that POSITION cannot have");
     CHECK(with_accessor(R"({"bufferView":0,"componentType":5126,"count":1,"type":"MAT4"})") ==
-          "a.glb: accessors[0] has another type than POSITION has");
+          "a.glb: accessors[0] has a type that POSITION cannot have");
     gltf_file file = test::gltf_cube();
     file.views[0] = R"({"buffer":0,"byteLength":96,"byteStride":4})";
     CHECK(gltf_refusal(file) == beyond);
@@ -163,10 +163,10 @@ TEST_CASE("gltf, hostile: indices and sparse indices out of range are refused") 
     file.add<std::uint32_t>({0, 1, 8}, test::gltf_uint32, "SCALAR");
     file.meshes.clear();
     file.add_mesh(R"("POSITION":0)", R"(,"indices":2)");
-    CHECK(gltf_refusal(file) == "a.glb: meshes[0] has index 8, of 8 points");
+    CHECK(gltf_refusal(file) == "a.glb: meshes[0] has index 8, but there are 8 points");
     file.meshes.clear();
     file.add_mesh(R"("POSITION":0)", R"(,"indices":0)");
-    CHECK(gltf_refusal(file) == "a.glb: accessors[0] has another type than indices have");
+    CHECK(gltf_refusal(file) == "a.glb: accessors[0] has a type that indices cannot have");
     const auto sparse = [](const std::string& count, int index, const std::string& of_all) {
         gltf_file made = test::gltf_cube();
         made.add_view(std::string(1, static_cast<char>(index)));
@@ -181,7 +181,7 @@ TEST_CASE("gltf, hostile: indices and sparse indices out of range are refused") 
     CHECK(sparse("1", 8, "8") == "a.glb: accessors[0] has a sparse index that is out of range");
     CHECK(sparse("2", 7, "8") ==
           "a.glb: accessors[0] has a sparse part beyond the end of its buffer view");
-    CHECK(sparse("9", 7, "8") == "a.glb: accessors[0] has a sparse part that does not fit it");
+    CHECK(sparse("9", 7, "8") == "a.glb: accessors[0] has a sparse part that does not match it");
     CHECK(sparse("1", 7, "4000000000") ==
           "a.glb: accessors[0] announces more values than the file has bytes");
 }
@@ -204,7 +204,7 @@ TEST_CASE("gltf, hostile: nodes that are no tree are refused") {
     file.scenes = R"([{"nodes":[0,1]}])";
     CHECK(gltf_refusal(file) == "a.glb: node 1 is in the scene twice");
     file.scenes = R"([{"nodes":[7]}])";
-    CHECK(gltf_refusal(file) == "a.glb: scenes[0].nodes[0] is 7, of 2 nodes");
+    CHECK(gltf_refusal(file) == "a.glb: scenes[0].nodes[0] is 7, but there are 2 nodes");
     file.scenes = R"([{"nodes":"all"}])";
     CHECK(gltf_refusal(file) == "a.glb: scenes[0].nodes is not a JSON array");
 }

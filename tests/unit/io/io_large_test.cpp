@@ -111,7 +111,7 @@ TEST_CASE("large text STL: what is unusual is counted, the first of it named by 
     check_facets(stray);
     REQUIRE(stray.warnings.size() == 1);
     CHECK(stray.warnings[0].text ==
-          "4 words after 'endloop' or 'endfacet' not read, the first in line 105008");
+          "4 words after 'endloop' or 'endfacet' ignored, the first in line 105008");
 }
 
 TEST_CASE("large text STL: what is wrong is named by its line, the first of it") {
@@ -122,12 +122,12 @@ TEST_CASE("large text STL: what is wrong is named by its line, the first of it")
     };
     CHECK(
         with("facet normal\nfacet\n outer loop\n vertex 1 2 x\n").starts_with("large.stl:175005:"));
-    CHECK(with("face\n") == "large.stl:175002: 'face' where 'facet' should stand");
+    CHECK(with("face\n") == "large.stl:175002: expected 'facet', found 'face'");
     CHECK(with("facet normal 0 0 0\nouter loop\nendloop\n") ==
           "large.stl:175004: facet with 0 vertices");
     std::string cut = text_stl([](std::size_t) { return ""; });
     cut.resize(cut.size() - std::string_view("endsolid first\n").size());
-    CHECK(stl_refusal(cut) == "large.stl:280002: the file ends without 'endsolid': cut off?");
+    CHECK(stl_refusal(cut) == "large.stl:280002: the file ends without 'endsolid': truncated?");
 }
 
 TEST_CASE("large meshes: written and read again, they are the same on any number of threads") {

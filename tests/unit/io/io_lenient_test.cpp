@@ -94,8 +94,8 @@ TEST_CASE("stl binary: a size of whole triangles is believed more than the heade
         CHECK(file.mesh.faces == std::vector<tf::face>{{0, 1, 2}, {3, 4, 5}, {6, 7, 8}});
         CHECK(file.mesh.points == read_named(binary_stl(3, 3), "a.stl").mesh.points);
         CHECK(file.stored_faces == 3);
-        CHECK(warnings(file) == "wrong-count: header says " + std::to_string(stated) +
-                                    " triangles, file holds 3; these were read\n");
+        CHECK(warnings(file) == "wrong-count: the header announces " + std::to_string(stated) +
+                                    " triangles, the file has 3; these were read\n");
     }
 }
 
@@ -103,16 +103,17 @@ TEST_CASE("stl binary: a file that ends within a triangle is refused, and so is 
     for (std::size_t lost = 1; lost < 50; ++lost) {
         const std::string whole = binary_stl(3, 3);
         CHECK(named_refusal(whole.substr(0, whole.size() - lost), "a.stl") ==
-              "a.stl: byte 80: header says 3 triangles, file holds 2: damaged or cut off");
+              "a.stl: byte 80: the header announces 3 triangles, the file has 2: damaged or "
+              "truncated");
     }
     CHECK(named_refusal(binary_stl(3, 0), "a.stl") ==
-          "a.stl: byte 80: header says 3 triangles, file holds 0: damaged or cut off");
+          "a.stl: byte 80: the header announces 3 triangles, the file has 0: damaged or truncated");
     CHECK(named_refusal(binary_stl(0, 0, 75), "a.stl") ==
-          "a.stl: byte 80: header says 0 triangles, file holds 1: damaged or cut off");
+          "a.stl: byte 80: the header announces 0 triangles, the file has 1: damaged or truncated");
     CHECK(read_named(binary_stl(0, 0), "a.stl").mesh.faces.empty());
     // Of the size of one triangle.
     CHECK(named_refusal("<html>" + std::string(84 + 50 - 6, 'a'), "a.stl") ==
-          "a.stl: text that does not start with 'solid', and not a binary STL");
+          "a.stl: neither a binary STL nor text that starts with 'solid'");
     std::string wide = "\xff\xfe";
     for (const char c : "solid\nendsolid\n" + std::string(50, ' ')) wide += {c, '\0'};
     CHECK(named_refusal(wide, "a.stl") ==
@@ -128,15 +129,15 @@ TEST_CASE("stl text: words after endloop and endfacet are left out") {
     CHECK(file.mesh.points == whole.mesh.points);
     CHECK(file.mesh.faces == whole.mesh.faces);
     CHECK(warnings(file) ==
-          "stray-words: 4 words after 'endloop' or 'endfacet' not read, the first in line 14\n");
+          "stray-words: 4 words after 'endloop' or 'endfacet' ignored, the first in line 14\n");
     std::string flat = facet + replaced(facet, "endloop", "endloop x");
     for (char& c : flat) c = c == '\n' ? ' ' : c;
     const tf::mesh_file line = read_named("solid\n" + flat + "endsolid", "a.stl");
     CHECK(line.mesh.points == whole.mesh.points);
     CHECK(warnings(line) ==
-          "stray-words: 1 word after 'endloop' or 'endfacet' not read, the first in line 2\n");
+          "stray-words: 1 word after 'endloop' or 'endfacet' ignored, the first in line 2\n");
     CHECK(named_refusal("solid\n" + replaced(facet, "endloop", "endloop\n3") + "endsolid",
-                        "a.stl") == "a.stl:8: '3' where 'endfacet' should stand");
+                        "a.stl") == "a.stl:8: expected 'endfacet', found '3'");
 }
 
 TEST_CASE("stl text: zero bytes between words are blanks, in and beside numbers they are refused") {
@@ -159,7 +160,7 @@ TEST_CASE("stl text: zero bytes between words are blanks, in and beside numbers 
 }
 
 TEST_CASE("hexadecimal numbers are read where decimal ones are") {
-    const std::string said = "hexadecimal: numbers are written in hexadecimal, as 0x1.8p1\n";
+    const std::string said = "hexadecimal: the file has hexadecimal numbers, such as 0x1.8p1\n";
     const tf::point3 p{3.0, -0.1, 0x1p-1074};
     const std::string text = "0x1.8p1 -0x1.999999999999ap-4 0X0.0000000000001P-1022";
     const auto check = [&](const tf::mesh_file& file) {
@@ -188,11 +189,11 @@ TEST_CASE("hexadecimal numbers are read where decimal ones are") {
     CHECK(read_named("v 0 1 2 # 0x1\n", "a.obj").warnings.empty());
     for (const char* const wrong : {"0x", "0xg", "0x1.8p", "0x-1", "0xnan", "0x1p5000", "00x1"})
         CHECK(named_refusal("v 1 2 " + std::string(wrong) + "\n", "a.obj") ==
-              "a.obj:1: '" + std::string(wrong) + "' where a coordinate should stand");
+              "a.obj:1: expected a coordinate, found '" + std::string(wrong) + "'");
 }
 
 TEST_CASE("ply: strips are triangles in turn, and start anew at -1") {
-    const std::string said = "triangle-strips: the faces are those of triangle strips\n";
+    const std::string said = "triangle-strips: the faces were read from triangle strips\n";
     const std::vector<tf::face> wanted{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {1, 3, 2}};
     const tf::mesh_file file = read_named(strips("9 0 1 2 3 4 -1 1 3 2\n"), "a.ply");
     CHECK(file.mesh.faces == wanted);
@@ -231,7 +232,8 @@ TEST_CASE("ply: strips in bytes, and those that cannot be read") {
     CHECK(named_refusal(replaced(strips("3 0 1 2\n3 0 1 2\n"), "element tristrips",
                                  "element face 1\nproperty list int int vertex_indices\nelement "
                                  "tristrips"),
-                        "a.ply") == "a.ply: faces and triangle strips in one file are not read");
+                        "a.ply") ==
+          "a.ply: a file with both faces and triangle strips is not supported");
 }
 
 TEST_CASE("lenient: numbers of OBJ vertices that are neither coordinates nor a color are counted") {
@@ -241,7 +243,7 @@ TEST_CASE("lenient: numbers of OBJ vertices that are neither coordinates nor a c
     CHECK(said("").empty());
     CHECK(said(" 1").empty());  // the usual weight
     const std::string one =
-        "skipped-numbers: 1 vertices have further numbers, such as weights, which were not read\n";
+        "skipped-numbers: 1 vertices have more numbers, such as weights, which were not read\n";
     CHECK(said(" 2") == one);
     CHECK(said(" 1 1") == one);
     CHECK(said(" 0.5 0.5 0.5").find("skipped-numbers") == std::string::npos);

@@ -232,10 +232,11 @@ TEST_CASE("pcd: headers that lie are refused with line or byte") {
                 "a.pcd:5: more"));
     CHECK(holds(pcd_complaint(head("x y z", "4 4 3", "F F F", "1 1 1", 0, "ascii")), "3 bytes"));
     CHECK(holds(pcd_complaint(head("x y z", "4 4 4", "F F Q", "1 1 1", 0, "ascii")),
-                "other than I, U, F"));
+                "expected type I, U or F"));
     CHECK(holds(pcd_complaint(head("x y z h", "4 4 4 4", "F F F F", "1 1 1 99999", 0, "ascii")),
                 "a.pcd:6: a number from 0"));
-    CHECK(holds(pcd_complaint("VERSION .7\nFIELDS x y z\nDATA ascii\n"), "no number of points"));
+    CHECK(holds(pcd_complaint("VERSION .7\nFIELDS x y z\nDATA ascii\n"),
+                "does not have the number of points"));
     CHECK(
         holds(pcd_complaint("VERSION .7\nFIELDS x y z\nWIDTH 3\nHEIGHT 2\nPOINTS 5\nDATA ascii\n"),
               "POINTS is 5"));

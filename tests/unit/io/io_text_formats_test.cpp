@@ -94,7 +94,7 @@ TEST_CASE("obj and off: faces of fewer than three corners are left out") {
     CHECK(file.stored_faces == 2);
     REQUIRE(file.warnings.size() == 1);
     CHECK(file.warnings[0].text ==
-          "2 faces of fewer than three corners left out, and not numbered");
+          "2 faces with fewer than three corners left out; faces are numbered without them");
     file = read_text("OFF 3 3 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1 9 9 9\n0\n3 0 1 2 1 2 3\n", "a.off");
     CHECK(file.mesh.faces.size() == 1);
     CHECK(file.stored_faces == 1);
@@ -104,25 +104,25 @@ TEST_CASE("obj and off: faces of fewer than three corners are left out") {
 
 TEST_CASE("off: no blank is needed between the first word and the counts") {
     CHECK(read_text("OFF3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a.off").mesh.faces.size() == 1);
-    CHECK(says_of_text(text_complaint("OFFx 1 0\n", "a.off"), "where 'OFF' should stand"));
+    CHECK(says_of_text(text_complaint("OFFx 1 0\n", "a.off"), "expected 'OFF'"));
 }
 
 TEST_CASE("stl text: the end may be two words; commas between numbers are named") {
     const std::string facet =
         "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n";
     CHECK(read_text("solid\n" + facet + "end solid a\n", "a.stl").mesh.faces.size() == 1);
-    CHECK(says_of_text(text_complaint("solid\n" + facet + "end\n", "a.stl"),
-                       "where 'solid' should stand"));
+    CHECK(says_of_text(text_complaint("solid\n" + facet + "end\n", "a.stl"), "expected 'solid'"));
     CHECK(says_of_text(
         text_complaint("solid\nfacet normal 0 0 1\nouter loop\nvertex 0.0, 0.0, 0.0\n", "a.stl"),
         "numbers are separated by blanks, not by commas"));
 }
 
 TEST_CASE("obj: numbers end at blanks, and a comma is no decimal mark") {
-    CHECK(says_of_text(text_complaint("v 1,5 0 0\n", "a.obj"), "the decimal mark is the point"));
+    CHECK(says_of_text(text_complaint("v 1,5 0 0\n", "a.obj"),
+                       "the decimal separator must be a point"));
     CHECK(says_of_text(text_complaint("v 0 0 1.#IND\n", "a.obj"), "a.obj:1: '1.#IND'"));
     CHECK(says_of_text(text_complaint("v 0 0\n", "a.obj"),
-                       "the line ends where a coordinate should stand"));
+                       "expected a coordinate, but the line ends"));
     const tf::mesh_file file = read_text("v nan -INF 1e400\n", "a.obj");
     CHECK(std::isnan(file.mesh.points[0].x));
     CHECK(file.mesh.points[0].y == -INFINITY);
@@ -229,7 +229,8 @@ TEST_CASE("xyz: separators, headings, further columns") {
         text_column(read_text("1 2 3 4 5\n1 2 3 4 6\n", "a.xyz"), "vertex", "column_5").number(1) ==
         6.0);
     CHECK(read_text("1 2 3 4\n1 2 3\n", "a.xyz").warnings.at(0).code == "columns");
-    CHECK(says_of_text(text_complaint("1,5 2,5 3,5\n", "a.xyz"), "the decimal mark is the point"));
+    CHECK(says_of_text(text_complaint("1,5 2,5 3,5\n", "a.xyz"),
+                       "the decimal separator must be a point"));
     CHECK(says_of_text(text_complaint("1 2 3\n1 2\n", "a.xyz"), "a.xyz:2:"));
     CHECK(says_of_text(text_complaint("1 2 3\nabc\n", "a.xyz"), "a.xyz:2: 'abc'"));
 }
@@ -263,12 +264,12 @@ TEST_CASE("pts: a wrong count is a warning, and an error where points are missin
     CHECK(more.mesh.points.size() == 2);
     REQUIRE(more.warnings.size() == 1);
     CHECK(more.warnings[0].code == "count");
-    CHECK(more.warnings[0].text == "1 points announced, 2 there");
+    CHECK(more.warnings[0].text == "1 points announced, 2 found");
     CHECK(
-        says_of_text(text_complaint("3\n1 2 3\n4 5 6\n", "a.pts"), "3 points announced, 2 there"));
+        says_of_text(text_complaint("3\n1 2 3\n4 5 6\n", "a.pts"), "3 points announced, 2 found"));
     CHECK(
-        says_of_text(text_complaint("99999999999999999\n1 2 3\n", "a.pts"), "announced, 1 there"));
-    CHECK(says_of_text(text_complaint("2\n", "a.pts"), "no point found"));
+        says_of_text(text_complaint("99999999999999999\n1 2 3\n", "a.pts"), "announced, 1 found"));
+    CHECK(says_of_text(text_complaint("2\n", "a.pts"), "no points found"));
     CHECK(read_text("1.5\n1 2 3\n", "a.pts").warnings.at(0).code == "heading");
     CHECK(read_text("7\n1 2 3\n", "a.xyz").warnings.at(0).code == "heading");
 }
@@ -328,7 +329,7 @@ TEST_CASE("csv: headings of other programs, and those that are of no use") {
     // Fewer names than values: they are numbered.
     CHECK(text_column(read_text("x,y,z\n1,2,3,4\n", "a.csv"), "vertex", "column_4").number(0) == 4);
     CHECK(read_text("x y z\n1 2 3\n", "stdin").format == "xyz");
-    CHECK(says_of_text(text_complaint("x,y,z\n", "a.csv"), "no point found"));
+    CHECK(says_of_text(text_complaint("x,y,z\n", "a.csv"), "no points found"));
     CHECK(says_of_text(text_complaint("a,x,y,z\n1,2,3,4\n1,2,3\n", "a.csv"), "a.csv:3:"));
     CHECK(says_of_text(text_complaint("a,x,y,z\n1,2,3,\n", "a.csv"), "a.csv:2:"));
 }
@@ -347,9 +348,9 @@ TEST_CASE("csv: empty cells and words are NaN where they stand, which is said") 
     CHECK(values("a") == "5---");
     CHECK(values("b") == "78-9");
     REQUIRE(file.warnings.size() == 1);
-    CHECK(file.warnings[0].text == "4 cells of a, b empty or no number: NaN there");
+    CHECK(file.warnings[0].text == "4 cells of a, b empty or not a number: read as NaN");
     CHECK(read_text("1 2 3 oak\n1 2 3 4\n", "a.xyz").warnings.at(0).text ==
-          "1 cell of column_4 empty or no number: NaN there");
+          "1 cell of column_4 empty or not a number: read as NaN");
     CHECK(says_of_text(text_complaint("1;2;3;4,5\n", "a.csv"), "decimal mark"));
 }
 
@@ -435,7 +436,8 @@ TEST_CASE("detection: a binary STL is one by its size, whatever its header says"
     CHECK(read_text(stl, "stdin").mesh.faces.size() == 1);
     CHECK(read_text(stl + "x", "a.stl").format == "stl-binary");
     stl.resize(stl.size() - 1);
-    CHECK(says_of_text(text_complaint(stl, "a.stl"), "header says 1 triangles, file holds 0"));
+    CHECK(says_of_text(text_complaint(stl, "a.stl"),
+                       "the header announces 1 triangles, the file has 0"));
 }
 
 TEST_CASE("reading: a missing file and a folder are named") {

@@ -153,16 +153,16 @@ TEST_CASE("translation: colors of 16 bits, of 8 bits in 16, of floats") {
     of_words.format = "glb";
     CHECK(translated_numbers(passed_through(of_words, "ply"), "red") ==
           std::vector<double>{64, 255});
-    CHECK(
-        put_translated(of_words, "pcd").warnings.at(0).find("16 bits are written with 8, round") !=
-        std::string::npos);
+    CHECK(put_translated(of_words, "pcd")
+              .warnings.at(0)
+              .find("16-bit colors are written with 8 bits: round") != std::string::npos);
     of_words.mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
     of_words.attributes = {};
     for (const char* name : {"red", "green", "blue"})
         add_translated<std::uint16_t>(of_words, name, {16383, 0, 65535});
     const auto left_out = put_translated(of_words, "stl").warnings;
     REQUIRE(left_out.size() == 1);
-    CHECK(left_out[0].find("STL does not hold them") != std::string::npos);
+    CHECK(left_out[0].find("STL cannot hold them") != std::string::npos);
     CHECK(put_translated(with({65535, 1}), "ply").warnings.at(0).find("16 bits") !=
           std::string::npos);
     CHECK(put_translated(with({255, 17}), "ply").warnings.at(0).find("below 256") !=

@@ -89,7 +89,7 @@ TEST_CASE("zip: bytes ahead of an archive are passed over with a warning") {
             CHECK(tf::signed_volume(file.mesh) == doctest::Approx(1.0 / 6.0));
             REQUIRE(file.warnings.size() == 1);
             CHECK(file.warnings[0].text ==
-                  std::to_string(ahead.size()) + " bytes ahead of the archive were passed over");
+                  std::to_string(ahead.size()) + " bytes before the archive were skipped");
         }
 }
 

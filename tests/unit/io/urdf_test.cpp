@@ -149,7 +149,7 @@ TEST_CASE("urdf: meshes are found beside the file, in packages, and where it is 
     CHECK(tf::read_urdf(away, {&packages, 1}).meshes.size() == 1);
     const auto r = tf::read_urdf(folder.write(with(
         "meshes/a.stl", "<collision><geometry><capsule radius=\"1\"/></geometry></collision>")));
-    CHECK(r.skipped == std::vector<std::string>{"link a: a capsule is not read"});
+    CHECK(r.skipped == std::vector<std::string>{"link a: a capsule is not supported"});
     constexpr bool visual = true;
     CHECK(tf::read_urdf(folder.write(with("meshes/a.stl")), {}, visual).meshes.empty());
 }
@@ -291,12 +291,11 @@ TEST_CASE("urdf: what is wrong is named") {
     CHECK(urdf_refusal(robot("<link/>")) == "a link has no name");
     CHECK(urdf_refusal(robot("<link name=\"a\"/><link name=\"a\"/>")) ==
           "two links have the name a");
-    CHECK(
-        urdf_refusal(robot(three + joint("j", "floating", "a", "b"))) ==
-        "joint j: of type \"floating\"; only fixed, revolute, continuous and prismatic joints are "
-        "read");
+    CHECK(urdf_refusal(robot(three + joint("j", "floating", "a", "b"))) ==
+          "joint j: type \"floating\" is not supported, only fixed, revolute, continuous and "
+          "prismatic");
     CHECK(urdf_refusal(robot(three + joint("j", "fixed", "a", "x"))) ==
-          "joint j: its child link \"x\" is not there");
+          "joint j: its child link \"x\" does not exist");
     CHECK(urdf_refusal(robot(three + joint("j", "fixed", "a", "b") +
                              joint("j", "fixed", "a", "c"))) == "two joints have the name j");
     CHECK(urdf_refusal(
@@ -312,7 +311,7 @@ TEST_CASE("urdf: what is wrong is named") {
           "joint j: xyz=\"1 2 3 4\": expected 3 finite numbers");
     CHECK(urdf_refusal(robot("<link name=\"a\"><collision><geometry><mesh filename=\"no.stl\"/>"
                              "</geometry></collision></link>")) ==
-          "link a: its mesh no.stl is not found");
+          "link a: its mesh no.stl was not found");
     CHECK_THROWS_AS(static_cast<void>(tf::read_urdf("/no/such.urdf")), tf::io_error);
 }
 

@@ -318,7 +318,7 @@ TEST_CASE("pack: what is too much for a plate goes to the next, as many as there
     check_packed(parts, options, fewer);
     CHECK(fewer.not_placed == std::vector<std::uint32_t>{8, 9});
     CHECK(fewer.message() ==
-          "8 of 10 parts placed on 2 plates; a place for all was not found in 3 tries");
+          "8 of 10 parts placed on 2 plates; no arrangement of all was found in 3 tries");
 }
 
 TEST_CASE("pack: more tries place more, and what is said of them holds") {

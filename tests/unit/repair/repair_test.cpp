@@ -371,8 +371,9 @@ TEST_CASE("repair: what cannot be used is a defect, and no error") {
     CHECK(found.unusable_faces == 2);
     CHECK(found.any());
     CHECK(found.open_edges + found.degenerate + found.meeting_pairs == 0);
-    CHECK(found.message() ==
-          "2 vertices that are not finite, 2 faces with a corner that is not finite or no vertex");
+    CHECK(
+        found.message() ==
+        "2 vertices that are not finite, 2 faces with a corner that is not finite or not a vertex");
     CHECK(!tf::find_solid_defects(tf::mesh{}).any());
     found = tf::find_solid_defects(tf::mesh{{{0, 0, 0}}, {}});
     CHECK(found.without_faces);

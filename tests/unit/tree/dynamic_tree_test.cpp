@@ -149,10 +149,10 @@ TEST_CASE("dynamic_tree: refuses ids that are not there or come twice, and boxes
     unsound.max[1] = std::numeric_limits<double>::quiet_NaN();
     const auto before = update_counts::of(tree);
     CHECK_THROWS_WITH_AS(tree.remove(ids{1, 5}),
-                         "treeform::dynamic_tree: cannot remove id 5, which is not there",
+                         "treeform::dynamic_tree: cannot remove id 5, which is not in the tree",
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS(tree.remove(ids{1000}),
-                         "treeform::dynamic_tree: cannot remove id 1000, which is not there",
+                         "treeform::dynamic_tree: cannot remove id 1000, which is not in the tree",
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS(tree.remove(ids{3, 8, 3}),
                          "treeform::dynamic_tree: cannot remove id 3 twice", std::invalid_argument);
@@ -162,7 +162,7 @@ TEST_CASE("dynamic_tree: refuses ids that are not there or come twice, and boxes
     CHECK_THROWS_WITH_AS(tree.remove(many), "treeform::dynamic_tree: cannot remove id 77 twice",
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS(tree.move(ids{1, 5}, boxes<3>{sound, sound}),
-                         "treeform::dynamic_tree: cannot move id 5, which is not there",
+                         "treeform::dynamic_tree: cannot move id 5, which is not in the tree",
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS(tree.move(ids{1, 9}, boxes<3>{sound, unsound}),
                          "treeform::dynamic_tree: the box of id 9 is empty or not finite",

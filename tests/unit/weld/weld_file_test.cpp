@@ -174,7 +174,7 @@ TEST_CASE("join: points and faces follow each other, columns go together by name
     REQUIRE(vertices != nullptr);
     CHECK(vertices->rows == 8);
     REQUIRE(all.warnings.size() == 1);
-    CHECK(all.warnings[0].text == "b.ply: no vertex property q; NaN there");
+    CHECK(all.warnings[0].text == "b.ply: no vertex property q; filled with NaN");
     CHECK(tf::join({}, {}).mesh == tf::mesh{});
     CHECK_THROWS_AS(static_cast<void>(tf::join({a}, names)), std::invalid_argument);
 }

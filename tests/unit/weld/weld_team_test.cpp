@@ -476,7 +476,8 @@ TEST_CASE("weld_team: what is not there, or of another job, is refused in words"
     };
     {
         tf::shared_weld early(work.inputs, work.options);
-        CHECK(has(says([&] { static_cast<void>(early.weld_tile(0)); }), "holds no tiles of this"));
+        CHECK(
+            has(says([&] { static_cast<void>(early.weld_tile(0)); }), "contains no tiles of this"));
     }
     CHECK_FALSE(fs::exists(work.options.folder));
     {
@@ -489,6 +490,6 @@ TEST_CASE("weld_team: what is not there, or of another job, is refused in words"
     }
     work.options.tolerance = 0.06;
     tf::shared_weld other(work.inputs, work.options);
-    CHECK(
-        has(says([&] { static_cast<void>(other.take_survey()); }), "holds tiles of another input"));
+    CHECK(has(says([&] { static_cast<void>(other.take_survey()); }),
+              "contains tiles of another input"));
 }

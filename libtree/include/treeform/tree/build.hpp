@@ -211,7 +211,7 @@ template <std::size_t D, class T>
                std::to_string(node) + ", slot " + std::to_string(slot);
     };
     if (tree.size() != boxes.size() || tree.ids().size() != boxes.size()) return "wrong size";
-    if (!detail::is_permutation(tree.ids())) return "ids are no permutation";
+    if (!detail::is_permutation(tree.ids())) return "ids are not a permutation";
     if (tree.empty()) return std::nullopt;
     const auto is_clear = [](const wide_node<D>& node, std::size_t slot) {
         for (std::size_t k = 0; k < D; ++k)
@@ -229,7 +229,7 @@ template <std::size_t D, class T>
                 } else if (leaf) {
                     const aabb<T, D>& box = boxes[tree.ids()[n * tree.width + slot]];
                     if (!detail::slot_holds(node, slot, box, tree.frame()))
-                        return at("box is cut off", level, n, slot);
+                        return at("box is smaller than its primitive", level, n, slot);
                 } else {
                     const wide_node<D>& child = tree.level(level + 1)[n * tree.width + slot];
                     for (std::size_t k = 0; k < D; ++k)
@@ -237,7 +237,7 @@ template <std::size_t D, class T>
                                 *std::min_element(child.min[k], child.min[k] + tree.width) ||
                             node.max[k][slot] !=
                                 *std::max_element(child.max[k], child.max[k] + tree.width))
-                            return at("box is not that of the children", level, n, slot);
+                            return at("box differs from that of the children", level, n, slot);
                 }
             }
         }
