@@ -203,8 +203,7 @@ std::vector<io_warning> left_out(const known_format& format, const mesh_file& fi
     for (char& c : name) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
     std::vector<io_warning> lost;
     const auto say = [&](const char* code, const std::string& what) {
-        if (!what.empty())
-            lost.push_back({code, what + " left out: " + name + " cannot hold them"});
+        if (!what.empty()) lost.push_back({code, "not written to " + name + ": " + what});
     };
     say("columns-dropped", columns_left_out(format, file, points, text));
     if (!holds.has_faces && !file.mesh.faces.empty())

@@ -80,7 +80,7 @@ class las_opener {
     [[nodiscard]] const char* at(std::uint64_t byte) const { return in_.begin() + byte; }
 
     void read_block() {
-        if (in_.size() < 227) in_.fail_byte(in_.begin(), "the file ends in the header");
+        if (in_.size() < 227) in_.fail_byte(in_.begin(), "the file ends within the header");
         las_header& h = file_.header;
         h.version_minor = get<std::uint8_t>(at(25));
         if (get<std::uint8_t>(at(24)) != 1 || h.version_minor > 4)
@@ -212,7 +212,7 @@ class las_opener {
         const std::uint64_t there = in_.size() - file_.first_point;
         if (!file_.packing && file_.count > there / file_.record_size)
             in_.fail_byte(at(file_.first_point),
-                          "the file ends in the points: " + std::to_string(file_.count) +
+                          "the file ends within the points: " + std::to_string(file_.count) +
                               " announced, " + std::to_string(there / file_.record_size) +
                               " found");
         const std::uint64_t room = (end_of_points() - file_.first_point) / file_.record_size;

@@ -250,12 +250,12 @@ pcd_header read_pcd_header(const source& in) { return pcd_header_reader(in).read
 
 packed_pcd find_packed_pcd(const source& in, const pcd_header& header) {
     const auto there = static_cast<std::size_t>(in.end() - header.body);
-    if (there < 8) in.fail_byte(header.body, "the file ends in the lengths of the data");
+    if (there < 8) in.fail_byte(header.body, "the file ends within the lengths of the data");
     const std::size_t packed = base::load<std::uint32_t, std::endian::little>(header.body);
     const std::size_t size = base::load<std::uint32_t, std::endian::little>(header.body + 4);
     if (packed > there - 8)
-        in.fail_byte(header.body,
-                     "the file ends in the data: " + std::to_string(packed) + " bytes announced");
+        in.fail_byte(header.body, "the file ends within the data: " + std::to_string(packed) +
+                                      " bytes announced");
     if (size / header.row_size != header.vertices.rows || size % header.row_size != 0)
         in.fail_byte(header.body + 4, std::to_string(size) + " bytes of data do not match " +
                                           std::to_string(header.vertices.rows) + " points");

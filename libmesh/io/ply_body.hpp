@@ -39,8 +39,8 @@ inline void take_remarks(ply_header& header, mesh_file& file) {
 template <class Values>
 void check_room(const Values& values, const element& e) {
     if (!Values::can_hold(values.bytes_left(), e.rows, e))
-        values.fail("the file ends in element " + e.name + ": " + std::to_string(e.rows) +
-                    " announced");
+        values.fail("the file ends within element " + e.name + ": " + std::to_string(e.rows) +
+                    " rows announced");
 }
 
 template <class Values>

@@ -59,7 +59,7 @@ class ply_header_reader {
     }
 
     void end_line() {
-        if (text_.done()) text_.fail("the file ends in the header");
+        if (text_.done()) text_.fail("the file ends within the header");
         if (!is_newline(*text_.at)) text_.fail("more words than expected");
         if (!only_returns_ && text_.starts_with("\r\n"))
             text_.at += 2;

@@ -101,7 +101,7 @@ class off_reader {
     }
 
     [[nodiscard]] std::size_t read_count(std::string_view what) {
-        if (text_.text_done()) text_.fail("the file ends in the counts");
+        if (text_.text_done()) text_.fail("the file ends within the counts");
         const std::int64_t count = text_.integer(what);
         if (count < 0) text_.fail("negative count");
         return static_cast<std::size_t>(count);
@@ -124,7 +124,7 @@ class off_reader {
     }
 
     [[nodiscard]] double next_number(std::string_view what) {
-        if (text_.text_done()) text_.fail("the file ends in the vertices");
+        if (text_.text_done()) text_.fail("the file ends within the vertices");
         return text_.number(what);
     }
 
@@ -160,12 +160,12 @@ class off_reader {
     }
 
     void read_face() {
-        if (text_.text_done()) text_.fail("the file ends in the faces");
+        if (text_.text_done()) text_.fail("the file ends within the faces");
         const std::int64_t corners = text_.integer("the number of corners");
         if (corners < 0) text_.fail("face with " + std::to_string(corners) + " corners");
         faces_.begin();
         for (std::int64_t i = 0; i < corners; ++i) {
-            if (text_.text_done()) text_.fail("the file ends in a face");
+            if (text_.text_done()) text_.fail("the file ends within a face");
             const std::int64_t vertex = text_.integer("a vertex index");
             if (vertex < 0 || static_cast<std::size_t>(vertex) >= vertices_)
                 text_.fail("vertex index " + std::to_string(vertex) + " is out of range");

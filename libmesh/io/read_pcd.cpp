@@ -25,7 +25,7 @@ void look_behind(bool more, warnings& said) {
 }
 
 [[noreturn]] void fail_short(const source& in, const pcd_header& header) {
-    in.fail_byte(header.body, "the file ends in the points: " +
+    in.fail_byte(header.body, "the file ends within the points: " +
                                   std::to_string(header.vertices.rows) + " announced");
 }
 

@@ -92,7 +92,7 @@ class xyz_reader {
         if (!promised_ || count == *promised_) return;
         const std::string both =
             std::to_string(*promised_) + " points announced, " + std::to_string(count) + " found";
-        if (count < *promised_) text_.fail("the file ends in the points: " + both);
+        if (count < *promised_) text_.fail("the file ends within the points: " + both);
         warnings_.push_back({"count", both});
     }
 

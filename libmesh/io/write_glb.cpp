@@ -348,8 +348,7 @@ class document_glb {
                     std::find(numbers_.begin(), numbers_.end(), &c) == numbers_.end() &&
                     std::find(face_colors.begin(), face_colors.end(), &c) == face_colors.end())
                     add(c.name);
-        if (!names.empty())
-            warn("columns-dropped", "properties left out, since glb cannot hold them: " + names);
+        if (!names.empty()) warn("columns-dropped", "properties not written to GLB: " + names);
     }
 
     const write_job& job_;

@@ -144,7 +144,7 @@ class Las(WeldTest):
         whole = self.read_bytes("in.las")
         self.write("cut.las", whole[:-1])
         run = self.run_tool("cut.las", "-o", "x.las", status=3)
-        self.assertIn("cut.las: byte 285: the file ends in the points: 5 announced, 4 found",
+        self.assertIn("cut.las: byte 285: the file ends within the points: 5 announced, 4 found",
                       run.err)
         self.write("a.e57", b"ASTM-E57" + bytes(100))
         self.assertIn("pdal translate", self.run_tool("a.e57", "-o", "x.las", status=3).err)

@@ -233,8 +233,8 @@ void enter_places(job& work, const place_settings& settings, const tf::body_set&
     const std::uint64_t count = parts.files.size();
     std::string words = found.message();
     for (const std::uint32_t i : found.not_placed) {
+        words += (entry["not_placed"].empty() ? "; not placed: " : ", ") + parts.files[i].label;
         entry["not_placed"].push_back(entry["parts"][i]["input"]);
-        words += "; not placed: " + parts.files[i].label;
     }
     entry.update(packing_entry(found));
     entry["fits"] = entry["placed"] = found.not_placed.empty();

@@ -147,7 +147,7 @@ TEST_CASE("glb: points get copies where their corners differ in texture or norma
     corners.texture[3][2] = 0.5;
     corners.has_w = true;
     CHECK(through_glb(file).warnings.back() ==
-          "corner-values: w of texture coordinates of corners left out: GLB cannot hold them");
+          "corner-values: not written to GLB: w of texture coordinates of corners");
 }
 
 TEST_CASE("glb: parts are nodes with their names and points; the same name again is one") {
@@ -169,7 +169,7 @@ TEST_CASE("glb: parts are nodes with their names and points; the same name again
     CHECK(column_values(w.again, "s") == numbers{0, 1, 2, 3, 1, 2, 3});
     CHECK(w.again.mesh.faces == std::vector<tf::face>{{0, 1, 2}, {0, 2, 3}, {4, 5, 6}});
     CHECK(w.warnings == texts{"left-out: 1 points without faces left out",
-                              "materials: materials left out: GLB cannot hold them"});
+                              "materials: not written to GLB: materials"});
     // A name for all is that of the one node, and then all points are kept.
     file.attributes.parts.resize(1);
     CHECK(through_glb(file).again.mesh == file.mesh);
@@ -203,7 +203,7 @@ TEST_CASE("glb: what it has no place for is named") {
     file.attributes.find_or_add("face", 2).columns.push_back(
         tf::column::of<float>("heat", std::vector<float>{1, 2}));
     CHECK(through_glb(file).warnings ==
-          texts{"columns-dropped: properties left out, since glb cannot hold them: quality, "
+          texts{"columns-dropped: properties not written to GLB: quality, "
                 "label, heat"});
 }
 

@@ -292,7 +292,7 @@ TEST_CASE("mesh translation: 3MF keeps the unit of all remarks, and says so") {
     CHECK(put_translated(given, "3mf").warnings.empty());
     given.attributes.obj_info.emplace_back("made by hand");
     CHECK(put_translated(given, "3mf").warnings ==
-          sentences{"left-out: remarks left out: 3MF cannot hold them"});
+          sentences{"left-out: not written to 3MF: remarks"});
 }
 
 TEST_CASE("mesh translation: faces ahead of a part that has a name; groups are names in STL") {

@@ -406,7 +406,7 @@ TEST_CASE("csv: columns are what they are said to be") {
 
 TEST_CASE("detection: what is no LAS is not read as LAS") {
     CHECK(says_of_text(text_complaint(std::string_view("LASF\0\0\1\2", 8), "stdin"),
-                       "ends in the header"));
+                       "ends within the header"));
     CHECK(says_of_text(text_complaint("anything", "a.laz"), "not a LAS or LAZ file"));
 }
 
