@@ -117,7 +117,7 @@ void add_deviation(scene& shown, const placing& p, const tf::deviation_result& r
     shown.histograms.push_back(std::move(shape));
     scene_table table{.title = "Deviation", .columns = {"what", "value"}};
     const std::initializer_list<std::pair<const char*, double>> values{
-        {"mean", r.mean},       {"root of mean square", r.rms}, {"half of them within", r.p50},
+        {"mean", r.mean},       {"root mean square", r.rms}, {"50 % within", r.p50},
         {"95 % within", r.p95}, {"99 % within", r.p99},         {"least", r.lowest},
         {"greatest", r.highest}};
     for (const auto& [name, value] : values) table.rows.push_back({.cells = {name, value}});
@@ -151,7 +151,7 @@ void add_travel(scene& shown, const job& work, const placing& p, const tf::box3&
         const json& move = depth["move"];
         end = {begin.x + move[0].get<double>(), begin.y + move[1].get<double>(),
                begin.z + move[2].get<double>()};
-        words = "out by " + in_unit(shown, depth["bound"].get<double>());
+        words = "moved out by " + in_unit(shown, depth["bound"].get<double>());
     }
     const double way = std::hypot(end.x - begin.x, end.y - begin.y, end.z - begin.z);
     if (!(way > 0.0)) return;
@@ -207,7 +207,7 @@ std::vector<std::vector<tf::mesh_relation>> face_relations(const placing& p) {
 /// Parts in the colors of their files, with their names above.
 void add_parts(scene& shown, const tf::body_set& parts, const tf::packing& found,
                std::span<const std::string> labels, std::uint8_t no_place) {
-    scene_table table{.title = "Parts", .columns = {"part", "file", "plate", "place"}};
+    scene_table table{.title = "Parts", .columns = {"part", "file", "plate", "position"}};
     for (std::size_t i = 0; i < parts.shapes.size(); ++i) {
         const tf::packed_part& at = found.parts[i];
         const tf::body_file& file = parts.file_of(i);

@@ -51,7 +51,7 @@ export const showBelow = (place, scene) => {
     const rows = [], unit = scene.unit_name ? ' ' + scene.unit_name : '';
     for (const histogram of scene.histograms) place.append(...histogramOf(histogram, unit));
     for (const table of scene.tables) place.append(...tableOf(table, rows));
-    place.append(make('h2', {}, 'What was looked at, and how'), make('div', { className: 'facts' }, make('table', {},
+    place.append(make('h2', {}, 'Inputs and settings'), make('div', { className: 'facts' }, make('table', {},
         ...scene.facts.map(([name, value]) =>
             make('tr', {}, make('td', {}, name), make('td', { className: 'text' }, value))))));
     return rows;

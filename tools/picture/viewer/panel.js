@@ -83,10 +83,10 @@ export const addControls = (box, scene, rows) => {
 
 export const leftOut = (scene) => {
     const parts = scene.left_out.map(({ count, one, many }) => counted(count, one, many));
-    return parts.length ? ' Not drawn, to keep the page light: ' + parts.join(', ') + '.' : '';
+    return parts.length ? ' Not drawn, to keep the page small: ' + parts.join(', ') + '.' : '';
 };
 
 export const keys = [['1 to 6', 'front, back, left, right, top, bottom'], ['0', 'oblique'], ['F', 'whole model'],
-    ['N, P', 'next, previous row'], ['arrows', 'turn; with Shift, shift'], ['+ -', 'zoom'], ['S', 'next section plane'],
+    ['N, P', 'next, previous row'], ['arrows', 'rotate; with Shift, pan'], ['+ -', 'zoom'], ['S', 'next section plane'],
     ['[ ]', 'move the section'], ['V', 'before, after, side by side, wipe'], ['G', 'see through'], ['E', 'edges'],
-    ['L', 'labels'], ['M', 'map of values'], ['D', 'dark or light'], ['Esc', 'close, forget what was picked'], ['?', 'this list']];
+    ['L', 'labels'], ['M', 'colors of values'], ['D', 'dark or light'], ['Esc', 'close, clear the selection'], ['?', 'this list']];

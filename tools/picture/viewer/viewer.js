@@ -20,7 +20,7 @@ const rows = showBelow(document.getElementById('below'), scene);
 const show = (canvas, renderer) => {
     addControls(box, scene, rows);
     document.getElementById('below').prepend(make('p', { className: 'note' },
-        'Drag to turn, right button or Shift to shift, wheel to zoom, click for numbers, twice to go there, ? for keys.' + leftOut(scene)));
+        'Drag to rotate, with the right button or Shift to pan; wheel to zoom; click for numbers; double-click to go there; ? for keys.' + leftOut(scene)));
     const find = (selector) => box.querySelector(selector);
     const isOn = (selector) => find(selector)?.checked ?? false;
     const camera = new Camera(scene.whole, scene.y_is_up);
@@ -284,4 +284,4 @@ const renderer = new Renderer(canvas, scene);
 if (renderer.gl) show(canvas, renderer);
 else
     box.replaceChildren(make('p', { className: 'missing' }, 'This browser shows no 3D view (WebGL 2 is missing or ' +
-        'switched off). What stands below is complete without it.'));
+        'switched off). The tables below are complete without it.'));
