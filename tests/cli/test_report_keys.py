@@ -104,8 +104,8 @@ class Reports(PlaceTest):
     @classmethod
     def setUpClass(cls):
         cls.sections = sections = page_sections()
-        cls.head = keys_of(sections["Head"])
-        cls.common = keys_of(sections["Every entry"])
+        cls.head = keys_of(sections["Top level"])
+        cls.common = keys_of(sections["Keys of every entry"])
         cls.own = {tool: keys_of(sections[tool]) for tool in [*NAMES, *OWN_MODES]}
         cls.codes = {kind: set(re.findall(r"`([a-z-]+)`", "".join(sections[kind])))
                      for kind in ("Errors", "Warnings")}

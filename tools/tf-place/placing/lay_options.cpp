@@ -34,8 +34,8 @@ void add_lay_options(command_line& line, lay_settings& s) {
                              "0.0001%"});
     line.flag(s.options.keep_spin, {"--keep-spin", "", "lay: do not rotate about the vertical"});
     line.option({"--overhang-angle", "DEG",
-                 "lay: faces that lean outward by more than this angle\n"
-                 "from the vertical count as overhang in the report",
+                 "lay: faces that face down and lean from the vertical\n"
+                 "by more than this count as overhang in the report",
                  "45"},
                 [&s](std::string_view text) {
                     const double angle = parse_number("--overhang-angle", text);
