@@ -291,8 +291,9 @@ class Solids(BooleanTest):
         self.assertEqual(said("open.obj", status=1).text, "open.obj: bounds no solid\n")
         run = said("a.obj", "open.obj", status=1)
         self.assertEqual(run.text, "2 inputs: 1 of 2 bounds no solid\n")
-        self.assertTrue(run.err.startswith("tf-boolean: warning: open.obj: not a solid: its surface "
-                                           "ends at 3 edges, the first from ("), msg=run.err)
+        self.assertTrue(run.err.startswith("tf-boolean: warning: open.obj: not a solid: its "
+                                           "surface ends at 3 edges, the first from ("),
+                        msg=run.err)
 
     def test_sentences_have_six_digits_and_reports_all(self):
         self.mesh("third.obj", box((0, 0, 0), (1 / 3, 1, 1)))

@@ -206,7 +206,7 @@ class Cut(ToolTest):
         turned = write(self.path("turned.obj"), (points, [f for i, f in enumerate(faces)
                                                           if i != upright[0]] + [(a, c, b)]))
         run = self.run_tool("section", turned, "--height", "0.5", "-n", status=0)
-        self.assertIn("1 polyline runs along faces that disagree", run.err)
+        self.assertIn("1 polyline runs along inconsistently oriented faces", run.err)
         run = self.run_tool("half", part, "--height", "0.5", "-o", "h%d.stl", status=1)
         self.assertIn("not cut: its surface ends at 3 edges", run.text)
         self.assertIn("--open cuts it as a surface", run.err)
@@ -330,7 +330,8 @@ class Cut(ToolTest):
     def test_what_makes_no_sense_is_refused(self):
         part = self.put_box()
         for arguments, words in [
-                (["cut", part], "not a mode"), (["half", part, "-n"], "half needs --height or --at"),
+                (["cut", part], "not a mode"),
+                (["half", part, "-n"], "half needs --height or --at"),
                 (["half", part, "--height", "1,2", "-n"], "one --height"),
                 (["half", part, "--height", "x", "-n"], "--height x: expected a number"),
                 (["half", part, "--height", "0.5", "-o", "a.stl"], "a_%d.stl"),

@@ -84,7 +84,8 @@ class Reports(GltfTest):
         self.put("in/e.gltf", gltf.text("../my%20buf%C3%BC.bin"))
         self.assertIn("only files in the folder", self.run_tool("in/e.gltf", "-n", status=3).err)
         self.put("m.gltf", gltf.text("none.bin"))
-        self.assertIn("none.bin', which does not exist", self.run_tool("m.gltf", "-n", status=3).err)
+        self.assertIn("none.bin', which does not exist",
+                      self.run_tool("m.gltf", "-n", status=3).err)
 
     def test_colors_of_points_go_to_ply_and_back(self):
         for letter, full in (("B", 255), ("H", 65535), ("f", 1.0)):

@@ -23,7 +23,8 @@ class Mend(ToolTest):
     def test_a_solid_comes_back_as_it_was(self):
         part = write(self.path("part.obj"), CLEAN)
         run = self.run_tool(part, "-o", "out.obj", status=0)
-        self.assertEqual(run.text, part + ": solid, 12 faces, volume 1 (was 1): nothing to repair\n")
+        self.assertEqual(run.text,
+                         part + ": solid, 12 faces, volume 1 (was 1): nothing to repair\n")
         self.assertEqual(obj_mesh(self.read("out.obj")), obj_mesh(self.read("part.obj")))
         self.assertEqual(run.err, "")
 

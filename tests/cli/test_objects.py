@@ -102,7 +102,8 @@ class Objects(BooleanTest):
         self.put("groups.obj", "\n".join([*(f"v {x} {y} {z}" for x, y, z in points), "g lid",
                                           *lines[:2], "g rest", *lines[2:], ""]))
         run = self.run_tool("difference", "groups.obj", "-n", status=0)
-        self.assertIn("there is only one operand, since its parts are pieces of one surface", run.err)
+        self.assertIn("there is only one operand, since its parts are pieces of one surface",
+                      run.err)
         self.assertIn("volume 1", run.text)
 
     def test_an_open_object_is_named(self):

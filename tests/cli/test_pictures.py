@@ -279,7 +279,7 @@ class Pictures(ToolTest):
             self.assertIn(words, self.run_tool(part, *arguments, status=2).err)
         self.tool = PLACE
         for words in (("--png", "p.png"), ("--html", "p.html")):
-            self.assertIn(words[0] + " is for clash; check tests many poses, and shows none",
+            self.assertIn(words[0] + " is not for check, which tests many poses and shows none",
                           self.run_tool("check", part, "--poses", "q", *words, status=2).err)
         self.tool = WELD
         points = self.put("p.xyz", "0 0 0\n1 0 0\n")

@@ -188,7 +188,8 @@ class Assemblies(PlaceTest):
 
     def test_measure_says_how_deep(self):
         run = self.run_tool("measure", "part.obj", "--fixed", "floor.obj")
-        self.assertIn("at most 0.25 deep: a translation by (0, 0, 0.25) moves it out of floor.obj", run.text)
+        self.assertIn("at most 0.25 deep: a translation by (0, 0, 0.25) moves it out of floor.obj",
+                      run.text)
         entry = self.entry("measure", "part.obj", "--fixed", "floor.obj", status=0)
         effort = entry["depth"].pop("effort")
         self.assertEqual(entry["depth"], {"bound": 0.25, "move": [0, 0, 0.25]})
@@ -256,7 +257,7 @@ class Assemblies(PlaceTest):
         self.assertEqual(run.status, 1)
         self.assertEqual(run.text.count("penetrat"), 1)
         self.assertRegex(run.text, r"not placed: penetrates floor.obj at the start \(\d+ pairs of "
-                                   r"faces, the first \d+ and \d+\); separate would take it out")
+                                   r"faces, the first \d+ and \d+\); tf-place separate moves it out")
 
 
 if __name__ == "__main__":

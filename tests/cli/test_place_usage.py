@@ -139,8 +139,9 @@ class Usage(PlaceTest):
             self.assertIn("is an input", err)
         self.assertIn("is an input", self.refused("drop", "a.obj", "--fixed", "floor.obj", "-n",
                                                   "--log", "./floor.obj"))
-        self.assertIn("is also read for other inputs", self.refused("drop", "a.obj", "floor.obj", "--fixed",
-                                                            "./floor.obj", "--in-place"))
+        self.assertIn("is also read for other inputs",
+                      self.refused("drop", "a.obj", "floor.obj", "--fixed", "./floor.obj",
+                                   "--in-place"))
         self.assertEqual(self.read_bytes("floor.obj"), before)
         with open(self.path("m.txt"), "w") as file:
             file.write("1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n")

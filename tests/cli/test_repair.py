@@ -256,8 +256,8 @@ class Repair(ToolTest):
                                  f"tf-selfintersect: error: --repair {mode}: type --repair={mode}\n"
                                  f"")
         run = self.run_tool("--repair", part, "fixed.stl", status=2)
-        self.assertEqual(run.err, "tf-selfintersect: error: fixed.stl: no such file; for the "
-                                  "result to go there, type -o fixed.stl\n")
+        self.assertEqual(run.err, "tf-selfintersect: error: fixed.stl: no such file; to write "
+                                  "the result there, type -o fixed.stl\n")
         self.run_tool("--repair", part, "fixed.stl", "-n", status=3)  # an input
         self.put("outer", "")
         self.run_tool("--repair", "outer", "-n", status=3)

@@ -282,7 +282,7 @@ class Materials(TextureTest):
         for tool, *arguments in runs:
             with self.subTest(arguments=arguments):
                 self.tool = tool
-                words = "different material files name material Material alike"
+                words = "different material files use the same name for material Material"
                 found = [w["text"] for w in self.entry(*arguments, "-f", "-o", "out.obj",
                                                        status=0)["warnings"]
                          if w["code"] == "materials"]

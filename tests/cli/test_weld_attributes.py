@@ -108,8 +108,8 @@ class Attributes(WeldTest):
             f"{i},0,0,{2 ** 60 + (0 if i < 50 else 2 * i + 1)}\n" for i in range(70)))
         for out in ("out.las", "out.laz"):
             said = self.both("in.csv", out=out)
-            self.assertEqual(said, ["20 whole numbers of gps_time rounded: LAS stores floating-point "
-                                    "numbers in LAS"])
+            self.assertEqual(said, ["20 whole numbers of gps_time rounded: LAS stores "
+                                    "floating-point numbers there"])
 
     def test_names_are_those_of_the_format(self):
         rows = [(i, 0, 0, i % 256, 7, 255, 0, 0, 1, 0.5) for i in range(60)]
@@ -161,8 +161,9 @@ class Attributes(WeldTest):
         for option in (["--drop", "none"], ["--rename", "none=b"]):
             self.assertIn("no such property; the points have intensity",
                           self.run_tool("in.las", *option, "-o", "n.csv", status=3).err)
-        self.assertIn("red already exists", self.run_tool("in.las", "--rename", "blue=red", "-o", "n.csv",
-                                                   status=3).err)
+        self.assertIn("red already exists",
+                      self.run_tool("in.las", "--rename", "blue=red", "-o", "n.csv",
+                                    status=3).err)
         self.run_tool("in.las", "--drop", "red", "--check", status=2)
 
     def test_scale_and_offset_of_las_are_those_asked_for(self):

@@ -230,7 +230,7 @@ class Shared(WeldTest):
         run = self.run_tool("in.ply", "-t", "0.03", "--plan", *work, status=4)
         self.assertIn("contains tiles of another input or other options", run.err)
         self.write("cube.obj", obj_bytes(cube()))
-        self.assertIn("other meshes are welded by one, in memory",
+        self.assertIn("other meshes can only be welded by one process",
                       self.run_tool("cube.obj", "--plan", "--work", "other", status=3).err)
 
     def check_ranks(self, cases):
@@ -464,7 +464,7 @@ class Shared(WeldTest):
                                    tool,
                                    "cube.obj"], cwd=self.folder, capture_output=True, timeout=300)
             self.assertEqual(done.returncode, 2)
-            self.assertEqual(done.stderr.count(b"start it without mpirun"), 1, done.stderr)
+            self.assertEqual(done.stderr.count(b"does not run under mpirun"), 1, done.stderr)
             self.assertEqual(done.stdout, b"")
 
 

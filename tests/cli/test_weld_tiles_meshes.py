@@ -388,7 +388,7 @@ class TilesOfMeshes(WeldTest):
                  "--keep-manifold needs the whole mesh"),
                 (2, "in.stl", ["-t", "0.1", "-o", "out.ply"], 2, "needs the whole mesh"),
                 (2, "cube.obj", ["-o", "out.ply", "--tile-points", 9], 3,
-                 "welded by one, in memory")):
+                 "welded by one process, in memory")):
             run = self.mpi(size, name, *options, status=status)
             self.assertEqual(run.err.count(words), 1, msg=run.err)
             self.assertEqual(self.listing(), inputs)

@@ -174,7 +174,8 @@ def differences(before, after, words, extension):
                 yield f"{name} has other values"
     for name in sorted(after.columns.keys() - before.columns.keys()):
         plain = name.removesuffix(" of faces")
-        if extension not in HAVE_MORE and not is_named(plain) and not said("XYZ has no column names"):
+        if (extension not in HAVE_MORE and not is_named(plain)
+                and not said("XYZ has no column names")):
             yield f"{name} is new"
     if before.texture is not None and not said("texture coordinates") and not is_named("s"):
         if after.texture is None or not np.allclose(

@@ -208,7 +208,8 @@ def test_robots_are_those_of_the_tool(folder):
                            "tip"] and robot.link_of_part.tolist() == [0, 2, 3]
     assert robot.joints[1] == ("lift", "prismatic", "none", "arm", (0.0, 2.0))
     assert robot.adjacent.tolist() == [[0, 1], [1, 2]]
-    assert robot.approximated == ["link tip: a sphere is replaced by 5120 triangles that enclose it"]
+    assert robot.approximated == [
+        "link tip: a sphere is replaced by 5120 triangles that enclose it"]
     rng = np.random.default_rng(6)
     values = {"lift": rng.random(50) * 4, "bend": rng.random(50) * 6}
     lines = [json.dumps({"lift": lift, "bend": bend}) for lift, bend in zip(*values.values())]
