@@ -256,8 +256,9 @@ class Assemblies(PlaceTest):
         run = self.run_tool("slide", "part.obj", "--fixed", "floor.obj", "-n")
         self.assertEqual(run.status, 1)
         self.assertEqual(run.text.count("penetrat"), 1)
-        self.assertRegex(run.text, r"not placed: penetrates floor.obj at the start \(\d+ pairs of "
-                                   r"faces, the first \d+ and \d+\); tf-place separate moves it out")
+        self.assertRegex(run.text, r"not placed: penetrates floor.obj at the start \(\d+ pairs "
+                                   r"of faces, the first \d+ and \d+\); tf-place separate moves "
+                                   r"it out")
 
 
 if __name__ == "__main__":

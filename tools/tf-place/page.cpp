@@ -118,7 +118,7 @@ void add_deviation(scene& shown, const placing& p, const tf::deviation_result& r
     scene_table table{.title = "Deviation", .columns = {"what", "value"}};
     const std::initializer_list<std::pair<const char*, double>> values{
         {"mean", r.mean},       {"root mean square", r.rms}, {"50 % within", r.p50},
-        {"95 % within", r.p95}, {"99 % within", r.p99},         {"least", r.lowest},
+        {"95 % within", r.p95}, {"99 % within", r.p99},      {"least", r.lowest},
         {"greatest", r.highest}};
     for (const auto& [name, value] : values) table.rows.push_back({.cells = {name, value}});
     shown.tables.push_back(std::move(table));
