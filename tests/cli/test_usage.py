@@ -18,7 +18,7 @@ class Usage(ToolTest):
         run = self.run_tool("--help", status=0)
         self.assertTrue(run.text.startswith("Usage: tf-selfintersect [OPTIONS] INPUT..."))
         self.assertEqual([line for line in run.text.splitlines() if len(line) > 80], [])
-        for group in ("What counts:", "Output:", "Common options:", "Exit status:"):
+        for group in ("What is searched:", "Output:", "Common options:", "Exit status:"):
             self.assertIn(group, run.text)
         self.assertIn("--repair", run.text)
         self.assertEqual(self.run_tool("-h").text, run.text)

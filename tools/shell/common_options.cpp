@@ -31,11 +31,11 @@ void add_output_options(command_line& line, common_options& o, const common_feat
         return;
     }
     line.option({"--output-dir", "DIR",
-                 "one result per INPUT, named STEM+SUFFIX.EXT;\nDIR is created if needed"},
+                 "write one result for each INPUT, STEM+SUFFIX.EXT;\nDIR is created if needed"},
                 [&o](std::string_view value) { o.output_dir = value; });
-    line.option(o.suffix, {"--suffix", "TEXT", "SUFFIX for --output-dir", o.suffix});
+    line.option(o.suffix, {"--suffix", "TEXT", "SUFFIX of the names in --output-dir", o.suffix});
     line.flag(o.in_place, {.names = "--in-place",
-                           .text = "replace each INPUT (written beside it, then renamed)"});
+                           .text = "replace each INPUT (write a new file, then rename it)"});
 }
 
 void add_format_options(command_line& line, common_options& o, const common_features& features) {
@@ -49,7 +49,8 @@ void add_format_options(command_line& line, common_options& o, const common_feat
                         .fallback = "binary",
                         .label = "--ascii, --binary"});
     line.flag(o.binary, {.names = "--binary"});
-    line.option(o.precision, {"--precision", "P", "float | double | keep", "keep"},
+    line.option(o.precision,
+                {"--precision", "P", "of written coordinates: float | double | keep", "keep"},
                 {"float", "double", "keep"});
 }
 
@@ -70,7 +71,7 @@ std::vector<view> parse_views(std::string_view text) {
             views.push_back(static_cast<view>(word));
         else
             views.insert(views.end(), {view::iso, view::top, view::front, view::right});
-        if (views.size() > 16) refuse("--view: at most 16");
+        if (views.size() > 16) refuse("--view: expected at most 16 views");
         if (comma == std::string_view::npos) return views;
         text.remove_prefix(comma + 1);
     }
@@ -85,7 +86,7 @@ void parse_picture_size(std::string_view text, picture_options& target) {
     target.height = parse_count("--png-size", text.substr(cross + 1));
     for (const std::size_t side : {target.width, target.height})
         if (side < least_side || side > most_side)
-            refuse("--png-size " + std::string(text) + ": a side has " +
+            refuse("--png-size " + std::string(text) + ": expected sides of " +
                    std::to_string(least_side) + " to " + std::to_string(most_side) + " pixels");
 }
 

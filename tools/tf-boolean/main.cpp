@@ -33,7 +33,7 @@ void add_options(command_line& line, boolean_settings& s) {
     line.repeatable_option(s.matrix_texts,
                            {"--matrix", "N:FILE", "4x4 matrix for INPUT N (repeatable)"});
     line.option(s.inside,
-                {"--inside", "RULE", "what is solid: nonzero | odd | positive", "nonzero"},
+                {"--inside", "RULE", "winding numbers inside: nonzero | odd | positive", "nonzero"},
                 tools::fill_rules);
     line.flag(s.check, {"--check", "", "only check that the inputs bound solids"});
     line.flag(s.accept_open, {"--accept-open", "",
@@ -57,7 +57,7 @@ void add_options(command_line& line, boolean_settings& s) {
 
 void add_what_to_give_back(command_line& line, boolean_settings& s, common_options& options) {
     line.group("Output");
-    line.output(options.output, {"-o, --output", "FILE", "the solid"});
+    line.output(options.output, {"-o, --output", "FILE", "the result"});
     line.option(s.source, {"--source", "P",
                            "write source mesh and face of each face to\n"
                            "properties P_mesh, P_face of a PLY or GLB",

@@ -65,7 +65,7 @@ void add_options(command_line& line, repair_settings& s) {
         [&s](std::string_view text) { s.steps.strays = tools::parse_share("--strays", text); });
     line.option({.names = "--inside",
                  .value = "RULE",
-                 .text = "what is solid: auto | nonzero | odd | positive",
+                 .text = "winding numbers inside: auto | nonzero | odd |\npositive",
                  .fallback = "auto",
                  .offered = {"auto", "nonzero", "odd", "positive"}},
                 [&s](std::string_view text) {

@@ -38,7 +38,7 @@ tf::box3 parse_box(std::string_view text) {
 }
 
 void add_what_counts(command_line& line, tools::search_settings& s) {
-    line.group("What counts");
+    line.group("What is searched");
     line.flag(s.touching, {"--touching", "",
                            "also count faces that touch without crossing and are\n"
                            "not neighbors, and pairs with a degenerate face",
@@ -84,9 +84,9 @@ void add_what_to_give_back(command_line& line, request& r, common_options& optio
 void add_repair(command_line& line, request& r) {
     line.group("Repair");
     line.flag_with_value({.names = "--repair",
-                          .text = "split: cut along the curves, keep every face\n"
-                                  "outer: also keep only the boundary of the solid\n"
-                                  "remove: delete the faces and fill the holes",
+                          .text = "outer: cut faces that meet, keep the solid's boundary\n"
+                                  "split: cut faces that meet, keep every piece\n"
+                                  "remove: delete faces that meet, fill the holes",
                           .fallback = "outer",
                           .label = "--repair[=MODE]"},
                          tools::repair_modes, "outer", [&r](std::size_t mode) {
@@ -94,7 +94,8 @@ void add_repair(command_line& line, request& r) {
                              r.repair.mode = static_cast<tf::resolve_mode>(mode);
                          });
     line.option(r.repair.inside,
-                {"--inside", "RULE", "for outer: nonzero | odd | positive", "nonzero"},
+                {"--inside", "RULE", "for outer: winding numbers inside: nonzero | odd |\npositive",
+                 "nonzero"},
                 tools::fill_rules);
     line.flag(r.repair.keep_cuts, {"--keep-cuts", "",
                                    "for outer: do not merge coplanar faces that were\n"
