@@ -46,7 +46,7 @@ inline tf::mesh_file put_back(treeform_bodies* bodies, std::size_t body, const d
                               std::size_t count, const double* matrix, tf::precision written_as) {
     auto& set = kept_in<tf::body_set>(need(bodies, "bodies"), "bodies");
     if (body >= set.shapes.size())
-        throw std::invalid_argument("body " + std::to_string(body) + " is not there");
+        throw std::invalid_argument("body " + std::to_string(body) + " does not exist");
     const std::size_t wanted = set.shapes[body].view().points.size();
     if (count != wanted)
         throw std::invalid_argument(std::to_string(count) + " points for a body of " +

@@ -23,7 +23,7 @@ std::span<const tf::operand_element> elements(const treeform_element* data, std:
             (one.operand >= inputs.size() || one.index >= count_of(inputs[one.operand])))
             throw std::invalid_argument(std::string(name) + " names element " +
                                         std::to_string(one.index) + " of operand " +
-                                        std::to_string(one.operand) + ", which is not there");
+                                        std::to_string(one.operand) + ", which does not exist");
     return rows_of<tf::operand_element>(data, count, name);
 }
 
@@ -33,7 +33,7 @@ inline std::span<const std::uint32_t> numbers(const std::uint32_t* data, std::si
     for (const std::uint32_t one : all)
         if (one != TREEFORM_NONE && one >= limit)
             throw std::invalid_argument(std::string(name) + " names " + std::to_string(one) +
-                                        ", which is not there");
+                                        ", which is out of range");
     return all;
 }
 

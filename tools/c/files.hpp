@@ -98,7 +98,9 @@ inline void file_set_column(tf::mesh_file& file, const std::string& element,
     if (const tf::element* const of = file.attributes.find(element))
         if (const tf::column* const before = of->find(name);
             before && before->role != tf::column_role::data)
-            throw std::invalid_argument("\"" + name + "\" stands for what points and faces hold");
+            throw std::invalid_argument("\"" + name +
+                                        "\" stands for the points or faces of the file and "
+                                        "cannot be set");
     tf::column column = tf::with_type(type, [&]<class T>(T) {
         return tf::column::of<T>(name, array(static_cast<const T*>(values), rows, "values"));
     });

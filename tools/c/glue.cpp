@@ -117,8 +117,8 @@ std::vector<tf::face_pair> pairs_of(std::size_t face_count, const treeform_face_
     for (const treeform_face_pair& one : array(pairs, count, "pairs")) {
         if (one.a >= face_count || one.b >= face_count)
             throw std::invalid_argument("pair " + std::to_string(result.size()) +
-                                        " names a face of " + std::to_string(face_count) +
-                                        " that is not there");
+                                        " names a face that does not exist; there are " +
+                                        std::to_string(face_count));
         result.push_back({one.a, one.b, choice<tf::pair_kind>(one.kind, 7, "a kind")});
     }
     return result;
@@ -126,7 +126,8 @@ std::vector<tf::face_pair> pairs_of(std::size_t face_count, const treeform_face_
 
 tf::pair_kinds kinds(std::uint32_t bits) {
     if (bits > TREEFORM_ALL_KINDS)
-        throw std::invalid_argument("kinds is " + std::to_string(bits) + ", no sum of kinds");
+        throw std::invalid_argument("kinds is " + std::to_string(bits) +
+                                    ", which is not a sum of kinds");
     tf::pair_kinds result;
     for (std::uint32_t kind = 0; kind < tf::pair_kind_count; ++kind)
         if ((bits >> kind & 1U) != 0) result = result + static_cast<tf::pair_kind>(kind);

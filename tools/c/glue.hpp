@@ -127,7 +127,7 @@ template <class T>
 /// The place for a result, which is null until there is one.
 template <class T>
 void start(T** out) {
-    need(out, "the place for the result") = nullptr;
+    need(out, "the pointer to the result") = nullptr;
 }
 
 template <class T>
@@ -230,7 +230,7 @@ template <class E>
 [[nodiscard]] E choice(std::int32_t value, std::int32_t count, const char* name) {
     if (value < 0 || value >= count)
         throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) +
-                                    ", which is none of its values");
+                                    ", which is not one of its values");
     return static_cast<E>(value);
 }
 [[nodiscard]] inline std::size_t limit(std::uint64_t value) {
@@ -392,7 +392,7 @@ C& hand_out(T&& found, C** out) {
 template <class T, class C>
 [[nodiscard]] T& kept_in(const C& given, const char* name) {
     auto* const owner = dynamic_cast<answer<C>*>(static_cast<owned*>(given.owner));
-    if (!owner) throw std::invalid_argument(std::string(name) + " is none of this library");
+    if (!owner) throw std::invalid_argument(std::string(name) + " was not created by this library");
     return *static_cast<T*>(owner->kept[0].get());
 }
 

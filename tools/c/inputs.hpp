@@ -41,7 +41,7 @@ class carry_inputs {
             for (const std::uint32_t triangle : std::span(one.triangle_of_face, one.face_count)) {
                 if (triangle >= file.mesh.faces.size())
                     throw std::invalid_argument("triangle " + std::to_string(triangle) +
-                                                " is none of the file of an input");
+                                                " is out of range for the file of an input");
                 copy.mesh.faces.push_back(file.mesh.faces[triangle]);
             }
             sources_.back() = {&copy, {one.triangle_of_face, one.face_count}};

@@ -17,7 +17,7 @@ inline answer_of<treeform_mesh> mesh_of(tf::mesh own, tf::points_view points,
                                         std::span<const tf::face> faces, bool cloud,
                                         std::uint32_t flags) {
     if ((flags & ~std::uint32_t{TREEFORM_COPY | TREEFORM_ONE_USE}) != 0)
-        throw std::invalid_argument("flags " + std::to_string(flags) + " are not known");
+        throw std::invalid_argument("flags " + std::to_string(flags) + " are unknown");
     if (!own.points.empty()) points = own.points;
     for (std::size_t f = 0; f < faces.size(); ++f)
         for (const std::uint32_t corner : faces[f])
@@ -46,7 +46,7 @@ inline void check_counts(std::size_t points, std::size_t faces) {
     constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
     if (points >= most || faces >= most)
         throw std::length_error(std::to_string(points) + " points and " + std::to_string(faces) +
-                                " faces are more than 32 bits can number");
+                                " faces are more than 32-bit numbers can name");
 }
 
 inline std::vector<tf::point3> widened(const float* points, std::size_t count) {

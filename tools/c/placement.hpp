@@ -56,10 +56,10 @@ inline answer_of<treeform_face_relations> find_face_relations(const treeform_mes
     const tf::prepared_mesh& m = *need(moving, "moving").prepared;
     const auto& at = kept_in<tf::placement>(need(placement, "placement"), "placement");
     if (at.points.size() != m.view().points.size())
-        throw std::invalid_argument("placement is of another mesh");
+        throw std::invalid_argument("placement is not of this moving mesh");
     for (const tf::placement_contact& one : at.contacts)
         if (one.moving >= m.view().faces.size() || (one.fixed_face && one.fixed >= fixed.size()))
-            throw std::invalid_argument("placement is of other meshes");
+            throw std::invalid_argument("placement is not of these meshes");
     auto made = make<treeform_face_relations>();
     const auto& found = made->keep(at.face_relations(m, fixed));
     const auto bytes = [](const std::vector<tf::mesh_relation>& of) {

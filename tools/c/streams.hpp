@@ -139,7 +139,7 @@ inline void point_reader_header(const tf::point_reader& reader, treeform_file** 
 /// The next points, at most `most`, with their properties, as a file without faces; null when none
 /// are left.
 inline std::optional<tf::mesh_file> point_reader_next(tf::point_reader& reader, std::size_t most) {
-    if (most == 0) throw std::invalid_argument("most is 0: no points would be read");
+    if (most == 0) throw std::invalid_argument("most is 0, so no points would be read");
     tf::mesh_file block;
     tf::element& properties = block.attributes.find_or_add("vertex", 0);
     if (!reader.read(block.mesh.points, properties, most)) return std::nullopt;

@@ -58,7 +58,7 @@ inline void withhold(tf::mesh_file& file, const treeform_weld_result* welded) {
     for (const std::uint32_t group : from.groups.group_of_point)
         if (group >= w.group_count)
             throw std::invalid_argument("group " + std::to_string(group) +
-                                        " of the weld is not there");
+                                        " of the weld does not exist");
     from.withhold(file);
 }
 
