@@ -199,7 +199,7 @@ std::array<rounded_quotient, 3> rounded_exactly(const implicit_point& p,
         const auto place = at(point);
         const dyadic& under = dyadic_of(place.under);
         if (sign_of(under) == 0)
-            throw std::invalid_argument("implicit_point: there is no single point in common");
+            throw std::invalid_argument("implicit_point: no single common point");
         const auto round = [&](const auto& x) {
             return quotient(dyadic_of(x), under, at.unit, format);
         };

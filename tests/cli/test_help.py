@@ -91,7 +91,7 @@ class Help(ToolTest):
                          "MOVING at its new place; in PLY and GLB, faces that penetrate --fixed "
                          "are red, touching ones yellow, those within --clearance cyan, "
                          "unless MOVING has colors")
-        self.assertTrue(output["measure"].startswith("MOVING as it is; in PLY and GLB, faces"))
+        self.assertTrue(output["measure"].startswith("MOVING unchanged; in PLY and GLB, faces"))
         for mode in MODES["place"]:
             if mode != "drop":
                 self.assertNotIn("drop with", self.help_of("place", mode))

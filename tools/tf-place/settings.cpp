@@ -59,7 +59,7 @@ void add_options(command_line& line, place_settings& s, common_options& options)
                           "matrix in a report of tf-place"});
     line.group("Output");
     line.output(options.output, {"-o, --output", "FILE",
-                                 "MOVING at its new place; of measure, MOVING as it is;\n"
+                                 "MOVING at its new place; of measure, MOVING unchanged;\n"
                                  "in PLY and GLB, faces that penetrate --fixed are red,\n"
                                  "touching ones yellow, those within --clearance cyan,\n"
                                  "unless MOVING has colors"});

@@ -45,7 +45,7 @@ tf::mesh_file join(std::vector<tf::mesh_file> files, const std::vector<std::stri
         throw failure(
             bad_input, of_las ? "mixed" : "property",
             text + (of_las ? "; convert one first (pdal translate), or --mixed joins them "
-                             "as they are"
+                             "without conversion"
                            : ""));
     }
 }
