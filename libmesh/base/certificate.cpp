@@ -96,7 +96,7 @@ std::string certificate::message() const {
             return vanished_message(*this);
         case treeform::status::out_of_range:
             return "coordinates are too large" + when_rounded(*this);
-        case treeform::status::no_place:
+        case treeform::status::no_placement:
             return "there is no valid placement";
         case treeform::status::cancelled:
             return "stopped by its caller";

@@ -230,7 +230,7 @@ std::optional<penetration_depth_result> penetration_depth(const mesh_ref& given_
             if (!verified && search.is_out(offset)) verified = offset;
         }
     if (!verified)
-        return penetration_depth_result{.effort = effort.so_far(), .status = status::no_place};
+        return penetration_depth_result{.effort = effort.so_far(), .status = status::no_placement};
     effort.hold(0.125);
     search.improve(*verified, options.directions);
     effort.hold(0.0);

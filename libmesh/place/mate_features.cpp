@@ -175,7 +175,7 @@ class feature_mover {
         at.certificate.precision = options_.precision;
         if (at.at_place == mesh_relation::penetrating || near) {
             at.end = near ? placement_end::starts_too_near : placement_end::starts_penetrating;
-            at.certificate.status = status::no_place;
+            at.certificate.status = status::no_placement;
             at.points.assign(moving_.view().points.begin(), moving_.view().points.end());
             return at;
         }

@@ -99,7 +99,7 @@ placement placing::finished() {
             known.status = status::out_of_range;
             break;
         default:
-            known.status = placed() ? status::ok : status::no_place;
+            known.status = placed() ? status::ok : status::no_placement;
             break;
     }
     return std::move(result_);

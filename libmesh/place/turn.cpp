@@ -177,7 +177,7 @@ class turning {
                                      : end == placement_end::not_representable
                                          ? status::not_certified
                                      : end == placement_end::out_of_range ? status::out_of_range
-                                                                          : status::no_place;
+                                                                          : status::no_placement;
         return std::move(result_);
     }
 

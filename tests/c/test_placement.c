@@ -43,7 +43,7 @@ static void test_moves(void) {
     treeform_free(set);
     options.max_travel = 1.0;
     ENDS(TREEFORM_NO_PLACE, "", treeform_slide(moving, fixed, 2, down, &options, &placement));
-    CHECK(placement && placement->certificate->status == TREEFORM_STATUS_NO_PLACE);
+    CHECK(placement && placement->certificate->status == TREEFORM_STATUS_NO_PLACEMENT);
     CHECK(placement && placement->message[0] != 0 && placement->end == TREEFORM_END_NOTHING_MET);
     treeform_free(placement);
     INVALID("", treeform_slide(moving, fixed, 2, zero, NULL, &placement));

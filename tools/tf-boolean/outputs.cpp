@@ -50,7 +50,7 @@ void enter_blank_report(job& work, const boolean_settings& settings) {
     entry["inputs"] = json::array();
     for (const char* key : {"pairs", "cut_faces", "volumes", "separated_points"})
         entry[key] = nullptr;
-    for (const char* key : {"degenerate", "faces_not_cut", "faces_not_looked_at"})
+    for (const char* key : {"degenerate", "faces_not_cut", "faces_not_tested"})
         entry["skipped"][key] = nullptr;
     entry["min_volume"] = {{"given", settings.min_volume}, {"parts", nullptr}, {"volume", nullptr}};
     entry["gap"] = {
@@ -92,7 +92,7 @@ void enter_result(job& work, const boolean_settings& settings, const std::vector
     entry["skipped"] = {{"degenerate", did.degenerate},
                         {"faces_not_cut", or_null(did.filled_faces == 0,
                                                   triangles - std::min(triangles, did.cut_faces))},
-                        {"faces_not_looked_at", did.skipped_faces}};
+                        {"faces_not_tested", did.skipped_faces}};
     const auto topology = tf::count_topology(result.mesh.points.size(), result.mesh.faces);
     // STL has no vertex numbers: who reads it joins equal corners. Many do so with other formats.
     std::uint64_t nonmanifold = topology.nonmanifold_edges;

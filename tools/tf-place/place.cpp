@@ -89,7 +89,7 @@ tf::placement lay(placing& p, const tf::progress_callback& progress) {
     p.laid = tf::lay_flat(p.moving.shapes[0], options);
     if (p.laid) return p.laid->as_placement();
     p.reason = "it has no side, since all its points are on a line";
-    return {.certificate = {.status = tf::status::no_place}};
+    return {.certificate = {.status = tf::status::no_placement}};
 }
 
 tf::placement align(placing& p, const tf::progress_callback& progress) {
@@ -118,7 +118,8 @@ tf::placement mate(placing& p, double clearance, const tf::progress_callback& pr
                                 .progress = progress},
                                p.reason);
     if (p.mated) return std::move(p.mated->found);
-    return {.certificate = {.status = tf::status::no_place}, .end = tf::placement_end::nothing_met};
+    return {.certificate = {.status = tf::status::no_placement},
+            .end = tf::placement_end::nothing_met};
 }
 
 /// Calls the verb of the mode.

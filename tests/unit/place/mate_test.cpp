@@ -70,7 +70,7 @@ TEST_CASE("mate: of nothing there is no way, and what meets stays") {
     const auto inside = tf::mate(a, among.prepared);
     CHECK(inside.nearest_fixed == 2);
     CHECK(inside.end == placement_end::starts_penetrating);
-    CHECK(inside.certificate.status == tf::status::no_place);
+    CHECK(inside.certificate.status == tf::status::no_placement);
     CHECK(tf::mate(prepared_mesh(), among.prepared).end == placement_end::nothing_met);
     for (const double clearance : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})
         CHECK_THROWS_AS(static_cast<void>(tf::mate(a, among.prepared, {.clearance = clearance})),

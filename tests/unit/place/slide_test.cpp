@@ -86,7 +86,7 @@ TEST_CASE("slide: what touches stays, what penetrates or is too near has no plac
     CHECK(tf::slide(on, floor, down, {.clearance = 0.5}).end == placement_end::starts_touching);
     const auto in = tf::slide(moved(on, {0, 0, -0.5}), floor, down);
     CHECK(in.end == placement_end::starts_penetrating);
-    CHECK(in.certificate.status == tf::status::no_place);
+    CHECK(in.certificate.status == tf::status::no_placement);
     CHECK(tf::slide(moved(on, {0, 0, 0.25}), floor, down, {.clearance = 0.5}).end ==
           placement_end::starts_too_near);
     CHECK(tf::slide(on, tf::mesh{}, down).end == placement_end::nothing_met);

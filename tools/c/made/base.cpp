@@ -15,7 +15,7 @@ static_assert(TREEFORM_STATUS_NOT_MANIFOLD == static_cast<int>(tf::status::not_m
 static_assert(TREEFORM_STATUS_NOT_CERTIFIED == static_cast<int>(tf::status::not_certified));
 static_assert(TREEFORM_STATUS_VANISHED == static_cast<int>(tf::status::vanished));
 static_assert(TREEFORM_STATUS_OUT_OF_RANGE == static_cast<int>(tf::status::out_of_range));
-static_assert(TREEFORM_STATUS_NO_PLACE == static_cast<int>(tf::status::no_place));
+static_assert(TREEFORM_STATUS_NO_PLACEMENT == static_cast<int>(tf::status::no_placement));
 static_assert(TREEFORM_STATUS_CANCELLED == static_cast<int>(tf::status::cancelled));
 
 static_assert(sizeof(treeform_element) == sizeof(tf::operand_element));

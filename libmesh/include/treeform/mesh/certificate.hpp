@@ -29,7 +29,7 @@ enum class status : std::uint8_t {
     vanished,        ///< no face is left: the result is thinner than the coordinates can show, or
                      ///< faces cancel each other out
     out_of_range,    ///< a coordinate of the result overflows the requested precision
-    no_place,        ///< of a placement: there is none; `placement::end` tells why
+    no_placement,    ///< of a placement: there is none; `placement::end` tells why
     cancelled        ///< stopped by `progress`; there is no result
 };
 

@@ -61,7 +61,7 @@ struct body_set;
 /// The result of a placement. "The place" is the new position, or the present one if the mesh does
 /// not move.
 struct placement {
-    /// ok: the mesh has a place, and `points` were checked exactly. Otherwise `no_place`,
+    /// ok: the mesh has a place, and `points` were checked exactly. Otherwise `no_placement`,
     /// `not_certified` (not_representable), `out_of_range` or `cancelled`. It lists no faces.
     treeform::certificate certificate{};
     placement_end end = placement_end::unchanged;

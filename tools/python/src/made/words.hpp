@@ -83,7 +83,7 @@ template <>
 struct words_of<tf::status> {
     static constexpr words<10> all{"ok",           "open_input",    "sheet",    "excessive_loss",
                                    "not_manifold", "not_certified", "vanished", "out_of_range",
-                                   "no_place",     "cancelled"};
+                                   "no_placement", "cancelled"};
 };
 template <>
 struct words_of<tf::thickness_by> {

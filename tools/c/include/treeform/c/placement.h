@@ -61,7 +61,7 @@ typedef struct treeform_contact {
 /// not move.
 typedef struct treeform_placement {
     void* owner;
-    /// ok: the mesh has a place, and `points` were checked exactly. Otherwise `no_place`,
+    /// ok: the mesh has a place, and `points` were checked exactly. Otherwise `no_placement`,
     /// `not_certified` (not_representable), `out_of_range` or `cancelled`. It lists no faces.
     const treeform_certificate* certificate;
     treeform_placement_end end;
