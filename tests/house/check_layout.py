@@ -246,6 +246,16 @@ TALKS = re.compile(r"\bstd::(cout|cerr|clog|exit|abort|terminate|getenv)\b"
                    r"|\b(f?printf|f?puts|putchar|perror|getenv|system|exit|abort)\s*\(")
 
 
+def check_blender(root):
+    """What imports bpy runs as a part of Blender, under its license: only the add-on does."""
+    for path in files(root, "tools", ".py") + files(root, "tests", ".py"):
+        if path.relative_to(root).parts[1] == "blender":
+            continue
+        for number, line in enumerate(lines_of(path), 1):
+            if re.match(r"\s*(import|from) bpy\b", line):
+                yield path, number, "only tools/blender and its tests may import bpy"
+
+
 def check_silence(root):
     """The library prints nothing, reads no environment and never ends the program."""
     for path in sources(root, "libtree", "libmesh"):
@@ -380,7 +390,7 @@ def rooms(root):
     for folder in sorted(path for top in ("libtree", "libmesh", "tools")
                          if (root / top).exists() for path in (root / top).iterdir()):
         if folder.is_dir() and folder.name != "include" and not folder.name.startswith("tf-"):
-            if any(path.suffix in (".cpp", ".hpp", ".js") for path in folder.rglob("*")):
+            if any(path.suffix in (".cpp", ".hpp", ".js", ".py") for path in folder.rglob("*")):
                 yield folder
 
 
@@ -391,8 +401,8 @@ def check_pages(root):
 
 
 CHECKS = [check_top, check_door, check_headers, check_whole_door, check_bindings, check_lists,
-          check_listed, check_floors, check_packages, check_silence, check_lengths, check_columns,
-          check_members, check_pages]
+          check_listed, check_floors, check_packages, check_blender, check_silence, check_lengths,
+          check_columns, check_members, check_pages]
 
 
 def faults(root):
@@ -422,6 +432,8 @@ WRONG = {  # each file with what is to be said of it
     "libmesh/CMakeLists.txt": ("", []),
     "tools/python/src/own.cpp": ('#include "tools/picture/a.hpp"\n#include "tools/shell/b.hpp"\n',
                                  ["2: a binding may not use tools/shell"]),
+    "tools/python/treeform/_b.py": ("import bpy\n", ["1: only tools/blender"]),
+    "tools/blender/b.py": ("import bpy\n", []),
     "tools/tf-x/e.cpp": ("#include <treeform/tree/detail/split.hpp>\n", ["no part of the door"]),
     "tools/tf-x/f.cpp": ("struct many {\n" + "".join(
         f"    int a{i} = f();\n    int b{i}{{0}};\n" for i in range(8))
