@@ -10,7 +10,7 @@ import textwrap
 from c_functions import Functions
 from c_language import Bound, Language, List, Member
 from functions import Function
-from headers import ROOT, Enum
+from headers import GENERATED, ROOT, Enum
 
 INCLUDE = ROOT / "tools/c/include/treeform/c"
 MADE = ROOT / "tools/c/made"
@@ -185,8 +185,8 @@ class Writer:
     # ---- sources ----
 
     def declarations(self) -> str:
-        text = ("#pragma once\n/// \\file\n/// Made by tools/bindings: structs of C filled from those "
-                "of C++, and options read.\n\n")
+        text = GENERATED + ("#pragma once\n/// \\file\n/// Fills structs of C from those of C++, "
+                            "and reads options.\n\n")
         headers = sorted({self.header_of(name) for name in self.language.bound})
         text += "".join(f"#include <treeform/{one}>\n" for one in headers)
         text += "\n#include <tools/c/handles.hpp>\n\nnamespace glue {\n\n"
@@ -256,7 +256,7 @@ class Writer:
         headers = {self.header_of(name) for name in calls}
         if (ROOT / f"tools/c/{stem}.hpp").exists():
             headers.add(f"tools/c/{stem}.hpp")
-        result = f"// Made by tools/bindings of {stem}.h and the headers of C++: see its README.\n"
+        result = GENERATED
         result += "".join(f"#include <{'' if one.startswith('tools/') else 'treeform/'}{one}>\n"
                           for one in sorted({*headers, "tools/c/made/structs.hpp"}, reverse=True))
         result += "\nnamespace tf = treeform;\n\n" + constants + "\n"

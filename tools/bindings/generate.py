@@ -44,9 +44,9 @@ def python_files(structs: dict[str, Struct], enums: dict[str, Enum]) -> dict[pat
     writer = python_write.Writer(language, python_surface.OPTIONS, python_surface.COUNTERS,
                                  python_surface.STATES, python_verbs.FUNCTIONS)
     made = writer.sources()
-    for path in sorted([*python_write.PACKAGE.glob("*.py"), *python_write.PACKAGE.glob("*.pyi")]):
+    for path in sorted(python_write.PACKAGE.glob("*.py")):
         made[path] = writer.package_file(path)
-    return made
+    return made | {python_write.PACKAGE / "_core.pyi": writer.stub()}
 
 
 def all_files(structs: dict[str, Struct], enums: dict[str, Enum]) -> dict[pathlib.Path, str]:

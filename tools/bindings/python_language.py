@@ -405,6 +405,8 @@ def wrapped(text: str, indent: int, front: str, first: int | None = None) -> lis
 
 def call_text(front: str, arguments: list[str], end: str, width: int = 100) -> str:
     """A declaration over as many lines as it needs."""
+    if not arguments:
+        return front + end
     lines, line = [], front
     for i, one in enumerate(arguments):
         piece = one + (", " if i + 1 < len(arguments) else end)

@@ -1,4 +1,4 @@
-"""Writes what `python_language.py` knows: blocks of the package and of its stub, and the sources in
+"""Writes what `python_language.py` knows: blocks of the package, its stub, and the sources in
 tools/python/src/made."""
 
 from __future__ import annotations
@@ -8,15 +8,16 @@ import pathlib
 import re
 
 from c_write import formatted
-from headers import ROOT
+from headers import GENERATED, ROOT
 from python_functions import FunctionWriter, public_names
 from python_language import Function, Language, call_text
+from python_stub import Stub
 
 PACKAGE = ROOT / "tools/python/treeform"
 MADE = ROOT / "tools/python/src/made"
 #: Modules whose results are in `places.cpp`.
 PLACES = ("_assembly", "_nearness", "_placement")
-BLOCK = re.compile(r"^# made of (headers|options|functions|names|imports|uses)[^\n]*:\n"
+BLOCK = re.compile(r"^# made of (headers|names|uses)[^\n]*:\n"
                    r"((?:#   [^\n]+\n)*).*?^# end\n",
                    re.M | re.S)
 
@@ -73,24 +74,16 @@ class Writer:
         return re.sub(r"(^# made of uses:\n).*?(?=^# end\n)", lambda m: m[1] + uses(text), text,
                       flags=re.M | re.S)
 
+    def stub(self) -> str:
+        return Stub(self.language, self.options, self.functions).text()
+
     def _block(self, found: re.Match[str]) -> str:
         kind, names = found.group(1), found.group(2).replace("#", " ").split()
         head = found.group(0)[:found.end(2) - found.start()]
         if kind == "uses":
             return found.group(0)
-        if kind == "options":
-            return head + "".join(self.language.option_stub(name, leave)
-                                  for name, leave in self.options.items()
-                                  ).rstrip("\n") + "\n# end\n"
-        if kind == "imports":
-            modules = sorted({(one.module, one.name) for one in self.language.results.values()})
-            return head + "".join(f"from .{module} import {name}\n"
-                                  for module, name in modules) + "# end\n"
         if kind == "names":
             return head + self.package.exports() + "# end\n"
-        if kind == "functions":
-            return head + "".join(self.language.function_stub(one)
-                                  for one in self.functions) + "# end\n"
         made = []
         for name in names:
             if name in self.by_name:
@@ -113,7 +106,7 @@ class Writer:
 
     def sources(self) -> dict[pathlib.Path, str]:
         enums = sorted(name for name in self.language.enums)
-        first = "#pragma once\n/// \\file\n/// Made by tools/bindings of the headers of C++.\n\n"
+        first = GENERATED + "#pragma once\n\n"
         words = first + '#include "../words.hpp"\n\nnamespace binding {\n\n'
         for name in enums:
             values = self.language.enums[name].values
@@ -129,8 +122,7 @@ class Writer:
         states = first + '#include "../base.hpp"\n\nnamespace binding {\n\n' + "\n".join(
             self.language.option_code(name, leave) for name, leave in self.states.items())
         states += "\n}  // namespace binding\n"
-        start = ("// Made by tools/bindings of the headers of C++: see its README.\n"
-                 '#include "../bindings.hpp"\n\nnamespace binding {\n\n')
+        start = GENERATED + '#include "../bindings.hpp"\n\nnamespace binding {\n\n'
         options = start + "\n".join(
             self.language.option_code(name, leave) for name, leave in self.options.items())
         options += "\nvoid add_options(py::module_& module) {\n" + "".join(

@@ -8,7 +8,7 @@ import re
 from dataclasses import dataclass
 
 from c_write import formatted
-from headers import ROOT, Enum, Field, Struct
+from headers import GENERATED, ROOT, Enum, Field, Struct
 
 MADE = ROOT / "tools/shell/made"
 PAGE = ROOT / "tools/REPORTS.md"
@@ -115,13 +115,12 @@ class Writer:
                                 for key, field in one.keys(self.structs))
             declared += f"[[nodiscard]] {call};\n"
             defined += f"{call} {{ return {{ {members} }}; }}\n\n"
-        header = ("#pragma once\n/// \\file\n/// Made by tools/bindings: fields of results, as "
-                  "reports "
-                  "have them.\n\n#include \"tools/picture/json.hpp\"\n"
+        header = (GENERATED + "#pragma once\n/// \\file\n/// Fields of results, as reports have "
+                  "them.\n\n#include \"tools/picture/json.hpp\"\n"
                   + "".join(f"#include <treeform/{name}>\n" for name in headers)
                   + "#include <treeform/tf.hpp>\n\nnamespace tools {\n\n" + declared
                   + "\n}  // namespace tools\n")
-        source = ("// Made by tools/bindings.\n#include \"tools/shell/made/report_fields.hpp\"\n\n"
+        source = (GENERATED + "#include \"tools/shell/made/report_fields.hpp\"\n\n"
                   "namespace tools {\nnamespace {\n\n"
                   "template <class T>\njson list_of(const std::vector<T>& values, json entry(const "
                   "T&)) {\n"

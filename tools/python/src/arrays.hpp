@@ -13,6 +13,9 @@ using points_array = array_of<double>;        ///< [V][3]
 using faces_array = array_of<std::uint32_t>;  ///< [F][3]
 using ids_array = array_of<std::uint32_t>;    ///< [N]
 
+/// Anything that NumPy makes an array of.
+using array_like = py::object;
+
 /// The rows of `array`, each a Row of equal numbers T.
 template <class Row, class T>
 std::span<const Row> rows_of(const array_of<T>& array) {

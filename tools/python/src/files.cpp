@@ -88,7 +88,8 @@ py::dict columns(const file_data& data, const std::string& element) {
 }
 
 void set_column(file_data& data, const std::string& element, const std::string& name,
-                const py::array& values) {
+                const array_like& given) {
+    const py::array values = py::module_::import("numpy").attr("asarray")(given);
     if (values.ndim() != 1)
         throw std::invalid_argument(name +
                                     ": one value for each row, in an array of one dimension");
@@ -126,11 +127,23 @@ py::object stored_face(const file_data& data) {
     return as_array(std::move(copy));
 }
 
-/// A list of `of(one)` for each.
-template <class Values, class Of>
-py::list listed(const Values& values, const Of& of) {
-    py::list all;
-    for (const auto& one : values) all.append(of(one));
+std::vector<std::tuple<std::string, std::string>> warnings_in(const file_data& data) {
+    std::vector<std::tuple<std::string, std::string>> all;
+    for (const tf::io_warning& one : data.file().warnings) all.emplace_back(one.code, one.text);
+    return all;
+}
+
+std::vector<std::string> names_of_rows(const file_data& data) {
+    std::vector<std::string> all;
+    for (const tf::element& one : data.file().attributes.elements) all.push_back(one.name);
+    return all;
+}
+
+std::vector<std::tuple<std::string, std::string, std::string, std::size_t>> parts_in(
+    const file_data& data) {
+    std::vector<std::tuple<std::string, std::string, std::string, std::size_t>> all;
+    for (const tf::part& one : data.file().attributes.parts)
+        all.emplace_back(one.object, one.group, one.material, one.first_face);
     return all;
 }
 
@@ -143,28 +156,31 @@ std::string text_of(const file_data& data) {
 }
 
 void add_columns(py::class_<file_data>& made) {
-    const auto columns_of = [](const char* element) {
-        return [element](const file_data& d) { return columns(d, element); };
-    };
-    const auto set_column_of = [](const char* element) {
-        return [element](file_data& d, const std::string& name, const py::object& values) {
-            set_column(d, element, name, py::module_::import("numpy").attr("asarray")(values));
-        };
-    };
-    made.def_property_readonly("vertex", columns_of("vertex"),
-                               "A copy of each column of vertices, (V,).")
-        .def_property_readonly("face", columns_of("face"),
-                               "A copy of each column of faces as stored in the file.")
+    made.def_property_readonly(
+            "vertex", [](const file_data& d) -> py::dict { return columns(d, "vertex"); },
+            "A copy of each column of vertices, (V,).")
+        .def_property_readonly(
+            "face", [](const file_data& d) -> py::dict { return columns(d, "face"); },
+            "A copy of each column of faces as stored in the file.")
         .def("columns", &columns, py::arg("element"),
              "A copy of each column of `element`; lists as (begin, values).")
-        .def("set_vertex", set_column_of("vertex"), py::arg("name"), py::arg("values"),
-             "Sets a column of vertices, (V,), in the type of `values`.")
-        .def("set_face", set_column_of("face"), py::arg("name"), py::arg("values"),
-             "Sets a column of faces, (F,), in the type of `values`.");
+        .def(
+            "set_vertex",
+            [](file_data& d, const std::string& name, const array_like& values) {
+                set_column(d, "vertex", name, values);
+            },
+            py::arg("name"), py::arg("values"),
+            "Sets a column of vertices, (V,), in the type of `values`.")
+        .def(
+            "set_face",
+            [](file_data& d, const std::string& name, const array_like& values) {
+                set_column(d, "face", name, values);
+            },
+            py::arg("name"), py::arg("values"),
+            "Sets a column of faces, (F,), in the type of `values`.");
 }
 
 void add_attributes(py::module_& module) {
-    const auto kept = [](auto of) { return [of](const file_data& d) { return of(d.file()); }; };
     py::class_<file_data> made(module, "Attributes",
                                R"(All that a file has besides points and faces.
 
@@ -185,42 +201,33 @@ parts, too; lists and other kinds of rows are left out.
         .def("__copy__", [](const file_data& d) { return file_data(d); })
         .def("__repr__", &text_of)
         .def_property_readonly(
-            "format", kept([](const tf::mesh_file& f) { return f.format; }),
+            "format", [](const file_data& d) -> std::string { return d.file().format; },
             "Of the file that was read: 'stl-binary', 'ply-ascii', 'obj', ...; else empty.")
-        .def_property_readonly("precision",
-                               kept([](const tf::mesh_file& f) { return word_of(f.stored_as); }),
-                               "Of the coordinates in the file: 'float32' or 'float64'.")
-        .def_property_readonly("warnings", kept([](const tf::mesh_file& f) {
-                                   return listed(f.warnings, [](const tf::io_warning& one) {
-                                       return py::make_tuple(one.code, one.text);
-                                   });
-                               }),
+        .def_property_readonly(
+            "precision",
+            [](const file_data& d) -> std::string { return word_of(d.file().stored_as); },
+            "Of the coordinates in the file: 'float32' or 'float64'.")
+        .def_property_readonly("warnings", &warnings_in,
                                "What a person should know of the file: (code, text).")
-        .def_property_readonly("comments",
-                               kept([](const tf::mesh_file& f) { return f.attributes.comments; }),
-                               "Lines of comment of a PLY.")
-        .def_property_readonly("elements", kept([](const tf::mesh_file& f) {
-                                   return listed(f.attributes.elements, [](const tf::element& one) {
-                                       return py::str(one.name);
-                                   });
-                               }),
+        .def_property_readonly(
+            "comments",
+            [](const file_data& d) -> std::vector<std::string> {
+                return d.file().attributes.comments;
+            },
+            "Lines of comment of a PLY.")
+        .def_property_readonly("elements", &names_of_rows,
                                "Kinds of rows that the file has: 'vertex', 'face', ...")
-        .def_property_readonly("parts", kept([](const tf::mesh_file& f) {
-                                   return listed(f.attributes.parts, [](const tf::part& one) {
-                                       return py::make_tuple(one.object, one.group, one.material,
-                                                             one.first_face);
-                                   });
-                               }),
+        .def_property_readonly("parts", &parts_in,
                                "Names in the file: (object, group, material, first face).")
         .def_property_readonly(
             "corners", &corners,
             "Values of corners: `texture` (n, 3), `texture_of_corner` (F, 3) "
             "numbers in it, and the same for `normals`; 4294967295 where a corner "
-            "has none.")
+            "has none.")  // -> dict[str, NDArray[Any]]
         .def_property_readonly(
             "stored_face", &stored_face,
             "(F,) the file's face that each triangle is a part of; None where all "
-            "are triangles.");
+            "are triangles.");  // -> Optional[Ids]
     add_columns(made);
 }
 
@@ -228,10 +235,10 @@ parts, too; lists and other kinds of rows are left out.
 
 void add_files(py::module_& module) {
     add_attributes(module);
-    add_job(module, "read", &read, job_kind::long_work);
-    add_job(module, "read_bytes", &read_bytes, job_kind::long_work);
-    add_job(module, "scene", &scene);
-    add_job(module, "write", &write, job_kind::writes);
+    add_job(module, "read", &read, job_kind::long_work);              // -> Mesh
+    add_job(module, "read_bytes", &read_bytes, job_kind::long_work);  // -> Mesh
+    add_job(module, "scene", &scene);                                 // -> Mesh
+    add_job(module, "write", &write, job_kind::writes);               // -> Written
 }
 
 }  // namespace binding

@@ -58,8 +58,9 @@ std::unique_ptr<search_in_steps> search_of(const std::filesystem::path& path,
 }  // namespace
 
 void add_intersections(py::module_& module) {
-    module.attr("KINDS") = py::cast(kind_words);
-    add_job(module, "self_intersections_of_file", &self_intersections_of_file, job_kind::long_work);
+    module.attr("KINDS") = py::cast(kind_words);  // -> list[str]
+    add_job(module, "self_intersections_of_file", &self_intersections_of_file,
+            job_kind::long_work);  // -> FilePairs
     add_steps<shared_search>(module, "SearchInSteps", &shared_search::finish)
         .def("unfinished", step_of<shared_search>(&shared_search::unfinished));
     add_job(module, "search_of", &search_of, job_kind::long_work);

@@ -64,11 +64,12 @@ void add_meshes(py::module_& module) {
         .def(py::init<points_array>())
         .def_property_readonly("vertices", &held_mesh::points)
         .def_property_readonly("faces", &held_mesh::faces)
-        .def_property("data", &held_mesh::data, &held_mesh::set_data)
+        .def_property("data", &held_mesh::data, &held_mesh::set_data)  // -> Optional[Attributes]
         .def_property_readonly("is_cloud",
-                               [](const held_mesh& m) { return m.prepared().is_cloud(); })
-        .def_property_readonly("indexes_built",
-                               [](const held_mesh& m) { return m.prepared().indexes_built(); });
+                               [](const held_mesh& m) -> bool { return m.prepared().is_cloud(); })
+        .def_property_readonly("indexes_built", [](const held_mesh& m) -> std::size_t {
+            return m.prepared().indexes_built();
+        });
     py::class_<threads>(module, "Threads")
         .def(py::init<unsigned>())
         .def("enter", &threads::enter)
@@ -76,7 +77,7 @@ void add_meshes(py::module_& module) {
     module.def("thread_count", &tf::thread_count);
     module.def("version", &tf::version_string);
     module.def("end", &end);
-    add_job(module, "build", &build);
+    add_job(module, "build", &build);  // -> Any
     leave_jobs_at_the_end();
 }
 

@@ -148,9 +148,10 @@ py::str page(const held_meshes& meshes, const py::dict& asked) {
 }  // namespace
 
 void add_pictures(py::module_& module) {
-    module.attr("VIEWS") =
-        py::cast(std::vector<std::string>(tools::view_names.begin(), tools::view_names.end()));
-    module.attr("PICTURE_SIDES") = py::make_tuple(tools::least_side, tools::most_side);
+    module.attr("VIEWS") = py::cast(std::vector<std::string>(
+        tools::view_names.begin(), tools::view_names.end()));  // -> list[str]
+    module.attr("PICTURE_SIDES") =
+        py::make_tuple(tools::least_side, tools::most_side);  // -> tuple[int, int]
     module.def("colors", &colors_of);
     add_job(module, "picture", &picture, job_kind::long_work);
     add_job(module, "page", &page, job_kind::long_work);

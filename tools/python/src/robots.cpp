@@ -44,7 +44,7 @@ py::array_t<double> poses(const robot_data& of, const std::vector<std::string>& 
 
 void add_robots(py::module_& module) {
     py::class_<robot_data>(module, "RobotData").def("poses", &poses);
-    add_job(module, "read_urdf", &read_urdf, job_kind::long_work);
+    add_job(module, "read_urdf", &read_urdf, job_kind::long_work);  // -> Robot
 }
 
 }  // namespace binding

@@ -87,7 +87,7 @@ std::unique_ptr<weld_in_steps> weld_of(const tf::cloud_inputs& inputs,
 }  // namespace
 
 void add_streams(py::module_& module) {
-    add_job(module, "weld_stream", &weld_stream, job_kind::writes);
+    add_job(module, "weld_stream", &weld_stream, job_kind::writes);  // -> WeldStreamResult
     add_steps<shared_weld>(module, "WeldInSteps", &shared_weld::finish);
     add_job(module, "weld_of", &weld_of, job_kind::long_work);
 }

@@ -191,18 +191,18 @@ void add_trees_of(py::module_& module, const char* cloud_name, const char* boxes
     py::class_<cloud<D>>(module, cloud_name)
         .def(py::init<const array_of<double>&>())
         .def("__len__", &cloud<D>::size)
-        .def("query", &cloud<D>::query)
-        .def("query_ball", &cloud<D>::query_ball)
-        .def("query_pairs", &cloud<D>::query_pairs);
+        .def("query", &cloud<D>::query)               // -> tuple[Floats, Numbers]
+        .def("query_ball", &cloud<D>::query_ball)     // -> tuple[Numbers, Numbers, Floats]
+        .def("query_pairs", &cloud<D>::query_pairs);  // -> Numbers
     make_jobs(module.attr(cloud_name), {"query", "query_ball", "query_pairs"});
     py::class_<boxes<D>>(module, boxes_name)
         .def(py::init<const array_of<double>&, const array_of<double>&>())
         .def("__len__", &boxes<D>::size)
-        .def("bounds", &boxes<D>::bounds)
-        .def("pairs", &boxes<D>::pairs)
-        .def("pairs_with", &boxes<D>::pairs_with)
-        .def("query", &boxes<D>::query)
-        .def("nearest", &boxes<D>::nearest);
+        .def("bounds", &boxes<D>::bounds)          // -> tuple[Floats, Floats]
+        .def("pairs", &boxes<D>::pairs)            // -> Numbers
+        .def("pairs_with", &boxes<D>::pairs_with)  // -> Numbers
+        .def("query", &boxes<D>::query)            // -> tuple[Numbers, Numbers]
+        .def("nearest", &boxes<D>::nearest);       // -> tuple[Floats, Numbers]
     make_jobs(module.attr(boxes_name), {"pairs", "pairs_with", "query", "nearest"});
 }
 
@@ -211,7 +211,7 @@ void add_trees_of(py::module_& module, const char* cloud_name, const char* boxes
 void add_trees(py::module_& module) {
     add_trees_of<2>(module, "Cloud2", "Boxes2");
     add_trees_of<3>(module, "Cloud3", "Boxes3");
-    module.def("lists", &lists);
+    module.def("lists", &lists);  // -> list[list[int]]
 }
 
 }  // namespace binding

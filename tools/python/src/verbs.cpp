@@ -200,22 +200,23 @@ py::array distance(const held_mesh& a, const held_mesh& b, const array_of<double
 }  // namespace
 
 void add_verbs(py::module_& module) {
-    module.def("objects_of", &objects_of);
+    module.def("objects_of", &objects_of);  // -> list[HeldMesh]
     py::class_<tf::section_result>(module, "SectionData")
-        .def("__len__", [](const tf::section_result& all) { return all.loops.size(); })
+        .def("__len__",
+             [](const tf::section_result& all) -> std::size_t { return all.loops.size(); })
         .def("loops", [](const tf::section_result& all, std::size_t layer) {
             const auto& of = all.layers.at(layer);
             const auto first = all.loops.begin() + of.first_loop;
             return as_python(std::vector(first, first + of.loop_count), all);
-        });
+        });  // -> list[SectionLoop]
     add_job(module, "write_section", &write_section, job_kind::writes);
     add_job(module, "write_isolines", &write_isolines, job_kind::writes);
-    add_job(module, "concatenate", &concatenate);
+    add_job(module, "concatenate", &concatenate);  // -> Mesh
     add_job(module, "transformed", &transformed);
     add_job(module, "join_equal_points", &join_equal_points);
     add_job(module, "weld", &weld);
-    add_job(module, "raycast_all", &raycast_all);
-    module.attr("RELATIONS") = py::cast(words_of<tf::mesh_relation>::all);
+    add_job(module, "raycast_all", &raycast_all);  // -> tuple[Floats, Ids, Ids]
+    module.attr("RELATIONS") = py::cast(words_of<tf::mesh_relation>::all);  // -> list[str]
     add_job(module, "intersects", &intersects);
     add_job(module, "distance", &distance);
 }

@@ -86,7 +86,7 @@ def in_communicator(communicator: Communicator | None,
     return made
 
 
-_Work = TypeVar("_Work", bound="_core._InSteps")
+_Work = TypeVar("_Work", bound="_core.SearchInSteps | _core.WeldInSteps")
 
 
 class InSteps(Generic[_Work]):

@@ -86,7 +86,7 @@ class PointTree:
         self._data = _table(data, "data").copy()
         self._data.flags.writeable = False
         make = _core.Cloud3 if self.m == 3 else _core.Cloud2
-        self._cloud: _core._Cloud = _core.build(make, self._data)
+        self._cloud: _core.Cloud2 = _core.build(make, self._data)
 
     @property
     def data(self) -> Floats:
