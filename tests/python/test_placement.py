@@ -107,7 +107,7 @@ def test_lay_flat():
     assert np.allclose(laid.center_of_mass, turned.vertices.mean(axis=0))
     up = tf.lay_flat(CUBE, normal=[0, 0, 1])
     assert up.normals[up.chosen].tolist() == [0, 0, 1]
-    with pytest.raises(ValueError, match="no side"):
+    with pytest.raises(ValueError, match="no flat side"):
         tf.lay_flat(([[0, 0, 0]], []))
 
 

@@ -21,10 +21,10 @@ _OPTIONAL = {"vector<pair<string,string>>": "Columns | None",
              "vector<weld_condition>": "Mapping[str, float] | None"}
 _EMPTY = {"string": ("str", '""'), "filesystem::path": ("Path", '""'),
           "vector<string>": ("Iterable[str]", "()")}
-_OPEN = {"solid": "NotSolidError where the mesh is open, ",
-         "solids": "NotSolidError where an operand is open, "}
-_NOT_CERTIFIED = "NotCertifiedError where the result could not be certified"
-_CHECK = "False returns what could not be certified, too, with its `certificate`."
+_OPEN = {"solid": "NotSolidError if the mesh is open, ",
+         "solids": "NotSolidError if an operand is open, "}
+_NOT_CERTIFIED = "NotCertifiedError if the result could not be certified"
+_CHECK = "if False, also return results that could not be certified; see their `certificate`."
 
 
 def read_docs() -> dict[str, str]:

@@ -1,40 +1,43 @@
-"""The functions of the package, and the calls of C++ that they are. All else follows from the
-headers: `python_functions.py` says how. Those without a call are in `src/*.cpp`, or of Python where
-they have a `body`."""
+"""The functions of the Python package, each with the C++ call that it makes. Everything else is
+generated from the C++ headers, as described in `python_functions.py`. Functions without a call are
+implemented in `src/*.cpp`; those with a `body`, in Python."""
 
 from __future__ import annotations
 
 from python_language import Function
 
-_MOVES = {"move_a": "(4, 4) an affine map of `a`, applied first.", "move_b": "(4, 4) the same of "
-                                                                             "`b`."}
-_POSES = {"move_a": "an affine map of `a` (4, 4), or many (n, 4, 4): then the answer is an array "
-                    "(n,).",
-          "move_b": "the same of `b`."}
-_PLANE = {"normal": "(3,) of the plane, of any length.", "at": "(3,) a point of the plane."}
-_HEIGHTS = {"heights": "(K,) of planes above that one, along its normal at length 1; None is the "
-                       "plane itself."}
-_RAYS = {"origins": "(n, 3)", "directions": "(n, 3) of any length.",
-         "t_min": "what is hit before origin + t_min direction does not count.",
-         "t_max": "nor what is hit beyond this."}
+_MOVES = {"move_a": "(4, 4) an affine transform applied to `a` first.",
+          "move_b": "(4, 4) an affine transform applied to `b` first."}
+_POSES = {"move_a": "an affine transform of `a`, (4, 4), or several, (n, 4, 4). With several, the"
+                    " result is an array (n,).",
+          "move_b": "likewise for `b`."}
+_PLANE = {"normal": "(3,) the normal of the plane, of any length.",
+          "at": "(3,) a point on the plane."}
+_HEIGHTS = {"heights": "(K,) the distances of K parallel planes from this plane, measured along "
+                       "its unit normal. None: this plane only."}
+_RAYS = {"origins": "(n, 3) the start points of the rays.", "directions": "(n, 3) of any length.",
+         "t_min": "ignore hits before origin + t_min * direction.",
+         "t_max": "ignore hits beyond origin + t_max * direction."}
 _ALL_RAYS = "rays(origins, directions, t_min, t_max)"
 _PIECE = f"mesh.prepared(), {_ALL_RAYS}.piece(begin, end)"
-_MESHES = {"meshes": "each a mesh, or a list of meshes."}
-_VOLUMES = {"volumes": "compute those of two operands, of what is in either, and of what is in "
-                       "both."}
+_MESHES = {"meshes": "each argument is a mesh or a list of meshes."}
+_VOLUMES = {"volumes": "compute the volumes of the two operands, of their union and of their "
+                       "intersection."}
 _WELD = {
-    "same": "vertex properties that must agree, with the largest difference.",
-    "keep_seams": "normals, texture coordinates and colors must agree, except for those in "
-                  "`across`.",
-    "chain": "one point of all that steps of at most the tolerance link. By default a point is "
-             "dropped when an earlier kept one is within the tolerance.",
-    "keep": "which point of a group stays: 'first', 'last', 'mean', 'lowest' or 'highest' of "
-            "`keep_by`.",
-    "keep_by": "a property of vertices.",
-    "order_by": "a property of vertices: points are visited by its values, the least first; needs "
-                "`keep` 'first'. '': by number.",
-    "highest_first": "the greatest value of `order_by` first.",
-    "across": "properties that `keep_seams` does not look at."}
+    "same": "vertex properties that must agree for points to be merged, each with the largest "
+            "difference allowed.",
+    "keep_seams": "merge only points with equal normals, texture coordinates and colors, except "
+                  "for those in `across`.",
+    "chain": "merge all points that are connected by a chain of points, each within the tolerance"
+             " of the next. By default, a point is dropped if it is within the tolerance of an "
+             "earlier point that is kept.",
+    "keep": "which point of a group is kept: 'first', 'last', 'mean', or the one with the "
+            "'lowest' or 'highest' value of `keep_by`.",
+    "keep_by": "a vertex property.",
+    "order_by": "a vertex property: visit the points in ascending order of its values. Requires "
+                "`keep` 'first'. Empty: in the order of their numbers.",
+    "highest_first": "visit the points in descending order of `order_by`.",
+    "across": "properties that `keep_seams` ignores."}
 _FIXED = "a fixed body, or a list of them."
 
 #: A set operation by its name.
@@ -47,7 +50,7 @@ def _operation(name: str, what: str, leave: str = "gap",
 
 
 def _of_others(own: str) -> str:
-    """The options of placements that not all of these functions have, without its own."""
+    "Options that only some placement functions have, except for `own`."
     return " ".join(sorted({"bed", "effort", "flip", "max_angle", "tolerance"} - {*own.split()}))
 
 
@@ -60,51 +63,59 @@ def _placed(signature: str, call: str, own: str = "", **more: dict[str, str]) ->
 
 FUNCTIONS = [
     # _booleans
-    _operation("union", "What is in any of the solids: `union(a, b, ...)`, or `union([a, "
-                                 "b, ...])` as in trimesh. Of one mesh, the solid that it winds "
-                                 "around, without self-intersections. See `boolean`.", "", {
-                   "gap": "the widest gap to fill between faces of different solids, where they "
-                          "lie over each other. Faces of what fills it, the last, have the face "
-                          "that they stand on, or lie opposite of, as `face_source`; "
-                          "`filled_faces` of `statistics` counts the faces at such gaps. No "
-                          "volumes then."}),
-    _operation("intersection", "What is in all of the solids. Of one mesh that a "
-                                               "file of several objects was read to, its objects "
-                                               "are the solids, as in `difference`. See "
-                                               "`boolean`."),
-    _operation("difference", "The first solid without all others: `difference(a, b, "
-                                           "c)`, or `difference(a, [b, c])`. One mesh that a file "
-                                           "of several objects was read to (`attributes.parts`) is "
-                                           "the first object without the others, as in tf-boolean; "
-                                           "`face_source` and `vertex_source` count in each "
-                                           "object. One mesh without such objects is one solid, "
-                                           "and nothing is taken from it. See `boolean`."),
-    _operation("symmetric_difference", "What is in an odd number of the solids. Of one mesh "
-                                              "that a file of several objects was read to, its "
-                                              "objects are the solids, as in `difference`. See "
-                                              "`boolean`."),
+    _operation("union", "union", "The union of solids: `union(a, b, ...)`, or `union([a, b, "
+                                 "...])` as in trimesh. The union of a single mesh is the solid "
+                                 "that it encloses, without self-intersections. See `boolean`.",
+               "", {
+                   "gap": "fill gaps of at most this width between faces of different solids that"
+                          " face each other. The faces that bound a filled gap come last; their "
+                          "`face_source` is the face at the end of the gap, or the one opposite. "
+                          "`filled_faces` of `statistics` counts the faces at filled gaps. Not "
+                          "together with `volumes`."}),
+    _operation("intersection", "intersection", "The intersection of solids: the region that all "
+                                               "of them share. If a single mesh was read from a "
+                                               "file with several objects, these are the "
+                                               "operands, as in `difference`. See `boolean`."),
+    _operation("difference", "difference", "The first solid minus all others: `difference(a, b, "
+                                           "c)`, or `difference(a, [b, c])`. If a single mesh was"
+                                           " read from a file with several objects "
+                                           "(`attributes.parts`), the other objects are "
+                                           "subtracted from the first, as in tf-boolean; "
+                                           "`face_source` and `vertex_source` then have the "
+                                           "number of the object and the number within it. From a"
+                                           " single mesh without such objects, nothing is "
+                                           "subtracted. See `boolean`."),
+    _operation("symmetric_difference", "xor", "The symmetric difference (exclusive or) of solids:"
+                                              " the region inside an odd number of them. If a "
+                                              "single mesh was read from a file with several "
+                                              "objects, these are the operands, as in "
+                                              "`difference`. See `boolean`."),
     Function("boolean(expression: str, *operands: Operands, options: boolean_options, "
              "**meshes: Mesh) -> BooleanResult",
              body="by_formula(expression, operands, meshes, how, progress)",
              check="solids", leave="gap",
-             also="Attributes of operands are carried over: a face has the values of the face that "
-                  "it lies in, a new vertex on a cut interpolated ones. 0 or NaN stand where an "
-                  "operand has none. Only faces of equal values are merged; where vertices have "
-                  "values, only with `simplify`.",
+             also="Attributes of the operands are carried over. A face gets the values of the "
+                  "operand face that it lies in; a new vertex on a cut gets interpolated values. "
+                  "The value is 0 or NaN if an operand does not have the attribute. Coplanar "
+                  "faces are merged only if their values are equal, and if vertices have values, "
+                  "only with `simplify`.",
              docs=_VOLUMES | {
-                   "expression": "`a`, `b`, `c`, ... for `operands`, names of `meshes`, `+` or `|` "
-                                 "union, `*` or `&` intersection, `-` difference, `^` exclusive "
-                                 "or, and brackets. `*` and `&` bind tighter than the others, "
-                                 "which go from left to right."}),
+                   "expression": "a formula of `operands`, named `a`, `b`, `c`, ..., and of "
+                                 "`meshes` by their names: `+` or `|` for union, `*` or `&` for "
+                                 "intersection, `-` for difference, `^` for exclusive or, and "
+                                 "parentheses. `*` and `&` are evaluated first, the others from "
+                                 "left to right."}),
     Function("clip(sheet: Mesh, *solids: Operands, keep: str = \"outside\", options: "
              "boolean_options)"
              " -> BooleanResult", body="clipped(sheet, solids, keep, how, progress)",
              check="solids", leave="gap min_volume simplify volumes",
-             doc="An open surface cut by solids, one by one or in a list: the pieces of `sheet` "
-                 "outside all of them, or inside all. The sheet may end anywhere, overlap itself, "
-                 "and even be closed. Edges are not checked, since the result is open.",
-             docs={"keep": "'outside' or 'inside'. A piece on the surface of a solid is inside it, "
-                           "so both together are the sheet."}),
+             doc="Trims an open surface with solids, given one by one or as a list: returns the "
+                 "parts of `sheet` outside all of them, or inside all of them. The sheet may have"
+                 " any border, may intersect itself, and may even be closed. The result is an "
+                 "open surface, so its edges are not checked.",
+             docs={"keep": "'outside' or 'inside'. Parts on the surface of a solid count as "
+                           "inside it. So for one solid, the two results together are the whole "
+                           "sheet."}),
     Function("boolean_of(meshes: Meshes, operation: str, formula: str, names: Words, "
              "options: boolean_options) -> BooleanResult",
              "(require_faces(meshes, names), tf::boolean($meshes, expression_of("
@@ -125,39 +136,41 @@ FUNCTIONS = [
     Function("layer_heights(mesh: Mesh, thickness: float, normal: Vector = (0, 0, 1), "
              "at: Vector = (0, 0, 0)) -> Floats",
              "tf::oriented_plane{$at, $normal}.layer_heights(mesh.view().points, thickness)",
-             doc="(K,) heights for `section`: the middles of layers of this thickness, from the "
-                 "lowest vertex to the highest: half a thickness above the lowest is the first. "
-                 "Vertices that are not finite do not count.", docs=_PLANE),
+             doc="(K,) heights for `section`: the middle of each layer of this thickness, from "
+                 "the lowest vertex to the highest. The first height is half a thickness above "
+                 "the lowest vertex. Vertices that are not finite are ignored.", docs=_PLANE),
     Function("cut(mesh: Mesh, normal: Vector = (0, 0, 1), at: Vector = (0, 0, 0), *, "
              "heights: Heights = None, options: cut_options) -> CutPieces",
              "tf::cut($mesh, {$at, $normal}, $heights, options)", "attributes of mesh",
              check="solid", docs=_PLANE | _HEIGHTS,
-             also="So a solid is cut into what is below and above a plane; with `heights`, K + 1 "
-                  "pieces, from the lowest up. Some may have no faces."),
+             also="One plane cuts a solid into the piece below and the piece above it; K "
+                  "`heights` give K + 1 pieces, from bottom to top. A piece may be empty."),
     Function("cut_to_fit(mesh: Mesh, size: Vector, options: cut_options)"
              " -> CutPieces", "tf::cut_to_fit($mesh, $size, options)",
              "attributes of mesh", check="solid",
-             docs={"size": "(3,) of the box, as the bed of a printer."}),
+             docs={"size": "(3,) the size of the box, such as the build volume of a printer."}),
     Function("cut_along(mesh: Mesh, values: Numbers, levels: Levels)"
              " -> CutPieces",
              "tf::cut_along($mesh, $values, $levels, {.progress = report})", "attributes of mesh",
              check="mesh",
-             docs={"values": "(V,) of the vertices, linear in each face.", "levels": "(K,)"}),
+             docs={"values": "(V,) a value for each vertex, interpolated linearly over each face.",
+                   "levels": "(K,) the values to cut at."}),
     Function("components(mesh: Mesh, *, min_volume: float = 0.0, largest: int = 0)"
              " -> list[MeshPart]", "tf::components($mesh, min_volume, largest)",
              "attributes of mesh",
-             docs={"min_volume": "of parts, in cubic units.", "largest": "how many; 0: all."}),
+             docs={"min_volume": "ignore components with a smaller volume, in cubic units.",
+                   "largest": "return only this many of the largest components; 0: all."}),
     Function("submesh(mesh: Mesh, faces: Chosen) -> MeshPart", "tf::submesh($mesh, $faces)",
              "attributes of mesh", also="Vertices keep their attributes.",
-             docs={"faces": "(n,) numbers; or a mask (F,) of True and False."}),
+             docs={"faces": "(n,) face numbers, or a boolean mask (F,)."}),
     Function("mass_properties(mesh: Mesh) -> Optional[MassProperties]",
              "tf::find_mass_properties(mesh.view())"),
     Function("concatenate(meshes: Iterable[MeshLike]) -> Mesh", body="joined(meshes, progress)",
-             also="Their attributes are put together likewise."),
+             also="Their attributes are concatenated as well."),
     Function("transformed(mesh: Mesh, matrix: Matrix) -> Mesh", cpp="transform_mesh",
              words={"by": "matrix"},
-             also="It keeps its attributes, with normals turned.",
-             docs={"matrix": "(4, 4)"}),
+             also="Attributes are kept, and normals are transformed as well.",
+             docs={"matrix": "(4, 4) an affine transform."}),
     # _shapes
     Function("offset(mesh: Mesh, distance: float, options: offset_options) -> OffsetResult",
              "tf::offset($mesh, distance, options)", kind="long_work", check="solid",
@@ -166,64 +179,71 @@ FUNCTIONS = [
              "-> OffsetResult",
              "tf::hollow($mesh, wall, $drains, options)", kind="long_work", check="solid",
              leave="offset shift",
-             docs={"drains": "(n, 4) holes through the wall: a point, and the diameter of the hole "
-                             "at the nearest point of the surface."}),
+             docs={"drains": "(n, 4) drain holes through the wall: for each, a point and a "
+                             "diameter. The hole is at the surface point nearest to that point."}),
     Function("thicken(mesh: Mesh, thickness: float, options: offset_options) -> OffsetResult",
              "tf::thicken($mesh, thickness, options)", kind="long_work", check="solid",
              leave="offset",
-             docs={"shift": "how far the surface is first moved to its front; negative: to its "
-                            "back. Half of the thickness leaves its back where it is."}),
+             docs={"shift": "move the surface by this distance before thickening: toward its "
+                            "front if positive, toward its back if negative. By default, half of "
+                            "the thickness is added on each side; with half of the thickness as "
+                            "`shift`, all of it is added on the front."}),
     Function("simplify(mesh: Mesh, max_distance: float, *, face_groups: Groups = None, "
              "options: simplify_options) -> SimplifyResult",
              "attributes.simplify($mesh, max_distance, $face_groups, options)",
              "attributes of mesh", kind="long_work", check="mesh", cpp="simplify",
-             also="Values of vertices and corners are interpolated; seams, and borders of "
-                  "materials and of values of faces, are kept.",
-             docs={"face_groups": "(F,) numbers; edges between faces of different ones are "
-                                  "borders, too."}),
+             also="Values of vertices and corners are interpolated. Seams, and borders between "
+                  "faces with different materials or values, are preserved.",
+             docs={"face_groups": "(F,) a group number for each face; borders between groups are "
+                                  "preserved, too."}),
     Function("wall_thickness(mesh: Mesh, by: thickness_by = \"ray\") -> Thickness",
              "tf::wall_thickness($mesh, $by, report)",
-             docs={"by": "'ray', along the normal inward from the center of a face; or 'sphere', "
-                         "the diameter of the largest ball within that touches the center."}),
+             docs={"by": "'ray': along the inward normal from the center of each face; 'sphere': "
+                         "the diameter of the largest inscribed sphere that touches the center of"
+                         " the face."}),
     Function("oriented_box(points: Cloud) -> Optional[OrientedBox]",
-             "tf::find_oriented_box($points)", docs={"points": "(n, 3), or a mesh."}),
+             "tf::find_oriented_box($points)", docs={"points": "points (n, 3), or a mesh."}),
     Function("isolines(mesh: Mesh, values: Numbers, levels: Levels) -> Isolines",
              "tf::isolines($mesh, $values, $levels, report)",
-             docs={"values": "(V,) of the vertices, linear in each face.", "levels": "(K,)"}),
+             docs={"values": "(V,) a value for each vertex, interpolated linearly over each face.",
+                   "levels": "(K,) the values of the lines."}),
     # _repair
     Function("resolve_self_intersections(mesh: Mesh, mode: resolve_mode = \"outer\", "
              "options: resolve_options) -> RepairResult",
              "tf::resolve_self_intersections($mesh, $mode, options)", "attributes of mesh",
              check="solid",
-             docs={"mode": "'outer' cuts faces along each other and keeps what bounds the solid; "
-                           "'split' keeps every piece; 'remove' deletes faces that meet and fills "
-                           "the holes, for surfaces that bound no solid."}),
+             docs={"mode": "'outer' cuts faces along their intersections and keeps those that "
+                           "bound the solid; 'split' keeps all pieces; 'remove', for surfaces "
+                           "that do not bound a solid, deletes intersecting faces and fills the "
+                           "holes."}),
     Function("repair(mesh: Mesh, *, steps: Iterable[str] = STEPS, options: repair_options)"
              " -> RepairResult", "tf::repair($mesh, options)", "attributes of mesh", check="solid",
              given="**steps_of(steps)", leave="join orient fill resolve detach",
-             docs={"steps": "those to take. 'join' drops degenerate and repeated faces and closes "
-                            "cracks, 'orient' makes faces agree and look outward, 'fill' fills "
-                            "holes, 'resolve' cuts self-intersections, 'detach' moves apart what "
-                            "touches in an edge or a vertex.",
-                   "keep_cuts": "as in `boolean`; faces that fill holes are merged with each other "
-                                "alone.",
-                   "inside": "'nonzero', 'odd' or 'positive': what is solid. By default 'positive' "
-                             "where each shell looks outward, else 'nonzero', or labels."}),
+             docs={"steps": "the steps to perform. 'join' removes degenerate and duplicate faces "
+                            "and closes cracks; 'orient' orients faces consistently and outward; "
+                            "'fill' fills holes; 'resolve' removes self-intersections; 'detach' "
+                            "separates parts that touch only at an edge or a vertex.",
+                   "keep_cuts": "as in `boolean`; faces that fill holes are only merged with each"
+                                " other.",
+                   "inside": "'nonzero', 'odd' or 'positive': the winding numbers that count as "
+                             "inside. None: 'positive' if all shells are oriented outward, "
+                             "otherwise 'nonzero'; if faces are inconsistent, inside and outside "
+                             "are determined by a minimum cut."}),
     Function("wrap(mesh: Mesh, size: float, options: offset_options) -> OffsetResult",
              "tf::wrap($mesh, size, options)", kind="long_work", check="mesh",
              leave="resolution shift"),
     Function("convex_hull(points: Cloud) -> ConvexHull", "tf::convex_hull($points, report)",
-             docs={"points": "(n, 3), or a mesh."}),
+             docs={"points": "points (n, 3), or a mesh."}),
     Function("rounded(points: Points, precision: precision = \"float32\") -> Floats",
              "tf::rounded($points, $precision)",
-             doc="(n, 3) the points with each coordinate rounded to the nearest number of the "
-                 "precision, as float64; infinite beyond its range.",
+             doc="(n, 3) the points with each coordinate rounded to the nearest value of this "
+                 "precision, as float64; infinite if it is out of range.",
              docs={"precision": "'float32' or 'float64'."}),
     Function("find_rounding_defects(mesh: Mesh, placed: Points) -> tuple[int, int]",
              "tf::find_rounding_defects(mesh.view(), $placed, report)",
-             docs={"placed": "(V, 3)"},
-             also="Returns the number of faces that have lost their area, and of pairs of faces "
-                  "that meet now and did not before."),
+             docs={"placed": "(V, 3) the rounded vertices."},
+             also="Returns the number of faces that became degenerate, and the number of pairs of"
+                  " faces that intersect only after rounding."),
     Function("join_equal_points(mesh: Mesh) -> Mesh"),
     # _properties
     Function("bounds(mesh: Mesh) -> Optional[Floats]", "tf::bounding_box(mesh.view().points)"),
@@ -237,24 +257,26 @@ FUNCTIONS = [
     Function("count_inside_out(mesh: Mesh) -> int", "tf::count_inside_out(mesh.view())"),
     Function("find_features(mesh: Mesh, kind: feature_kind = \"plane\", options: feature_options)"
              " -> list[Feature]", "tf::find_features(mesh.view(), $kind, options)",
-             docs={"kind": "'plane' for the flat regions, 'axis' for the cylindrical ones."}),
+             docs={"kind": "'plane' for flat regions, 'axis' for cylindrical ones."}),
     Function("find_solid_defects(mesh: Mesh) -> SolidDefects",
              "tf::find_solid_defects($mesh, report)", cpp="find_solid_defects in repair"),
     # _intersections
     Function("self_intersections(mesh: Mesh, options: intersection_options) -> FacePairs",
              "tf::self_intersections($mesh, options)", leave="move_a move_b",
-             docs={"kinds": "those to look for, of `KINDS`; None is all. 'crossing': interiors "
-                            "pass through each other, no shared corner; 'pierce': the same with "
-                            "one shared corner; 'overlap': coplanar, with a common area; 'fold': "
-                            "coplanar, on the same side of a shared edge; 'duplicate': the same "
-                            "three corners; 'touching': contact without crossing; 'degenerate': "
-                            "one of them has no area."}),
+             docs={"kinds": "the kinds to search for, from `KINDS`; None: all. 'crossing': the "
+                            "faces pass through each other and share no vertex; 'pierce': "
+                            "likewise, with one shared vertex; 'overlap': coplanar, with a common"
+                            " area; 'fold': coplanar, on the same side of a shared edge; "
+                            "'duplicate': the same three vertices; 'touching': contact without "
+                            "crossing; 'degenerate': a face has no area."}),
     Function("mesh_intersections(a: Mesh, b: Mesh, options: intersection_options) -> "
              "FacePairs",
              "tf::mesh_intersections($a, $b, options)", leave="vertices",
-             docs=_MOVES | {"kinds": "those to look for, of `KINDS`; None is all."}),
+             docs=_MOVES | {"kinds": "the kinds to search for, from `KINDS`; None: all."}),
     Function("faces_in_box(mesh: Mesh, min: Vector, max: Vector) -> Ids",
-             "tf::faces_in_box(mesh.view(), $min, $max)", docs={"min": "(3,)", "max": "(3,)"}),
+             "tf::faces_in_box(mesh.view(), $min, $max)",
+             docs={"min": "(3,) the lower corner of the box.",
+                   "max": "(3,) the upper corner of the box."}),
     Function("group_pairs(mesh: Mesh, pairs: PairIds, kinds: Kinds) -> list[Region]",
              "tf::group_pairs(mesh.view(), pairs_of(pairs, kinds))"),
     Function("intersection_paths(mesh: Mesh, pairs: PairIds, kinds: Kinds)"
@@ -267,60 +289,63 @@ FUNCTIONS = [
              body="curves(*_core.intersection_paths(held(mesh), *pairs_of(found), "
                   "progress=progress))",
              cpp="intersection_paths",
-             doc="The curves along which pairs of faces meet, each (n, 3); the last point of a "
-                 "closed curve is the first again. Which segments there are is exact; points are "
-                 "rounded to nearest. A segment that several pairs have is there once.",
-             docs={"found": "pairs of faces of `mesh` that are not degenerate."}),
+             doc="The curves along which pairs of faces intersect, each (n, 3); a closed curve "
+                 "repeats its first point at the end. Segments are found exactly; their points "
+                 "are rounded to nearest. A segment common to several pairs appears only once.",
+             docs={"found": "pairs of faces of `mesh`; the faces must not be degenerate."}),
     Function("self_intersections_of_file(path: Path, options: stream_search_options, "
              "communicator: Communicator = None) -> FilePairs",
              body="in_communicator(communicator, lambda all: _core.self_intersections_of_file(\n"
                   "        path_of(path), how, all, progress=progress))",
              docs={"kinds": "as for `self_intersections`.",
-                   "vertices": "None: 'by_coordinates' for STL, else 'by_index'.",
-                   "folder": "for the tiles; empty: beside the input. Where a run was killed, the "
-                             "same call goes on.",
-                   "communicator": "ranks that do it together, as for `weld_stream`; the first one "
+                   "vertices": "None: 'by_coordinates' for STL, otherwise 'by_index'.",
+                   "folder": "the folder for temporary tiles; empty: a folder next to the input. "
+                             "If a run was interrupted, the same call resumes it.",
+                   "communicator": "processes that share the work, as for `weld_stream`. Rank 0 "
                                    "gets the result, all others an empty one."}),
     # _files
     Function("read(path: Path | IO[bytes], format: str = \"\", *, join: bool = True, "
              "options: read_options) -> Mesh", body="read_from(path, format, join, how, progress)",
-             also="Polygons are cut into triangles (`Attributes.stored_face`). A cloud has no "
-                  "faces. DAE and others are read where treeform was built with assimp. Where "
-                  "there is no such file, the error is a FileNotFoundError, too, and so on.",
-             docs={"path": "of the file; or what is open for reading bytes, such as BytesIO.",
-                   "format": "an extension without its dot; empty: the content decides, then the "
-                             "extension.",
-                   "join": "in a format that does not number its vertices (STL) or repeats them "
-                           "(GLB), corners with equal coordinates become one vertex, with the "
-                           "attributes of the first of them. Faces keep the order and the numbers "
-                           "that they have in the file, and vertices, too, in other formats.",
-                   "columns": "of XYZ, PTS and CSV, what columns are: {'x': 'E', 'y': 'N', 'z': "
-                              "'H'}; a number counts them from 1.",
-                   "drop_non_finite": "drop points with a NaN or infinite coordinate, and their "
-                                      "faces."}),
+             also="Polygons are triangulated (`Attributes.stored_face`). A point cloud has no "
+                  "faces. DAE and some other formats require a build with assimp. If the file "
+                  "does not exist, the FileError is also a FileNotFoundError, and likewise for "
+                  "other system errors.",
+             docs={"path": "the path of the file, or a binary file object, such as BytesIO.",
+                   "format": "a file extension without its dot; empty: determined by the content,"
+                             " then by the extension.",
+                   "join": "for formats that have no vertex numbers (STL) or repeat vertices "
+                           "(GLB), merge corners with equal coordinates into one vertex, which "
+                           "has the attributes of the first of them. Faces keep their numbers in "
+                           "the file; in other formats, so do vertices.",
+                   "columns": "for XYZ, PTS and CSV, which column of the file to use for which "
+                              "property: {'x': 'E', 'y': 'N', 'z': 'H'}; columns can also be "
+                              "given by number, from 1.",
+                   "drop_nan": "drop points with a NaN or infinite coordinate, and their faces."}),
     Function("write(path: Path | IO[bytes], mesh: PartsLike, options: write_options(format))"
              " -> Written", body="written(path, mesh, format, how, progress)",
              words={"file": "mesh"},
-             docs={"path": "of the file; or what is open for writing bytes, such as BytesIO, with "
+             docs={"path": "the path of the file, or a binary file object, such as BytesIO, with "
                            "`format`.",
-                   "mesh": "one; or several, which become the parts of the file, named \"1\", "
-                           "\"2\", ...; or a dict of names and meshes. 3MF and OBJ hold parts; in "
-                           "other formats they are one mesh, and a warning says so. Of several, "
-                           "columns of vertices and faces are left out.",
-                   "rename": "columns of points under another name: {'old': 'new'}.",
+                   "mesh": "a mesh; or several meshes, which become parts of the file, named \"1\","
+                           " \"2\", ...; or a dict of names and meshes. 3MF and OBJ can store "
+                           "parts; in other formats they become one mesh, with a warning. With "
+                           "several meshes, columns of vertices and faces are not written.",
+                   "rename": "new names for columns of points: {'old': 'new'}.",
                    "las_offset": "likewise.",
-                   "round": "a mesh whose coordinates were certified (`Mesh.certificate`) may be "
-                            "rounded further, which can undo what was certified. Otherwise that is "
-                            "an error: ask the operation for `precision='float32'` instead."}),
+                   "round": "allow rounding certified coordinates (`Mesh.certificate`) to the "
+                            "precision of the file. The rounded mesh may no longer have the "
+                            "certified properties, so this is an error by default: compute the "
+                            "result with `precision='float32'` instead."}),
     # _weld
     Function("count_nearly_equal(points: Points, distance: float) -> int",
              "tf::count_nearly_equal($points, distance)"),
     Function("weld(mesh_or_points: Body, options: weld_options(tolerance), "
              "label: Groups = None) -> WeldResult",
              docs=_WELD | {
-                 "mesh_or_points": "a mesh, points (n, 3), or anything with `points` or `vertices` "
-                                   "and no faces.",
-                 "label": "(n,) numbers; points with different ones are never merged."}),
+                 "mesh_or_points": "a mesh, points (n, 3), or an object with `points` or "
+                                   "`vertices` and no faces.",
+                 "label": "(n,) a label for each point; points with different labels are never "
+                          "merged."}),
     Function("weld_stream(files: Path | Iterable[Path], out: Path, "
              "options: weld_stream_options(tolerance), removed: Path = \"\", label: str = \"\", "
              "withhold: bool = False, columns: Columns = None, mixed: bool = False, "
@@ -329,36 +354,42 @@ FUNCTIONS = [
                   "withhold,\n"
                   "                    communicator, progress)",
              words={"inputs": "files", "welded": "out"},
-             also="The bytes of the outputs are those of `weld` of the whole.",
+             also="The outputs are the same, byte for byte, as those of `weld` for the whole "
+                  "input.",
              docs=_WELD | {
-                 "files": "one or several, as one cloud; or one mesh.",
+                 "files": "one or several files of points, read as one cloud; or one file of a "
+                          "mesh.",
                  "tolerance": "as for `weld`.",
-                 "keep_degenerate": "keep faces that repeat a corner.",
-                 "as_las": "for `out` in LAS: coordinates, and means of them, are rounded to the "
-                           "steps of that file before anything is decided of them.",
-                 "memory": "bytes that the process may take; 0: three quarters of the machine's.",
-                 "folder": "for tiles; empty: beside the first input. Where a run was killed, the "
-                           "same call goes on.",
+                 "keep_degenerate": "keep faces that have the same vertex more than once.",
+                 "as_las": "if `out` is a LAS file: round the coordinates, and means of "
+                           "coordinates, to the resolution of that file before they are compared.",
+                 "memory": "memory limit of the process, in bytes; 0: three quarters of the "
+                           "memory of the machine.",
+                 "folder": "the folder for temporary tiles; empty: a folder next to the first "
+                           "input. If a run was interrupted, the same call resumes it.",
                  "removed": "a file for the dropped points.",
-                 "label": "write all points, with the group of each in a property of this name.",
-                 "withhold": "write all points, with LAS's flag \"withheld\" of those dropped.",
+                 "label": "write all points, with the number of their group as a property of this"
+                          " name.",
+                 "withhold": "write all points, and set the LAS flag \"withheld\" for those "
+                             "dropped.",
                  "columns": "as for `read`.",
-                 "mixed": "LAS files may have other reference systems or time types than the "
-                          "first, whose are written.",
-                 "communicator": "ranks that do it together, each its share, in a folder that all "
-                                 "see: anything with `rank`, `size` and `allgather`, such as "
-                                 "`mpi4py.MPI.COMM_WORLD`. All call the same. Where one fails or "
-                                 "is interrupted, all raise at the next collective call."}),
+                 "mixed": "allow LAS files with different coordinate reference systems or time "
+                          "types. The output has those of the first file.",
+                 "communicator": "processes that share the work, in a folder that all can access:"
+                                 " an object with `rank`, `size` and `allgather`, such as "
+                                 "`mpi4py.MPI.COMM_WORLD`. All processes make the same call. If "
+                                 "one fails or is interrupted, all others raise an error at their"
+                                 " next collective call."}),
     # _nearness
     Function("closest_point(mesh: Mesh, points: Points, *, radius: float = np.inf)"
              " -> ClosestPoints", "tf::closest_point(mesh.prepared(), $points.subspan(begin, end - "
              "begin), radius)", pieces="$points.size()",
-             doc="The point of the surface that is nearest to each of `points` (n, 3). Distances "
-                 "are within 16 u L of the true ones, where u = 2^-53 and L is the larger of the "
-                 "distance and the diagonal of the face's box. Of several faces at the same "
-                 "computed distance, the lowest number is named. A Mesh keeps the index for the "
-                 "next call.",
-             docs={"radius": "what is further away is ignored; inclusive."}),
+             doc="The point on the surface nearest to each of `points` (n, 3). The error of a "
+                 "distance is at most 16 u L, where u = 2^-53 and L is the larger of the distance"
+                 " and the diagonal of the bounding box of the face. If several faces have the "
+                 "same computed distance, the one with the lowest number is returned. A Mesh "
+                 "keeps the index for later calls.",
+             docs={"radius": "ignore points on the surface that are farther away than this."}),
     Function("raycast(mesh: Mesh, origins: Points, directions: Points, *, t_min: float = 0.0, "
              "t_max: float = np.inf) -> RayHits", f"finite(tf::raycast({_PIECE}))",
              pieces=f"{_ALL_RAYS}.size()", docs=_RAYS),
@@ -369,119 +400,124 @@ FUNCTIONS = [
     Function("deviation(a: Body, b: Body, options: deviation_options) -> Optional[Deviation]",
              "tf::deviation(a.prepared(), b.prepared(), options)",
              missing="a has no points, or b no faces",
-             also="`a` and `b` are a mesh or a cloud (n, 3) each.",
-             docs={"band": "signed distances that are within tolerance."}),
+             also="`a` and `b` are each a mesh or a cloud (n, 3).",
+             docs={"band": "the lowest and highest signed distance that are within tolerance."}),
     Function("locate_points(mesh: Mesh, points: Points) -> tuple[Bytes, NDArray[np.int32]]",
              "tf::locate(mesh.prepared(), $points.subspan(begin, end - begin))",
              pieces="$points.size()"),
     Function("contains(mesh: MeshLike, points: ArrayLike) -> NDArray[np.bool_]",
              body="np.asarray(located(mesh, points, progress)[0] != OUTSIDE)",
              doc="(n,) bool: whether each of `points` (n, 3) is inside a closed mesh or on its "
-                 "surface: inside is where the winding number is not 0. Exact, for every point. "
-                 "Raises NotSolidError where the mesh is open. For other errors and cost, see "
-                 "`locate`."),
+                 "surface. A point is inside if its winding number is not 0. Exact for every "
+                 "point. Raises NotSolidError if the mesh is open. For other errors and the cost,"
+                 " see `locate`."),
     Function("locate(mesh: MeshLike, points: ArrayLike) -> NDArray[np.int8]",
              body="np.array([-1, 1, 0], np.int8)[located(mesh, points, progress)[0]]",
-             also="Returns (n,) int8: 1 where a point is strictly inside, 0 on the surface, -1 "
-                  "outside. Raises NotSolidError where the mesh is open.",
-             docs={"points": "(n, 3)"}),
+             also="Returns (n,) int8: 1 for points strictly inside, 0 for points on the surface, "
+                  "-1 for points outside. Raises NotSolidError if the mesh is open.",
+             docs={"points": "(n, 3) the points to locate."}),
     Function("winding_number(mesh: MeshLike, points: ArrayLike) -> NDArray[np.int32]",
              body="np.asarray(located(mesh, points, progress)[1])",
-             doc="(n,) int32: how often a closed mesh winds around each of `points` (n, 3); 0 on "
-                 "the surface. Exact. Raises NotSolidError where the mesh is open."),
+             doc="(n,) int32: the winding number of a closed mesh around each of `points` (n, 3);"
+                 " 0 for points on the surface. Exact. Raises NotSolidError if the mesh is open."),
     Function("signed_distance(mesh: MeshLike, points: ArrayLike) -> Floats",
              body="distances(mesh, points, progress)", cpp="deviation",
-             doc="(n,) the distance of each of `points` (n, 3) from the surface of a closed mesh; "
-                 "positive inside, as in trimesh, and exactly 0 on the surface. The sign is exact. "
-                 "`deviation` has the other sign, that of metrology: negative inside. Raises "
-                 "NotSolidError where the mesh is open."),
+             doc="(n,) the signed distance of each of `points` (n, 3) from the surface of a "
+                 "closed mesh: positive inside, as in trimesh, negative outside, and exactly 0 on"
+                 " the surface. The sign is exact. `deviation` uses the opposite sign, as "
+                 "metrology does. Raises NotSolidError if the mesh is open."),
     Function("raycast_all(mesh: Mesh, origins: Points, directions: Points, *, t_min: float = 0.0, "
              "t_max: float = np.inf) -> AllRayHits",
              body="all_hits(mesh, origins, directions, t_min, t_max, progress)", docs=_RAYS),
     # _placement
     _placed("slide(moving: Body, onto: Bodies, direction: Vector, options: "
             "placement_options(clearance))", "tf::slide($moving, $onto, $direction, options)",
-            "bed", docs={"onto": _FIXED, "direction": "(3,) of any length.", "bed":
-                         "z of a bed, which also stops the mesh: points that rest on it have "
-                         "exactly its z (with float32, the least one not below it), and no point "
-                         "is below."}),
+            "bed", docs={"onto": _FIXED,
+                         "direction": "(3,) the direction of motion, of any length.",
+                         "bed":
+                         "z of a bed, which also stops the mesh: points resting on the bed have "
+                         "exactly this z (for float32, the smallest value not below it), and no "
+                         "point is below it."}),
     _placed("drop(moving: Body, onto: Bodies = None, *, direction: Vector = (0, 0, -1), "
             "options: placement_options)",
             "onto.empty() ? tf::drop($moving, options, $direction) : "
             "tf::drop($moving, $onto, options, $direction)", "bed",
-            docs={"onto": _FIXED, "direction": "(3,) of any length, downward.",
-                  "bed": "z of the bed; without fixed bodies, there is one at 0.",
-                  "clearance": "As of `slide`.", "max_travel": "As of `slide`.",
-                  "precision": "As of `slide`."}),
+            docs={"onto": _FIXED, "direction": "(3,) the downward direction, of any length.",
+                  "bed": "z of the bed. None: no bed if there are fixed bodies, otherwise a bed "
+                         "at 0.",
+                  "clearance": "as for `slide`.", "max_travel": "as for `slide`.",
+                  "precision": "as for `slide`."}),
     _placed("mate(moving: Body, onto: Bodies, options: placement_options)",
             "tf::mate($moving, $onto, options)", docs={"onto": _FIXED}),
     _placed("separate(moving: Body, fixed: Bodies, options: placement_options(clearance))",
             "tf::separate($moving, $fixed, options)", "effort", docs={
                 "fixed": _FIXED,
-                "effort": "pairs of faces that the search may look at, a pair in motion counting "
-                          "as two; 0: 20 million and 200 for each face. Distances for a clearance "
-                          "do not count."}),
+                "effort": "limit for the number of pairs of faces that the search examines, where"
+                          " a pair in motion counts as two; 0: 20 million, plus 200 for each "
+                          "face. Distance computations for a clearance are not counted."}),
     _placed("turn(moving: Body, fixed: Bodies, axis: Vector, "
             "origin: Vector = (0.0, 0.0, 0.0), options: placement_options)",
             "tf::turn($moving, $fixed, $origin, $axis, options)", "max_angle tolerance",
-            docs={"fixed": _FIXED, "axis": "(3,) of any length.",
-                  "origin": "(3,) a point of the axis.",
-                  "max_angle": "in degrees; greater than 0, up to 360.",
-                  "tolerance": "the gap, beyond the clearance, that counts as contact; greater "
-                               "than 0. None: 2^-32 of the largest distance of a point from the "
-                               "axis."}),
+            docs={"fixed": _FIXED, "axis": "(3,) the direction of the axis, of any length.",
+                  "origin": "(3,) a point on the axis.",
+                  "max_angle": "the largest rotation, in degrees; greater than 0 and at most 360.",
+                  "tolerance": "the largest gap, beyond the clearance, that counts as contact; "
+                               "greater than 0. None: 2^-32 of the largest distance of a point "
+                               "from the axis."}),
     Function("measure(a: Body, b: Body, options: measure_options) -> Optional[Measure]",
              "tf::measure(a.prepared(), b.prepared(), options)",
-             doc="How two bodies lie to each other: separate, touching or penetrating, how far "
-                 "apart, and where. Each is a mesh or a cloud (n, 3). None where one has no faces, "
-                 "or they are further apart than `radius`. The relation is exact, and so is "
-                 "whether a distance is 0. Other distances are rounded as `distance` says.",
+             doc="The relation of two bodies (separate, touching or penetrating), their distance,"
+                 " and the nearest points. Each body is a mesh or a cloud (n, 3). Returns None if"
+                 " a mesh has no faces, or if the bodies are farther apart than `radius`. The "
+                 "relation is exact, and so is whether the distance is 0. Other distances are "
+                 "rounded as in `distance`.",
              leave="directions effort",
-             docs={"vertices": "'by_coordinates': corners with equal coordinates are shared; "
-                               "'by_index': those with the same number."}),
+             docs={"vertices": "'by_coordinates': vertices with equal coordinates are the same "
+                               "vertex; 'by_index': only those with the same number."}),
     Function("penetration_depth(a: Mesh, b: Mesh, options: measure_options) -> Optional[Depth]",
              "tf::penetration_depth(a.prepared(), b.prepared(), options)",
              leave="radius vertices",
-             docs={"directions": "Directions spread over the sphere, tried besides normals of "
-                                 "faces that meet.",
-                   "effort": "Pairs of faces that the search may test, a pair in motion counting "
-                             "as two; 0: 20 million plus 200 for each face."}),
+             docs={"directions": "the number of directions, spread over the sphere, to try in "
+                                 "addition to the normals of intersecting faces.",
+                   "effort": "limit for the number of pairs of faces that the search examines, "
+                             "where a pair in motion counts as two; 0: 20 million, plus 200 for "
+                             "each face."}),
     Function("time_of_impact(a: Mesh, b: Mesh, motion: Vector, options: impact_options) -> Impact",
              "tf::time_of_impact(a.prepared(), b.prepared(), $motion, options)",
-             docs=_MOVES | {"motion": "(3,)"}),
+             docs=_MOVES | {"motion": "(3,) the translation of `a` in one unit of time."}),
     Function("lay_flat(mesh: Mesh, options: lay_flat_options) -> Optional[LaidFlat]",
              "tf::lay_flat(mesh.prepared(), options)", "mesh",
-             missing="no side: fewer than three points, or all on a line"),
+             missing="no flat side: fewer than three points, or all on a line"),
     Function("align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False, "
              "options: align_options) -> Alignment",
              "tf::align(moving.prepared(), onto.prepared(), options)", "moving",
              given="**scale_of(scale)", leave="scale least_scale most_scale",
-             docs={"scale": "find a uniform scale, too; a pair is its bounds, in addition to the "
-                            "scale of `start`."}),
+             docs={"scale": "also find a uniform scale; a pair gives its lower and upper bound, "
+                            "relative to the scale of `start`."}),
     Function("mate_features(moving: Body, onto: Bodies, of_moving: Feature, of_fixed: Feature, "
              "options: placement_options) -> Placement",
              "tf::mate_features($moving, $onto, of_moving, of_fixed, options)", "moving",
              words={"fixed": "onto"}, leave=_of_others("flip"),
-             docs={"onto": _FIXED, "of_moving": "a plane or an axis of `find_features`.",
+             docs={"onto": _FIXED, "of_moving": "a plane or an axis found by `find_features`.",
                    "of_fixed": "one of the same kind.",
-                   "flip": "planes look the same way rather than at each other; axes are turned "
-                           "around."}),
+                   "flip": "make the normals of the planes point in the same direction instead of"
+                           " in opposite directions; for axes, reverse the direction."}),
     Function("pack(parts: Parts, size: ArrayLike, options: pack_options) -> Packing",
              "tf::pack($parts, options)", "parts", "long_work",
              given="size=extent_of(size)", leave="size",
-             docs={"size": "(2,) or (3,): length, depth and height of a plate."}),
+             docs={"size": "(2,) or (3,) the width, depth and height of a plate."}),
     # _assembly
     Function("intersects(a: Mesh, b: Mesh, *, move_a: Poses = None, move_b: Poses = None) -> Bytes",
              cpp="intersects in intersections", docs=_POSES, made="Any",
              value="one_or_all({}.view(np.bool_), move_a, move_b)"),
     Function("distance(a: Mesh, b: Mesh, *, move_a: Poses = None, move_b: Poses = None, "
              "radius: float = np.inf) -> Floats", cpp="distance in distance", made="Any",
-             docs=_POSES | {"radius": "beyond it, the distance is infinite."},
+             docs=_POSES | {"radius": "larger distances are returned as infinite."},
              value="one_or_all({}, move_a, move_b)"),
     Function("closest_points(a: Mesh, b: Mesh, *, move_a: Matrix = None, move_b: Matrix = None, "
              "radius: float = np.inf) -> Optional[NearestPoints]",
              "tf::closest_points(a.prepared(), b.prepared(), {$move_a, $move_b, radius})",
-             docs=_MOVES | {"radius": "beyond it, the answer is None."}),
+             docs=_MOVES | {"radius": "return None if the meshes are farther apart than this."}),
     Function("clash_parts(parts: Parts, options: clash_options, ignored: Pairs) -> ClashResult",
              "(options.ignored = $ignored, tf::clash(borrowed(parts), options))"),
     Function("clash_in_poses(parts: Parts, poses: Poses, options: clash_options, ignored: Pairs)"
@@ -490,15 +526,16 @@ FUNCTIONS = [
     Function("clash(parts: Parts, options: clash_options(clearance), poses: ArrayLike = None, "
              "ignored: PartPairs = ()) -> ClashResult",
              body="clashes(parts, poses, how, ignored, progress)", leave="first_only",
-             docs={"poses": "(N, 4, 4) an affine map for each of the N parts: where it is. Corners "
-                            "are rounded to float64 after it, and then exact; what is returned is "
-                            "where the parts are. `check_poses` is for many poses of all.",
-                   "ignored": "pairs of numbers of parts that are not looked at."}),
+             docs={"poses": "(N, 4, 4) an affine transform for each of the N parts. Transformed "
+                            "vertices are rounded to float64; everything after that is exact. The"
+                            " result refers to the transformed parts. For many poses of all "
+                            "parts, use `check_poses`.",
+                   "ignored": "pairs of part numbers to ignore."}),
     Function("check_poses(parts: Parts, poses: Numbers, options: clash_options(clearance), "
              "ignored: PartPairs = ()) -> PoseClashes",
              body="clashes_in_poses(parts, poses, how, ignored, progress)",
              leave="volumes depths limit",
-             docs={"poses": "(P, N, 4, 4) an affine map for each of the N parts, or (P, 4, 4) for "
-                            "a single one beside parts that stay: then it moves the first.",
-                   "ignored": "pairs of numbers of parts that are not looked at."}),
+             docs={"poses": "(P, N, 4, 4) for each of P poses, an affine transform for each of "
+                            "the N parts; or (P, 4, 4), to move only the first part.",
+                   "ignored": "pairs of part numbers to ignore."}),
 ]

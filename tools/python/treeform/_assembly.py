@@ -91,13 +91,13 @@ def clashes(parts: Iterable[Body], poses: ArrayLike | None, how: _core.ClashOpti
 #   PoseClashes
 @dataclass(frozen=True, repr=False)
 class PoseClashes(Result):
-    """What is not clear in each of many poses: n pairs of parts, pose after pose.
+    """The pairs of parts that clash or touch in each of many poses: n pairs, pose after pose.
 
-    pose: (n,) the pose, ascending.
-    parts: (n, 2) the parts, the lower number first.
-    how: (n,) uint8: how they lie, a place in `RELATIONS`.
-    distance: (n,) of those that are closer than the clearance; else 0.
-    clashing: Poses with a pair that penetrates or is too close.
+    pose: (n,) the number of the pose, ascending.
+    parts: (n, 2) the two parts, the lower number first.
+    how: (n,) uint8 the relation of the two parts, an index into `RELATIONS`.
+    distance: (n,) the distance of parts that are closer than the clearance, otherwise 0.
+    clashing: Number of poses in which a pair penetrates or is too close.
     """
 
     pose: Ids
@@ -138,8 +138,9 @@ def intersects(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     as soon as one pair is found. Of what is no `Mesh`, only faces that reach, as moved, into the
     intersection of both bounding boxes are indexed.
 
-    move_a: an affine map of `a` (4, 4), or many (n, 4, 4): then the answer is an array (n,).
-    move_b: the same of `b`.
+    move_a: an affine transform of `a`, (4, 4), or several, (n, 4, 4). With several, the result is
+        an array (n,).
+    move_b: likewise for `b`.
 
     Raises ValueError as `mesh_intersections`.
 
@@ -161,9 +162,10 @@ def distance(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
              progress: Progress = None) -> Any:
     """The distance of the surfaces `a` and `b`; infinite if `closest_points` returns none.
 
-    move_a: an affine map of `a` (4, 4), or many (n, 4, 4): then the answer is an array (n,).
-    move_b: the same of `b`.
-    radius: beyond it, the distance is infinite.
+    move_a: an affine transform of `a`, (4, 4), or several, (n, 4, 4). With several, the result is
+        an array (n,).
+    move_b: likewise for `b`.
+    radius: larger distances are returned as infinite.
 
     >>> import numpy as np, treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -213,9 +215,9 @@ def closest_points(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     faster for nearly flat surfaces that are not axis-aligned. Transforms other than rotations,
     uniform scalings and reflections are slower.
 
-    move_a: (4, 4) an affine map of `a`, applied first.
-    move_b: (4, 4) the same of `b`.
-    radius: beyond it, the answer is None.
+    move_a: (4, 4) an affine transform applied to `a` first.
+    move_b: (4, 4) an affine transform applied to `b` first.
+    radius: return None if the meshes are farther apart than this.
 
     Raises ValueError naming the mesh and its lowest face with a corner out of range or not finite;
     for a transform that is not finite; for a radius that is negative or NaN.
@@ -246,7 +248,8 @@ class PartClash(Result):
     depth: For penetrating parts: `penetration_depth`, the length of `move`.
     move: (3,) a short translation that separates `a` from `b`.
     depth_effort: Of `depth`, as in `penetration_depth_result`.
-    regions: Where they meet: (box (2, 3), pairs of faces, faces of a, faces of b).
+    regions: Where the parts meet: (bounding box (2, 3), number of pairs of faces, faces of a, faces
+        of b).
     """
 
     a: int
@@ -266,10 +269,10 @@ class PartClash(Result):
 
 @dataclass(frozen=True, repr=False)
 class ClashResult(Result):
-    """How all parts lie to each other.
+    """The relations of all pairs of parts.
 
     pairs: That are not clear, ascending.
-    counts: Pairs that were looked at, by how they lie.
+    counts: The number of pairs with each relation.
     clashes: Number of pairs that penetrate or are closer than the clearance; with a clearance, also
         pairs that touch.
     boxes_apart: Pairs excluded by their boxes.
@@ -297,10 +300,10 @@ def clash(parts: Iterable[Body], clearance: float = 0.0, *, volumes: bool = True
     depths: Compute depths of penetrating parts.
     limit: Faces listed for each region and part.
     vertices: 'by_coordinates' or 'by_index'. As in `measure`.
-    poses: (N, 4, 4) an affine map for each of the N parts: where it is. Corners are rounded to
-        float64 after it, and then exact; what is returned is where the parts are. `check_poses` is
-        for many poses of all.
-    ignored: pairs of numbers of parts that are not looked at.
+    poses: (N, 4, 4) an affine transform for each of the N parts. Transformed vertices are rounded
+        to float64; everything after that is exact. The result refers to the transformed parts. For
+        many poses of all parts, use `check_poses`.
+    ignored: pairs of part numbers to ignore.
 
     Raises ValueError naming the part and its lowest face with a corner out of range or not finite;
     for a clearance that is negative or not finite; for an ignored pair with a number out of range.
@@ -335,12 +338,12 @@ def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0,
     moved copies: they touch, a corner of one is so near the surface of the other that rounding
     might change its side, or a transform is not a rigid motion.
 
-    poses: (P, N, 4, 4) an affine map for each of the N parts, or (P, 4, 4) for a single one beside
-        parts that stay: then it moves the first.
+    poses: (P, N, 4, 4) for each of P poses, an affine transform for each of the N parts; or (P, 4,
+        4), to move only the first part.
     clearance: Parts that are nearer than this are too close.
     first_only: `check_poses`: only the first clash of each pose.
     vertices: 'by_coordinates' or 'by_index'. As in `measure`.
-    ignored: pairs of numbers of parts that are not looked at.
+    ignored: pairs of part numbers to ignore.
 
     Raises ValueError naming the part and its lowest face with a corner out of range or not finite,
     the pose with a transform that is not finite; for a number of transforms that is not a multiple

@@ -65,16 +65,18 @@ def clipped(sheet: MeshLike, solids: tuple[Any, ...], keep: str, how: _core.Bool
 #   check_solid
 @dataclass(frozen=True, repr=False)
 class BooleanResult(MeshResult):
-    """The surface of a solid, and what was checked about it. Every function that takes a mesh takes
-    a result; `vertices, faces = result.mesh`.
+    """The surface of a solid, and what was verified about it. A result can be passed to any
+    function that takes a mesh; `vertices, faces = result.mesh`.
 
     mesh: Faces are counter-clockwise from outside.
-    certificate: What was checked about its coordinates.
-    face_source: (F, 2) the lowest operand, and its face, that each face lies in.
-    vertex_source: (V, 2) the lowest operand, and its vertex, that each vertex is; `NONE` for new
-        ones.
-    volumes: With `volumes`: of the first, the second, either and both.
-    statistics: Counts of what was done.
+    certificate: What was verified about the coordinates.
+    face_source: (F, 2) for each face, the operand and the operand's face that contains it; the
+        lowest operand if there are several.
+    vertex_source: (V, 2) for each vertex, the operand and the operand's vertex that it comes from;
+        the lowest operand if there are several, `NONE` for new vertices.
+    volumes: If `volumes` was set: the volumes of the first operand, the second, their union and
+        their intersection.
+    statistics: Counters of the operation.
     """
 
     mesh: Mesh
@@ -89,10 +91,10 @@ def union(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float6
           max_displacement: float = np.inf, keep_cuts: bool = False, simplify: bool = False,
           volumes: bool = False, min_volume: float = 0.0, gap: float = 0.0, check: bool = True,
           progress: Progress = None) -> BooleanResult:
-    """What is in any of the solids: `union(a, b, ...)`, or `union([a, b, ...])` as in trimesh. Of
-    one mesh, the solid that it winds around, without self-intersections. See `boolean`.
+    """The union of solids: `union(a, b, ...)`, or `union([a, b, ...])` as in trimesh. The union of
+    a single mesh is the solid that it encloses, without self-intersections. See `boolean`.
 
-    meshes: each a mesh, or a list of meshes.
+    meshes: each argument is a mesh or a list of meshes.
     inside: 'nonzero', 'odd' or 'positive'. What is solid.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
     max_displacement: Where rounding makes faces meet, only points at most this far apart are
@@ -102,18 +104,18 @@ def union(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float6
         merged, exactly and before rounding: this removes vertices inside a flat part, and on a
         straight edge between two flat parts. Uncut faces stay as they are. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
-    volumes: compute those of two operands, of what is in either, and of what is in both.
+    volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
         are dropped, and small voids are filled, with all that is in them. A part is a component
         connected by edges; its volume is the volume that it encloses. For solids only. Finite and
         not negative.
-    gap: the widest gap to fill between faces of different solids, where they lie over each other.
-        Faces of what fills it, the last, have the face that they stand on, or lie opposite of, as
-        `face_source`; `filled_faces` of `statistics` counts the faces at such gaps. No volumes
-        then.
-    check: False returns what could not be certified, too, with its `certificate`.
+    gap: fill gaps of at most this width between faces of different solids that face each other. The
+        faces that bound a filled gap come last; their `face_source` is the face at the end of the
+        gap, or the one opposite. `filled_faces` of `statistics` counts the faces at filled gaps.
+        Not together with `volumes`.
+    check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError where an operand is open, NotCertifiedError where the result could not be
+    Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
     certified; ValueError if the expression has another number of operands; naming a face with a
     corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000; for a
     `gap` if the expression is not a union of all operands.
@@ -136,10 +138,10 @@ def intersection(*meshes: MeshesLike, inside: str = "nonzero", precision: str = 
                  max_displacement: float = np.inf, keep_cuts: bool = False, simplify: bool = False,
                  volumes: bool = False, min_volume: float = 0.0, check: bool = True,
                  progress: Progress = None) -> BooleanResult:
-    """What is in all of the solids. Of one mesh that a file of several objects was read to, its
-    objects are the solids, as in `difference`. See `boolean`.
+    """The intersection of solids: the region that all of them share. If a single mesh was read from
+    a file with several objects, these are the operands, as in `difference`. See `boolean`.
 
-    meshes: each a mesh, or a list of meshes.
+    meshes: each argument is a mesh or a list of meshes.
     inside: 'nonzero', 'odd' or 'positive'. What is solid.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
     max_displacement: Where rounding makes faces meet, only points at most this far apart are
@@ -149,14 +151,14 @@ def intersection(*meshes: MeshesLike, inside: str = "nonzero", precision: str = 
         merged, exactly and before rounding: this removes vertices inside a flat part, and on a
         straight edge between two flat parts. Uncut faces stay as they are. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
-    volumes: compute those of two operands, of what is in either, and of what is in both.
+    volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
         are dropped, and small voids are filled, with all that is in them. A part is a component
         connected by edges; its volume is the volume that it encloses. For solids only. Finite and
         not negative.
-    check: False returns what could not be certified, too, with its `certificate`.
+    check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError where an operand is open, NotCertifiedError where the result could not be
+    Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
     certified; ValueError if the expression has another number of operands; naming a face with a
     corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000.
 
@@ -177,12 +179,13 @@ def difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "f
                max_displacement: float = np.inf, keep_cuts: bool = False, simplify: bool = False,
                volumes: bool = False, min_volume: float = 0.0, check: bool = True,
                progress: Progress = None) -> BooleanResult:
-    """The first solid without all others: `difference(a, b, c)`, or `difference(a, [b, c])`. One
-    mesh that a file of several objects was read to (`attributes.parts`) is the first object without
-    the others, as in tf-boolean; `face_source` and `vertex_source` count in each object. One mesh
-    without such objects is one solid, and nothing is taken from it. See `boolean`.
+    """The first solid minus all others: `difference(a, b, c)`, or `difference(a, [b, c])`. If a
+    single mesh was read from a file with several objects (`attributes.parts`), the other objects
+    are subtracted from the first, as in tf-boolean; `face_source` and `vertex_source` then have the
+    number of the object and the number within it. From a single mesh without such objects, nothing
+    is subtracted. See `boolean`.
 
-    meshes: each a mesh, or a list of meshes.
+    meshes: each argument is a mesh or a list of meshes.
     inside: 'nonzero', 'odd' or 'positive'. What is solid.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
     max_displacement: Where rounding makes faces meet, only points at most this far apart are
@@ -192,14 +195,14 @@ def difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "f
         merged, exactly and before rounding: this removes vertices inside a flat part, and on a
         straight edge between two flat parts. Uncut faces stay as they are. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
-    volumes: compute those of two operands, of what is in either, and of what is in both.
+    volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
         are dropped, and small voids are filled, with all that is in them. A part is a component
         connected by edges; its volume is the volume that it encloses. For solids only. Finite and
         not negative.
-    check: False returns what could not be certified, too, with its `certificate`.
+    check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError where an operand is open, NotCertifiedError where the result could not be
+    Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
     certified; ValueError if the expression has another number of operands; naming a face with a
     corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000.
 
@@ -221,10 +224,11 @@ def symmetric_difference(*meshes: MeshesLike, inside: str = "nonzero", precision
                          max_displacement: float = np.inf, keep_cuts: bool = False,
                          simplify: bool = False, volumes: bool = False, min_volume: float = 0.0,
                          check: bool = True, progress: Progress = None) -> BooleanResult:
-    """What is in an odd number of the solids. Of one mesh that a file of several objects was read
-    to, its objects are the solids, as in `difference`. See `boolean`.
+    """The symmetric difference (exclusive or) of solids: the region inside an odd number of them.
+    If a single mesh was read from a file with several objects, these are the operands, as in
+    `difference`. See `boolean`.
 
-    meshes: each a mesh, or a list of meshes.
+    meshes: each argument is a mesh or a list of meshes.
     inside: 'nonzero', 'odd' or 'positive'. What is solid.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
     max_displacement: Where rounding makes faces meet, only points at most this far apart are
@@ -234,14 +238,14 @@ def symmetric_difference(*meshes: MeshesLike, inside: str = "nonzero", precision
         merged, exactly and before rounding: this removes vertices inside a flat part, and on a
         straight edge between two flat parts. Uncut faces stay as they are. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
-    volumes: compute those of two operands, of what is in either, and of what is in both.
+    volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
         are dropped, and small voids are filled, with all that is in them. A part is a component
         connected by edges; its volume is the volume that it encloses. For solids only. Finite and
         not negative.
-    check: False returns what could not be certified, too, with its `certificate`.
+    check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError where an operand is open, NotCertifiedError where the result could not be
+    Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
     certified; ValueError if the expression has another number of operands; naming a face with a
     corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000.
 
@@ -276,13 +280,14 @@ def boolean(expression: str, *operands: MeshesLike, inside: str = "nonzero",
     an edge or at a vertex, each part has its own vertices there, with equal coordinates, so that
     every edge has two faces.
 
-    Attributes of operands are carried over: a face has the values of the face that it lies in, a
-    new vertex on a cut interpolated ones. 0 or NaN stand where an operand has none. Only faces of
-    equal values are merged; where vertices have values, only with `simplify`.
+    Attributes of the operands are carried over. A face gets the values of the operand face that it
+    lies in; a new vertex on a cut gets interpolated values. The value is 0 or NaN if an operand
+    does not have the attribute. Coplanar faces are merged only if their values are equal, and if
+    vertices have values, only with `simplify`.
 
-    expression: `a`, `b`, `c`, ... for `operands`, names of `meshes`, `+` or `|` union, `*` or `&`
-        intersection, `-` difference, `^` exclusive or, and brackets. `*` and `&` bind tighter than
-        the others, which go from left to right.
+    expression: a formula of `operands`, named `a`, `b`, `c`, ..., and of `meshes` by their names:
+        `+` or `|` for union, `*` or `&` for intersection, `-` for difference, `^` for exclusive or,
+        and parentheses. `*` and `&` are evaluated first, the others from left to right.
     inside: 'nonzero', 'odd' or 'positive'. What is solid.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
     max_displacement: Where rounding makes faces meet, only points at most this far apart are
@@ -292,14 +297,14 @@ def boolean(expression: str, *operands: MeshesLike, inside: str = "nonzero",
         merged, exactly and before rounding: this removes vertices inside a flat part, and on a
         straight edge between two flat parts. Uncut faces stay as they are. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
-    volumes: compute those of two operands, of what is in either, and of what is in both.
+    volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
         are dropped, and small voids are filled, with all that is in them. A part is a component
         connected by edges; its volume is the volume that it encloses. For solids only. Finite and
         not negative.
-    check: False returns what could not be certified, too, with its `certificate`.
+    check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError where an operand is open, NotCertifiedError where the result could not be
+    Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
     certified; ValueError if the expression has another number of operands; naming a face with a
     corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000.
 
@@ -320,12 +325,12 @@ def boolean(expression: str, *operands: MeshesLike, inside: str = "nonzero",
 def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", inside: str = "nonzero",
          precision: str = "float64", max_displacement: float = np.inf, keep_cuts: bool = False,
          check: bool = True, progress: Progress = None) -> BooleanResult:
-    """An open surface cut by solids, one by one or in a list: the pieces of `sheet` outside all of
-    them, or inside all. The sheet may end anywhere, overlap itself, and even be closed. Edges are
-    not checked, since the result is open.
+    """Trims an open surface with solids, given one by one or as a list: returns the parts of
+    `sheet` outside all of them, or inside all of them. The sheet may have any border, may intersect
+    itself, and may even be closed. The result is an open surface, so its edges are not checked.
 
-    keep: 'outside' or 'inside'. A piece on the surface of a solid is inside it, so both together
-        are the sheet.
+    keep: 'outside' or 'inside'. Parts on the surface of a solid count as inside it. So for one
+        solid, the two results together are the whole sheet.
     inside: 'nonzero', 'odd' or 'positive'. What is solid.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
     max_displacement: Where rounding makes faces meet, only points at most this far apart are
@@ -334,9 +339,9 @@ def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", inside: st
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged, exactly and before rounding: this removes vertices inside a flat part, and on a
         straight edge between two flat parts. Uncut faces stay as they are. `split` keeps all cuts.
-    check: False returns what could not be certified, too, with its `certificate`.
+    check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError where an operand is open, NotCertifiedError where the result could not be
+    Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
     certified; ValueError as `boolean`; if `sheet` is not an operand; if the expression may be true
     outside of the sheet, as in a union.
 
@@ -359,14 +364,14 @@ def split(*meshes: MeshesLike, precision: str = "float64", max_displacement: flo
     certificate does not check edges. Where faces overlap, one piece stands for all; its source is
     the lowest of them. Coplanar pieces are not merged.
 
-    meshes: each a mesh, or a list of meshes.
+    meshes: each argument is a mesh or a list of meshes.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
     max_displacement: Where rounding makes faces meet, only points at most this far apart are
         joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
         coordinate. Not negative.
-    check: False returns what could not be certified, too, with its `certificate`.
+    check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotCertifiedError where the result could not be certified.
+    Raises NotCertifiedError if the result could not be certified.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")

@@ -28,17 +28,18 @@ __all__ = ["CutPiece", "CutPieces", "MassProperties", "MeshPart", "Section", "Se
 #   Section
 @dataclass(frozen=True, repr=False)
 class Section(Result):
-    """What is in parallel planes: layers, in the order of their heights as given. Layer i has the
-    loops `loops(i)`.
+    """Sections by parallel planes: one layer for each height, in the given order. `loops(i)`
+    returns the loops of layer i.
 
-    heights: (K,) of the layers.
-    origins: (K, 3) a point of each plane.
-    areas: (K,) the area inside; of a solid, rounded.
-    lengths: (K,) of all loops.
-    open_counts: (K,) how many polylines are open; none of a solid.
-    points: (P, 2) of all loops, one after the other: (x . p, y . p) of p in space.
-    faces: (P,) the face that the side from each point on lies in.
-    axes: (3, 3) the axes x and y of `points`, and the normal, each of length 1.
+    heights: (K,) the height of each layer.
+    origins: (K, 3) a point on each plane.
+    areas: (K,) the area inside the loops of each layer; meaningful for solids.
+    lengths: (K,) the total length of the loops of each layer.
+    open_counts: (K,) the number of open polylines of each layer; 0 for a solid.
+    points: (P, 2) the points of all loops, one loop after the other: (x . p, y . p) for a point p
+        in space.
+    faces: (P,) for each point, the face that contains the side starting at it.
+    axes: (3, 3) the x and y axes of `points` and the normal of the plane, each of length 1.
     """
 
     heights: Floats
@@ -126,14 +127,15 @@ def joined(meshes: Iterable[MeshLike], progress: Progress) -> Mesh:
 class SectionLoop(Result):
     """A closed polygon, or an open polyline that ends at a border of the mesh.
 
-    points: (n, 2) in the plane of the section; the first is not repeated.
-    faces: (n,) the face that the side from each point to the next lies in.
-    closed: Whether it is a polygon.
-    oriented: The faces along it agree: what is inside is to the left, seen from above the plane.
-    parent: The innermost loop of the layer that is around it, by number; None for none.
+    points: (n, 2) in the plane of the section; the first point is not repeated at the end.
+    faces: (n,) for each point, the face that contains the side to the next point.
+    closed: Whether the loop is a closed polygon.
+    oriented: Whether the faces along it are oriented consistently: the inside is to the left, seen
+        from above the plane.
+    parent: The number of the innermost loop of the layer that encloses it, or None.
     depth: Number of loops around this one; odd for holes in a solid.
     area: Positive if counter-clockwise; 0 for open loops.
-    length: Of its sides.
+    length: Sum of the lengths of its sides.
     """
 
     points: Floats
@@ -170,9 +172,10 @@ def section(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0
 
     Loops are in the order of their lowest faces.
 
-    normal: (3,) of the plane, of any length.
-    at: (3,) a point of the plane.
-    heights: (K,) of planes above that one, along its normal at length 1; None is the plane itself.
+    normal: (3,) the normal of the plane, of any length.
+    at: (3,) a point on the plane.
+    heights: (K,) the distances of K parallel planes from this plane, measured along its unit
+        normal. None: this plane only.
 
     Raises ValueError naming a face with a corner out of range or not finite, for a plane or height
     that is not finite, or a normal that is zero.
@@ -191,12 +194,12 @@ def section(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0
 
 def layer_heights(mesh: MeshLike, thickness: float, normal: ArrayLike = (0, 0, 1),
                   at: ArrayLike = (0, 0, 0), *, progress: Progress = None) -> Floats:
-    """(K,) heights for `section`: the middles of layers of this thickness, from the lowest vertex
-    to the highest: half a thickness above the lowest is the first. Vertices that are not finite do
-    not count.
+    """(K,) heights for `section`: the middle of each layer of this thickness, from the lowest
+    vertex to the highest. The first height is half a thickness above the lowest vertex. Vertices
+    that are not finite are ignored.
 
-    normal: (3,) of the plane, of any length.
-    at: (3,) a point of the plane.
+    normal: (3,) the normal of the plane, of any length.
+    at: (3,) a point on the plane.
 
     >>> import treeform
     >>> treeform.layer_heights(treeform.read("data/cube.stl"), 0.5).tolist()
@@ -236,19 +239,20 @@ def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0)
     parts that are inside out or hidden in others, it is first replaced by the solid that it winds
     around, rounded; the statements above then hold for that solid. Equal planes count once.
 
-    So a solid is cut into what is below and above a plane; with `heights`, K + 1 pieces, from the
-    lowest up. Some may have no faces.
+    One plane cuts a solid into the piece below and the piece above it; K `heights` give K + 1
+    pieces, from bottom to top. A piece may be empty.
 
-    normal: (3,) of the plane, of any length.
-    at: (3,) a point of the plane.
-    heights: (K,) of planes above that one, along its normal at length 1; None is the plane itself.
+    normal: (3,) the normal of the plane, of any length.
+    at: (3,) a point on the plane.
+    heights: (K,) the distances of K parallel planes from this plane, measured along its unit
+        normal. None: this plane only.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
     max_displacement: As in `boolean`.
     caps: Close pieces by caps. If false, the mesh is cut as a surface, which may be open, and
         pieces are open at the planes.
-    check: False returns what could not be certified, too, with its `certificate`.
+    check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError where the mesh is open, NotCertifiedError where the result could not be
+    Raises NotSolidError if the mesh is open, NotCertifiedError if the result could not be
     certified; ValueError as `section` and `boolean`.
 
     Cost: as `boolean` of the mesh with itself, and O(n log n) for the n faces that are cut; caps of
@@ -273,14 +277,14 @@ def cut_to_fit(mesh: MeshLike, size: ArrayLike, *, precision: str = "float64",
     numbered across x first, then y, then z. Cuts across y and z cut the rounded pieces of the cuts
     before.
 
-    size: (3,) of the box, as the bed of a printer.
+    size: (3,) the size of the box, such as the build volume of a printer.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
     max_displacement: As in `boolean`.
     caps: Close pieces by caps. If false, the mesh is cut as a surface, which may be open, and
         pieces are open at the planes.
-    check: False returns what could not be certified, too, with its `certificate`.
+    check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError where the mesh is open, NotCertifiedError where the result could not be
+    Raises NotSolidError if the mesh is open, NotCertifiedError if the result could not be
     certified; ValueError as `cut`; for a size that is not positive; for more than 2^16 planes
     across an axis, or possibly more than 2^20 pieces.
 
@@ -303,11 +307,11 @@ def cut_along(mesh: MeshLike, values: ArrayLike, levels: ArrayLike, *, check: bo
     The certificate tells whether faces of all pieces together meet beyond common corners and edges,
     because faces of the mesh do, or by rounding. Its face numbers count through all pieces.
 
-    values: (V,) of the vertices, linear in each face.
-    levels: (K,)
-    check: False returns what could not be certified, too, with its `certificate`.
+    values: (V,) a value for each vertex, interpolated linearly over each face.
+    levels: (K,) the values to cut at.
+    check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotCertifiedError where the result could not be certified; ValueError as `isolines`.
+    Raises NotCertifiedError if the result could not be certified; ValueError as `isolines`.
 
     Cost: as `isolines` and `self_intersections`.
 
@@ -324,7 +328,7 @@ def cut_along(mesh: MeshLike, values: ArrayLike, levels: ArrayLike, *, check: bo
 
 @dataclass(frozen=True, repr=False)
 class MeshPart(MeshResult):
-    """Faces of a mesh by themselves, with the vertices that they use, and their attributes.
+    """Some faces of a mesh as a mesh of their own, with their vertices and attributes.
 
     mesh: The part.
     face_source: (F,) the number of each face in the given mesh.
@@ -348,8 +352,8 @@ def components(mesh: MeshLike, *, min_volume: float = 0.0, largest: int = 0,
     parts as 0. Parts with less than `min_volume`, in cubic units, are left out; `largest` parts of
     the greatest volume are kept, of equal ones those of the greatest area; 0: all.
 
-    min_volume: of parts, in cubic units.
-    largest: how many; 0: all.
+    min_volume: ignore components with a smaller volume, in cubic units.
+    largest: return only this many of the largest components; 0: all.
 
     Raises ValueError naming the lowest face with a corner out of range, and for a `min_volume` that
     is negative or NaN.
@@ -370,7 +374,7 @@ def submesh(mesh: MeshLike, faces: ArrayLike, *, progress: Progress = None) -> M
 
     Vertices keep their attributes.
 
-    faces: (n,) numbers; or a mask (F,) of True and False.
+    faces: (n,) face numbers, or a boolean mask (F,).
 
     Raises ValueError naming a number that is out of range, or a face with a corner out of range.
 
@@ -386,7 +390,7 @@ def submesh(mesh: MeshLike, faces: ArrayLike, *, progress: Progress = None) -> M
 def concatenate(meshes: Iterable[MeshLike], *, progress: Progress = None) -> Mesh:
     """The points and faces of all meshes, one mesh after the other; points are not joined.
 
-    Their attributes are put together likewise.
+    Their attributes are concatenated as well.
 
     Raises ValueError for more points or faces than 32 bits can number.
 
@@ -402,9 +406,9 @@ def transformed(mesh: MeshLike, matrix: ArrayLike | None, *, progress: Progress 
     """The mesh with transformed points. If `matrix` mirrors, faces are flipped, so that they still
     point outward.
 
-    It keeps its attributes, with normals turned.
+    Attributes are kept, and normals are transformed as well.
 
-    matrix: (4, 4)
+    matrix: (4, 4) an affine transform.
 
     >>> import numpy as np
     >>> import treeform

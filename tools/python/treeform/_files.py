@@ -152,18 +152,19 @@ def read(path: Path | IO[bytes], format: str = "", *, join: bool = True,
       name, except for KHR_mesh_quantization and those that only change how a surface looks. glTF
       1.0 is left to assimp.
 
-    Polygons are cut into triangles (`Attributes.stored_face`). A cloud has no faces. DAE and others
-    are read where treeform was built with assimp. Where there is no such file, the error is a
-    FileNotFoundError, too, and so on.
+    Polygons are triangulated (`Attributes.stored_face`). A point cloud has no faces. DAE and some
+    other formats require a build with assimp. If the file does not exist, the FileError is also a
+    FileNotFoundError, and likewise for other system errors.
 
-    path: of the file; or what is open for reading bytes, such as BytesIO.
-    format: an extension without its dot; empty: the content decides, then the extension.
-    join: in a format that does not number its vertices (STL) or repeats them (GLB), corners with
-        equal coordinates become one vertex, with the attributes of the first of them. Faces keep
-        the order and the numbers that they have in the file, and vertices, too, in other formats.
-    columns: of XYZ, PTS and CSV, what columns are: {'x': 'E', 'y': 'N', 'z': 'H'}; a number counts
-        them from 1.
-    drop_non_finite: drop points with a NaN or infinite coordinate, and their faces.
+    path: the path of the file, or a binary file object, such as BytesIO.
+    format: a file extension without its dot; empty: determined by the content, then by the
+        extension.
+    join: for formats that have no vertex numbers (STL) or repeat vertices (GLB), merge corners with
+        equal coordinates into one vertex, which has the attributes of the first of them. Faces keep
+        their numbers in the file; in other formats, so do vertices.
+    columns: for XYZ, PTS and CSV, which column of the file to use for which property: {'x': 'E',
+        'y': 'N', 'z': 'H'}; columns can also be given by number, from 1.
+    drop_nan: drop points with a NaN or infinite coordinate, and their faces.
 
     Raises FileError naming path, line or byte, and reason.
 
@@ -182,9 +183,9 @@ class Written(Result):
     """What `write` wrote.
 
     format: 'stl-binary', 'ply-ascii', 'obj', ...
-    precision: Of the coordinates written: 'float32' or 'float64'.
+    precision: Precision of the written coordinates: 'float32' or 'float64'.
     max_displacement: Largest change of a coordinate by rounding to `precision`.
-    warnings: What a person should know.
+    warnings: Warnings for the user.
     """
 
     format: str
@@ -241,10 +242,10 @@ def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: b
 
     An empty mesh can be written in every mesh format, and read again.
 
-    path: of the file; or what is open for writing bytes, such as BytesIO, with `format`.
-    mesh: one; or several, which become the parts of the file, named "1", "2", ...; or a dict of
-        names and meshes. 3MF and OBJ hold parts; in other formats they are one mesh, and a warning
-        says so. Of several, columns of vertices and faces are left out.
+    path: the path of the file, or a binary file object, such as BytesIO, with `format`.
+    mesh: a mesh; or several meshes, which become parts of the file, named "1", "2", ...; or a dict
+        of names and meshes. 3MF and OBJ can store parts; in other formats they become one mesh,
+        with a warning. With several meshes, columns of vertices and faces are not written.
     format: Extension without its dot: stl, obj, ply, off, xyz, csv, pcd, las, laz, glb, 3mf. Empty:
         that of the path.
     ascii: Write text if the format has text and binary. Binary PLY is little endian, unless the
@@ -255,12 +256,12 @@ def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: b
         float, so none means float32 there.
     drop: Columns of points to omit; "normal", "uv" or "color" for all columns of that kind, also of
         corners.
-    rename: columns of points under another name: {'old': 'new'}.
+    rename: new names for columns of points: {'old': 'new'}.
     las_scale: For LAS and LAZ; None: those of the file, else chosen by `write`.
     las_offset: likewise.
-    round: a mesh whose coordinates were certified (`Mesh.certificate`) may be rounded further,
-        which can undo what was certified. Otherwise that is an error: ask the operation for
-        `precision='float32'` instead.
+    round: allow rounding certified coordinates (`Mesh.certificate`) to the precision of the file.
+        The rounded mesh may no longer have the certified properties, so this is an error by
+        default: compute the result with `precision='float32'` instead.
 
     Raises FileError if the format cannot hold the file, or the file cannot be written; ValueError
     for a corner out of range; unless the elements "vertex" and "face" have one row for each point

@@ -33,9 +33,9 @@ KINDS = tuple(_core.KINDS)
 class FacePairs(Result):
     """Pairs of faces that meet.
 
-    pairs: (n, 2) uint32, ascending; of one mesh, the lower face first.
-    kinds: (n,) uint8: how they meet, a place in `KINDS`.
-    counts: How many of each kind there are, listed or not.
+    pairs: (n, 2) uint32, ascending; for a single mesh, the lower face number first.
+    kinds: (n,) uint8 the kind of each pair, an index into `KINDS`.
+    counts: The number of pairs of each kind, including those not listed.
     """
 
     pairs: Ids
@@ -61,13 +61,13 @@ class FacePairs(Result):
 #   FilePairs
 @dataclass(frozen=True, repr=False)
 class FilePairs(FacePairs):
-    """Pairs of faces of a file that meet; they are numbers of faces of `mesh`.
+    """Pairs of intersecting faces of a file, as face numbers of `mesh`.
 
-    mesh: Only the faces that meet others, in the order of the file.
-    face_in_file: (F,) the number in the file of each face of `mesh`.
+    mesh: Only the intersecting faces, in the order of the file.
+    face_in_file: (F,) for each face of `mesh`, its number in the file.
     stored_faces: Faces of the file.
-    tiles: Parts that space was cut into.
-    non_finite: Triangles with a coordinate that is not finite, left out.
+    dropped: Number of triangles skipped because a coordinate is not finite.
+    tiles: Number of tiles that space was divided into.
     """
 
     mesh: Mesh
@@ -158,11 +158,10 @@ def self_intersections(mesh: MeshLike, *, vertices: str = "by_coordinates",
 
     vertices: 'by_coordinates' or 'by_index'. `self_intersections`: which corners two faces share.
     first_only: Stop at the first pair: the same on any number of threads.
-    kinds: those to look for, of `KINDS`; None is all. 'crossing': interiors pass through each
-        other, no shared corner; 'pierce': the same with one shared corner; 'overlap': coplanar,
+    kinds: the kinds to search for, from `KINDS`; None: all. 'crossing': the faces pass through each
+        other and share no vertex; 'pierce': likewise, with one shared vertex; 'overlap': coplanar,
         with a common area; 'fold': coplanar, on the same side of a shared edge; 'duplicate': the
-        same three corners; 'touching': contact without crossing; 'degenerate': one of them has no
-        area.
+        same three vertices; 'touching': contact without crossing; 'degenerate': a face has no area.
     limit: Lowest pairs listed; all are counted.
 
     Cost: O(F log F + B) time for the B pairs whose boxes overlap, about 100 bytes a face.
@@ -188,10 +187,10 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = N
     it gives no pair. `a` and `b` may be the same mesh. Of what is no `Mesh`, only faces that reach,
     as moved, into the intersection of both bounding boxes are indexed.
 
-    move_a: (4, 4) an affine map of `a`, applied first.
-    move_b: (4, 4) the same of `b`.
+    move_a: (4, 4) an affine transform applied to `a` first.
+    move_b: (4, 4) an affine transform applied to `b` first.
     first_only: Stop at the first pair: the same on any number of threads.
-    kinds: those to look for, of `KINDS`; None is all.
+    kinds: the kinds to search for, from `KINDS`; None: all.
     limit: Lowest pairs listed; all are counted.
 
     Raises ValueError if a transform is not finite; naming the mesh and its face with a corner out
@@ -223,14 +222,15 @@ def self_intersections_of_file(path: Path, *, vertices: str | None = None,
     If the process is killed, the folder stays, and the same call resumes there. With several ranks,
     rank 0 makes the tiles, all ranks search them, and rank 0 gets the result.
 
-    vertices: None: 'by_coordinates' for STL, else 'by_index'.
+    vertices: None: 'by_coordinates' for STL, otherwise 'by_index'.
     kinds: as for `self_intersections`.
     format: Of the input, as for `read`.
     memory: Limit in bytes; 0: three quarters of the machine's memory.
-    folder: for the tiles; empty: beside the input. Where a run was killed, the same call goes on.
+    folder: the folder for temporary tiles; empty: a folder next to the input. If a run was
+        interrupted, the same call resumes it.
     faces_per_tile: Approximate limit; 0: as the memory allows.
-    communicator: ranks that do it together, as for `weld_stream`; the first one gets the result,
-        all others an empty one.
+    communicator: processes that share the work, as for `weld_stream`. Rank 0 gets the result, all
+        others an empty one.
 
     Raises FileError if the file cannot be read or has another format, or for the folder; ValueError
     for more than 2^32 - 1 triangles.
@@ -253,7 +253,7 @@ class Region(Result):
     """A connected set of faces that meet.
 
     faces: (n,) ascending.
-    bounds: (2, 3) the box around them.
+    bounds: (2, 3) the bounding box of the pairs.
     pairs: (n,) their numbers in the list of pairs, ascending.
     """
 
@@ -285,11 +285,11 @@ def intersection_regions(mesh: MeshLike, found: FacePairs, *,
 
 def intersection_curves(mesh: MeshLike, found: FacePairs, *,
                         progress: Progress = None) -> list[Floats]:
-    """The curves along which pairs of faces meet, each (n, 3); the last point of a closed curve is
-    the first again. Which segments there are is exact; points are rounded to nearest. A segment
-    that several pairs have is there once.
+    """The curves along which pairs of faces intersect, each (n, 3); a closed curve repeats its
+    first point at the end. Segments are found exactly; their points are rounded to nearest. A
+    segment common to several pairs appears only once.
 
-    found: pairs of faces of `mesh` that are not degenerate.
+    found: pairs of faces of `mesh`; the faces must not be degenerate.
 
     Raises ValueError as `intersection_curves`, and for a face without area.
 
@@ -311,8 +311,8 @@ def faces_in_box(mesh: MeshLike, min: ArrayLike, max: ArrayLike, *,
     Exact: faces are tested, not their boxes. A face that only touches the box is included. The box
     may be flat, a line or a point.
 
-    min: (3,)
-    max: (3,)
+    min: (3,) the lower corner of the box.
+    max: (3,) the upper corner of the box.
 
     Raises ValueError when a coordinate of the box is not finite or min exceeds max, or naming the
     lowest face with a corner out of range.

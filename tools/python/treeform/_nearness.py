@@ -80,12 +80,12 @@ def all_hits(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, t_min: f
 #   ClosestPoints closest_point contains locate winding_number signed_distance RayHits raycast
 #   raycast_all raycast_any Deviation deviation
 class ClosestPoints(NamedTuple):
-    """The nearest point of a mesh for each query, in the order that trimesh has: `closest,
-    distance, triangle_id = closest_point(mesh, points)`.
+    """The nearest point on a mesh for each query, in the order of trimesh: `closest, distance,
+    triangle_id = closest_point(mesh, points)`.
 
-    closest: (n, 3) points on the mesh, rounded; NaN where none is within the radius.
-    distance: (n,) not squared; infinite where there is none.
-    triangle_id: (n,) uint32 the face; 4294967295 where there is none.
+    closest: (n, 3) points on the mesh, rounded; NaN if there is none within the radius.
+    distance: (n,) distances, not squared; infinite if there is none.
+    triangle_id: (n,) uint32 the face; 4294967295 if there is none.
     """
 
     closest: Floats
@@ -98,12 +98,12 @@ class ClosestPoints(NamedTuple):
 
 def closest_point(mesh: MeshLike, points: ArrayLike, *, radius: float = np.inf,
                   progress: Progress = None) -> ClosestPoints:
-    """The point of the surface that is nearest to each of `points` (n, 3). Distances are within 16
-    u L of the true ones, where u = 2^-53 and L is the larger of the distance and the diagonal of
-    the face's box. Of several faces at the same computed distance, the lowest number is named. A
-    Mesh keeps the index for the next call.
+    """The point on the surface nearest to each of `points` (n, 3). The error of a distance is at
+    most 16 u L, where u = 2^-53 and L is the larger of the distance and the diagonal of the
+    bounding box of the face. If several faces have the same computed distance, the one with the
+    lowest number is returned. A Mesh keeps the index for later calls.
 
-    radius: what is further away is ignored; inclusive.
+    radius: ignore points on the surface that are farther away than this.
 
     Raises ValueError naming a face with a corner out of range or not finite, or a query that is not
     finite; for a radius that is negative or NaN.
@@ -123,9 +123,9 @@ def closest_point(mesh: MeshLike, points: ArrayLike, *, radius: float = np.inf,
 
 
 def contains(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> NDArray[np.bool_]:
-    """(n,) bool: whether each of `points` (n, 3) is inside a closed mesh or on its surface: inside
-    is where the winding number is not 0. Exact, for every point. Raises NotSolidError where the
-    mesh is open. For other errors and cost, see `locate`.
+    """(n,) bool: whether each of `points` (n, 3) is inside a closed mesh or on its surface. A point
+    is inside if its winding number is not 0. Exact for every point. Raises NotSolidError if the
+    mesh is open. For other errors and the cost, see `locate`.
 
     >>> import treeform
     >>> treeform.contains(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.5], [1, 1, 1], [2, 0, 0]])
@@ -141,10 +141,10 @@ def locate(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> N
     counted. An edge that the ray grazes is treated as lying to one side, by a rule that all faces
     share, so no second ray is needed. Points with equal coordinates are one vertex.
 
-    Returns (n,) int8: 1 where a point is strictly inside, 0 on the surface, -1 outside. Raises
-    NotSolidError where the mesh is open.
+    Returns (n,) int8: 1 for points strictly inside, 0 for points on the surface, -1 for points
+    outside. Raises NotSolidError if the mesh is open.
 
-    points: (n, 3)
+    points: (n, 3) the points to locate.
 
     Raises ValueError if the mesh is open, naming an open edge; naming a face with a corner out of
     range or not finite, or a point that is not finite.
@@ -161,8 +161,8 @@ def locate(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> N
 
 def winding_number(mesh: MeshLike, points: ArrayLike, *,
                    progress: Progress = None) -> NDArray[np.int32]:
-    """(n,) int32: how often a closed mesh winds around each of `points` (n, 3); 0 on the surface.
-    Exact. Raises NotSolidError where the mesh is open.
+    """(n,) int32: the winding number of a closed mesh around each of `points` (n, 3); 0 for points
+    on the surface. Exact. Raises NotSolidError if the mesh is open.
 
     >>> import treeform
     >>> treeform.winding_number(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.5], [2, 0, 0]])
@@ -172,9 +172,10 @@ def winding_number(mesh: MeshLike, points: ArrayLike, *,
 
 
 def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> Floats:
-    """(n,) the distance of each of `points` (n, 3) from the surface of a closed mesh; positive
-    inside, as in trimesh, and exactly 0 on the surface. The sign is exact. `deviation` has the
-    other sign, that of metrology: negative inside. Raises NotSolidError where the mesh is open.
+    """(n,) the signed distance of each of `points` (n, 3) from the surface of a closed mesh:
+    positive inside, as in trimesh, negative outside, and exactly 0 on the surface. The sign is
+    exact. `deviation` uses the opposite sign, as metrology does. Raises NotSolidError if the mesh
+    is open.
 
     Raises ValueError for a point of `a` that is not finite; a face of `b` as in `closest_point`; a
     band that is NaN or reversed; more than 2^20 bins.
@@ -193,9 +194,10 @@ def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = N
 class RayHits(NamedTuple):
     """The first face that each ray hits.
 
-    t: (n,) the point hit is origin + t direction; infinite where nothing is hit.
-    face: (n,) uint32 the face; 4294967295 where nothing is hit.
-    at: (n,) uint8: on which corner (0, 1, 2), edge (3, 4, 5) or in the interior (6) of the face.
+    t: (n,) the hit is at origin + t * direction; infinite if nothing is hit.
+    face: (n,) uint32 the face; 4294967295 if nothing is hit.
+    at: (n,) uint8 where the face is hit: at corner 0, 1 or 2, on edge 3, 4 or 5, or in the interior
+        (6).
     """
 
     t: Floats
@@ -216,10 +218,10 @@ def raycast(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min:
     vertex of six faces it has six hits at equal t, each with the vertex as a corner of its face.
     Faces include their edges and are hit from both sides.
 
-    origins: (n, 3)
+    origins: (n, 3) the start points of the rays.
     directions: (n, 3) of any length.
-    t_min: what is hit before origin + t_min direction does not count.
-    t_max: nor what is hit beyond this.
+    t_min: ignore hits before origin + t_min * direction.
+    t_max: ignore hits beyond origin + t_max * direction.
 
     Raises ValueError for a ray with a zero direction or a number that is not finite (t_min and
     t_max may be infinite); naming a face with a corner out of range or not finite.
@@ -240,10 +242,10 @@ def raycast_all(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
                 t_max: float = np.inf, progress: Progress = None) -> AllRayHits:
     """All faces that each ray hits, in the exact order along the ray, then by number.
 
-    origins: (n, 3)
+    origins: (n, 3) the start points of the rays.
     directions: (n, 3) of any length.
-    t_min: what is hit before origin + t_min direction does not count.
-    t_max: nor what is hit beyond this.
+    t_min: ignore hits before origin + t_min * direction.
+    t_max: ignore hits beyond origin + t_max * direction.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -258,10 +260,10 @@ def raycast_any(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
                 t_max: float = np.inf, progress: Progress = None) -> NDArray[np.bool_]:
     """(n,) bool: whether each ray hits any face. Exact.
 
-    origins: (n, 3)
+    origins: (n, 3) the start points of the rays.
     directions: (n, 3) of any length.
-    t_min: what is hit before origin + t_min direction does not count.
-    t_max: nor what is hit beyond this.
+    t_min: ignore hits before origin + t_min * direction.
+    t_max: ignore hits beyond origin + t_max * direction.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -275,12 +277,12 @@ def raycast_any(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
 
 @dataclass(frozen=True, repr=False)
 class Deviation(Result):
-    """How far points are from a surface.
+    """Distances of points from a surface.
 
     distances: (V,) of `a`: the distance of each point from the surface of `b`, negative inside the
         solid that `b` bounds, exactly 0 on its surface. Never negative if `b` bounds no solid.
     faces: (V,) the nearest face of `b`.
-    is_signed: Whether distances have a sign.
+    is_signed: Whether the distances are signed.
     side_counts: If distances have a sign: points of `a` inside, on and outside of `b`.
     mean: Mean of the signed distances.
     mean_absolute: Mean of their magnitudes.
@@ -292,8 +294,8 @@ class Deviation(Result):
     worst: The lowest point number with that magnitude.
     lowest: The least signed distance.
     highest: The greatest signed distance.
-    histogram: (bins,) how many signed distances are in intervals of equal length from `lowest` to
-        `highest`.
+    histogram: (bins,) the number of signed distances in each of `bins` intervals of equal length
+        from `lowest` to `highest`.
     band_counts: With a band: points below, within and above it. Both ends are within.
     max_bound: Bound of the distance from any point of the surface `a` to `b`: the maximum, over its
         faces, of the largest corner distance plus the longest edge / sqrt(3). For a cloud it is
@@ -337,9 +339,9 @@ def deviation(a: Body, b: Body, *, band: tuple[float, float] | None = None, bins
 
     None if `a` has no points or `b` has no faces.
 
-    `a` and `b` are a mesh or a cloud (n, 3) each.
+    `a` and `b` are each a mesh or a cloud (n, 3).
 
-    band: signed distances that are within tolerance.
+    band: the lowest and highest signed distance that are within tolerance.
     bins: Of the histogram; 0: none.
     both_ways: Also compute distances of the points of `b` from `a`.
 

@@ -43,13 +43,13 @@ def extent_of(size: ArrayLike) -> Floats:
 #   lay_flat Alignment align PackedPart Packing pack measure Depth penetration_depth Impact
 #   time_of_impact
 class Contacts(NamedTuple):
-    """Pairs of faces that meet at a place, or keep the clearance there.
+    """Pairs of faces that touch in the final position, or are at the clearance.
 
     points: (n, 3)
-    normals: (n, 3) of length 1, from the fixed to the moving mesh; 0 where there is none.
+    normals: (n, 3) unit normals from the fixed to the moving mesh; 0 if undefined.
     moving: (n,) faces of the moving mesh.
     fixed_face: (n,) faces of the fixed mesh; 4294967295 for the bed.
-    fixed: (n,) which fixed mesh.
+    fixed: (n,) the number of the fixed mesh.
     """
 
     points: Floats
@@ -64,25 +64,25 @@ class Contacts(NamedTuple):
 
 @dataclass(frozen=True, repr=False)
 class Placement(MeshResult):
-    """Where a mesh goes. True where it has a place; else `message` says why not.
+    """The new position of a mesh. True if one was found; otherwise `message` says why not.
 
-    mesh: The moved mesh, in coordinates that have been checked; where it was, if it has no place.
+    mesh: The moved mesh, in checked coordinates; unmoved if no position was found.
     matrix: (4, 4) new = M * old: a translation; of `turn` and `mate_features` a turn, too. `points`
         are moved by it and rounded once, except for those that are set on the bed.
     end: Why it ended there: 'contact', 'bed', 'unchanged', 'moved_apart', 'nothing_met', 'too_far',
         'starts_penetrating', 'starts_too_near', 'starts_touching', 'starts_below_bed',
-        'not_representable', 'too_many_steps', 'out_of_range'.
-    message: Half a sentence; empty where there is a place.
+        'no_coordinates', 'too_many_steps', 'out_of_range'.
+    message: Why no position was found, in words; otherwise empty.
     direction: (3,) unit direction of the travel; 0 if there is none.
     travel: A length; for `too_far` the length needed.
     at_start: Exact: 'separate', 'touching', 'penetrating', 'closer_than_clearance' or 'clear'.
     at_place: The same at the place: 'separate', 'touching', 'penetrating', 'closer_than_clearance'
         or 'clear'.
-    contacts: Pairs of faces that meet there, or keep the clearance.
+    contacts: Pairs of faces that touch in the final position, or are at the clearance.
     contact_count: Number of all contacts, listed or not.
     nearest: How the mesh, as `a`, lies at the place to the fixed mesh that it penetrates, else to
         one that it touches, else to the nearest. None if all are too far away.
-    certificate: What was checked about the coordinates.
+    certificate: What was verified about the coordinates.
     effort: For `separate`: the effort of its search. If `cut` is not 0, a shorter translation may
         exist; or, if no place was found, a place.
     angle: Of `turn` and `mate_features`: in degrees, of the turn.
@@ -140,10 +140,10 @@ class Measure(Result):
     distance: Not squared. 0 if and only if the meshes touch or penetrate each other.
     surface_distance: Exactly 0 if and only if a face of one meets a face of the other. So it is
         positive for a mesh inside a solid whose surface it does not touch.
-    on_a: (3,) the nearest point on the surface of `a`; where they meet, a common one.
-    on_b: (3,) the nearest point on the surface of `b`; where they meet, a common one.
-    face_a: The face of `a` that `on_a` is on.
-    face_b: The face of `b` that `on_b` is on.
+    on_a: (3,) the nearest point on the surface of `a`; a common point if the bodies meet.
+    on_b: (3,) the nearest point on the surface of `b`; a common point if the bodies meet.
+    face_a: The face of `a` that contains `on_a`.
+    face_b: The face of `b` that contains `on_b`.
     a_inside_b: A component of `a` is inside the solid `b` without touching it.
     b_inside_a: The same with `a` and `b` exchanged.
     """
@@ -173,12 +173,12 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
     Only fixed meshes on the way are tested and indexed. For many calls, pass prepared meshes.
 
     onto: a fixed body, or a list of them.
-    direction: (3,) of any length.
+    direction: (3,) the direction of motion, of any length.
     clearance: The gap to leave, a distance; 0: until contact.
     max_travel: A length; whatever is further along is ignored.
     precision: 'float32' or 'float64'. Of the points returned.
-    bed: z of a bed, which also stops the mesh: points that rest on it have exactly its z (with
-        float32, the least one not below it), and no point is below.
+    bed: z of a bed, which also stops the mesh: points resting on the bed have exactly this z (for
+        float32, the smallest value not below it), and no point is below it.
 
     Raises ValueError for a direction that is zero or not finite; a clearance that is negative or
     not finite; a bed that is not finite or beyond float32; naming the operand and its lowest face
@@ -205,11 +205,11 @@ def drop(moving: Body, onto: Any = None, *, direction: ArrayLike = (0, 0, -1),
     direction.
 
     onto: a fixed body, or a list of them.
-    direction: (3,) of any length, downward.
-    clearance: As of `slide`.
-    max_travel: As of `slide`.
-    precision: As of `slide`.
-    bed: z of the bed; without fixed bodies, there is one at 0.
+    direction: (3,) the downward direction, of any length.
+    clearance: as for `slide`.
+    max_travel: as for `slide`.
+    precision: as for `slide`.
+    bed: z of the bed. None: no bed if there are fixed bodies, otherwise a bed at 0.
 
     Raises ValueError as `slide`; for a direction that does not point down.
 
@@ -266,8 +266,9 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
     clearance: The gap to leave, a distance; 0: until contact.
     max_travel: A length; whatever is further along is ignored.
     precision: 'float32' or 'float64'. Of the points returned.
-    effort: pairs of faces that the search may look at, a pair in motion counting as two; 0: 20
-        million and 200 for each face. Distances for a clearance do not count.
+    effort: limit for the number of pairs of faces that the search examines, where a pair in motion
+        counts as two; 0: 20 million, plus 200 for each face. Distance computations for a clearance
+        are not counted.
 
     Raises ValueError as `slide`.
 
@@ -307,13 +308,13 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
     Points that no face uses turn along and are otherwise ignored.
 
     fixed: a fixed body, or a list of them.
-    axis: (3,) of any length.
-    origin: (3,) a point of the axis.
+    axis: (3,) the direction of the axis, of any length.
+    origin: (3,) a point on the axis.
     clearance: The gap to leave, a distance; 0: until contact.
     max_travel: A length; whatever is further along is ignored.
-    max_angle: in degrees; greater than 0, up to 360.
-    tolerance: the gap, beyond the clearance, that counts as contact; greater than 0. None: 2^-32 of
-        the largest distance of a point from the axis.
+    max_angle: the largest rotation, in degrees; greater than 0 and at most 360.
+    tolerance: the largest gap, beyond the clearance, that counts as contact; greater than 0. None:
+        2^-32 of the largest distance of a point from the axis.
     precision: 'float32' or 'float64'. Of the points returned.
 
     Raises ValueError as `slide`; for an axis that is zero or not finite, an angle out of range, or
@@ -347,11 +348,12 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
     coordinates returned. `travel` is 0.
 
     onto: a fixed body, or a list of them.
-    of_moving: a plane or an axis of `find_features`.
+    of_moving: a plane or an axis found by `find_features`.
     of_fixed: one of the same kind.
     clearance: The gap to leave, a distance; 0: until contact.
     max_travel: A length; whatever is further along is ignored.
-    flip: planes look the same way rather than at each other; axes are turned around.
+    flip: make the normals of the planes point in the same direction instead of in opposite
+        directions; for axes, reverse the direction.
     precision: 'float32' or 'float64'. Of the points returned.
 
     Raises ValueError as `slide`; for features of different kinds, with a direction that is not of
@@ -374,15 +376,15 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
 
 @dataclass(frozen=True, repr=False)
 class LaidFlat(MeshResult):
-    """A mesh on the bed.
+    """A mesh laid flat on the bed.
 
     mesh: The mesh on the bed.
     matrix: (4, 4) new = M * old, a rotation and a translation. `points` differ from it by a few
         units in the last place of the largest coordinate, old or new.
     chosen: Number in `sides`.
-    message: Half a sentence for people.
-    areas: (S,) of the flat sides of the convex hull, largest first.
-    normals: (S, 3) outward, before the turn.
+    message: The result in words, without a full stop.
+    areas: (S,) the areas of the planar sides of the convex hull, largest first.
+    normals: (S, 3) the outward normals of these sides, before the rotation.
     tip_angles: (S,) for each side the least tilt, in degrees, that brings the center of mass over
         an edge of it, so that the mesh tips over. 90 if the center is in the plane of the side.
         Negative if the center is not over the side: then the mesh tips over by itself.
@@ -391,7 +393,7 @@ class LaidFlat(MeshResult):
         `overhang_sides` sides and the chosen one, else NaN.
     center_of_mass: (3,) before the rotation, rounded.
     on_bed: (n,) points of that side, ascending.
-    certificate: What was checked about the coordinates.
+    certificate: What was verified about the coordinates.
     center_heights: (S,) of the center of mass over the plane of the side.
     mass_dimension: The dimension of what has the mass: 3 for the solid that a closed mesh bounds; 2
         for the faces of a mesh that bounds none, as sheets of equal thickness; 0 for the points of
@@ -454,18 +456,18 @@ def lay_flat(mesh: MeshLike, *, normal: ArrayLike | None = None, point: ArrayLik
     how = options(_core.LayFlatOptions, locals())
     made = _core.lay_flat(held(mesh), how, progress=progress)
     if made is None:
-        raise ValueError("lay_flat: no side: fewer than three points, or all on a line")
+        raise ValueError("lay_flat: no flat side: fewer than three points, or all on a line")
     return made
 
 
 @dataclass(frozen=True, repr=False)
 class Alignment(MeshResult):
-    """The motion that `align` has found.
+    """The motion found by `align`.
 
     matrix: (4, 4) new = M * old, with `start` included. Far from the origin its last column is
         large, and so is its rounding. There, new = `pivot_moved` + (linear part of M) * (old -
         `pivot`) is more accurate.
-    mesh: The moved mesh; of a cloud, one without faces.
+    mesh: The moved mesh; without faces for a cloud.
     rms: Root mean square of the distances at the end, weighted if weights are used; 0 without
         partners. For two clouds with `plane_to_plane`, of the distances to the planes, by the
         agreement of both sides.
@@ -483,8 +485,9 @@ class Alignment(MeshResult):
     converged: `end` is `converged`.
     iterations: Steps from the best start.
     start: Which start that was: 0 is the present position.
-    undetermined: How many independent motions nothing holds, as where a plane slides on a plane.
-    message: Half a sentence for people.
+    undetermined: Number of independent motions that the data does not determine, such as sliding a
+        plane along a plane.
+    message: The result in words, without a full stop.
     """
 
     matrix: Floats
@@ -537,7 +540,8 @@ def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False
 
     If either side has no points, the result is `start`, not converged.
 
-    scale: find a uniform scale, too; a pair is its bounds, in addition to the scale of `start`.
+    scale: also find a uniform scale; a pair gives its lower and upper bound, relative to the scale
+        of `start`.
     method: 'point_to_plane', 'point_to_point', 'automatic' or 'plane_to_plane'.
     overlap: Share of the moving points that have a partner, in (0, 1]. Each step uses this share of
         nearest points, and ignores the rest.
@@ -582,7 +586,7 @@ class PackedPart(NamedTuple):
     matrix: (4, 4) new = M * old, a rotation about z and a translation; the identity if the part is
         not placed. `points` differ from it by a few units in the last place of the largest
         coordinate.
-    mesh: The part where it goes; where it was, if it is not placed.
+    mesh: The part in its position on the plate; unmoved if it is not placed.
     """
 
     placed: bool
@@ -596,15 +600,15 @@ class PackedPart(NamedTuple):
 
 @dataclass(frozen=True, repr=False)
 class Packing(Result):
-    """Filled plates. True where every part has a place.
+    """Parts arranged on plates. True if every part was placed.
 
-    parts: In the order of the input.
+    parts: The parts, in the order of the input.
     not_placed: (n,) numbers of parts without a place, ascending.
     plates_used: Plates with a part.
     tries: Number of tries made.
     density: Share of the area of the used plates that their parts cover, by the raster; with
         `stack`, share of the volume that the solids fill, cavities included.
-    message: Half a sentence for people.
+    message: The result in words, without a full stop.
     """
 
     parts: list[PackedPart]
@@ -647,7 +651,7 @@ def pack(parts: Iterable[Body], size: ArrayLike, *, corner: ArrayLike = (0.0, 0.
     Parts without faces take no room: they are placed where they are. Points without faces move
     along with their part and are otherwise ignored. Equal parts are prepared once.
 
-    size: (2,) or (3,): length, depth and height of a plate.
+    size: (2,) or (3,) the width, depth and height of a plate.
     corner: (3,) The corner of the first plate with the lowest x and y; its z is the bed.
     spacing: Least distance of any two parts; parts may touch the plate's rim.
     turns: Rotations about the vertical that are tried for each part, evenly over the full circle: 1
@@ -681,14 +685,14 @@ def pack(parts: Iterable[Body], size: ArrayLike, *, corner: ArrayLike = (0.0, 0.
 
 def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coordinates",
             progress: Progress = None) -> Measure | None:
-    """How two bodies lie to each other: separate, touching or penetrating, how far apart, and
-    where. Each is a mesh or a cloud (n, 3). None where one has no faces, or they are further apart
-    than `radius`. The relation is exact, and so is whether a distance is 0. Other distances are
-    rounded as `distance` says.
+    """The relation of two bodies (separate, touching or penetrating), their distance, and the
+    nearest points. Each body is a mesh or a cloud (n, 3). Returns None if a mesh has no faces, or
+    if the bodies are farther apart than `radius`. The relation is exact, and so is whether the
+    distance is 0. Other distances are rounded as in `distance`.
 
     radius: Of `measure`; inclusive.
-    vertices: 'by_coordinates': corners with equal coordinates are shared; 'by_index': those with
-        the same number.
+    vertices: 'by_coordinates': vertices with equal coordinates are the same vertex; 'by_index':
+        only those with the same number.
 
     Raises ValueError as `measure`; for a radius that is negative or NaN.
 
@@ -736,9 +740,10 @@ def penetration_depth(a: MeshLike, b: MeshLike, *, directions: int = 256, effort
     1/32 of the effort. So if very many boxes of faces overlap, as with long thin triangles, the
     result may be longer, but at most the translation along an axis past the box of `b`.
 
-    directions: Directions spread over the sphere, tried besides normals of faces that meet.
-    effort: Pairs of faces that the search may test, a pair in motion counting as two; 0: 20 million
-        plus 200 for each face.
+    directions: the number of directions, spread over the sphere, to try in addition to the normals
+        of intersecting faces.
+    effort: limit for the number of pairs of faces that the search examines, where a pair in motion
+        counts as two; 0: 20 million, plus 200 for each face.
 
     Raises ValueError as `measure`.
 
@@ -755,12 +760,12 @@ def penetration_depth(a: MeshLike, b: MeshLike, *, directions: int = 256, effort
 
 
 class Impact(NamedTuple):
-    """The first contact of two meshes in motion.
+    """The first contact of a moving mesh with another.
 
     end: 'nothing_met', 'contact' or 'starts_touching'.
     time: The greatest double that is not beyond the exact time t of the contact: `a` moved by
         `time` times the motion has not passed it. 0 when they meet at the start.
-    faces: (n, 2) the faces of `a` and `b` that meet at that time.
+    faces: (n, 2) the faces of `a` and `b` that touch at that time.
     points: (n, 3) a common point of each pair, rounded.
     """
 
@@ -783,9 +788,9 @@ def time_of_impact(a: MeshLike, b: MeshLike, motion: ArrayLike, *, move_a: Array
     parallel or coplanar faces. Surfaces count, not solids: inside a closed mesh, `a` moves until it
     meets the surface. Grazing is a contact.
 
-    motion: (3,)
-    move_a: (4, 4) an affine map of `a`, applied first.
-    move_b: (4, 4) the same of `b`.
+    motion: (3,) the translation of `a` in one unit of time.
+    move_a: (4, 4) an affine transform applied to `a` first.
+    move_b: (4, 4) an affine transform applied to `b` first.
     latest: Ignore contacts after this time.
 
     Raises ValueError for a motion that is zero or not finite; a time that is negative or NaN;

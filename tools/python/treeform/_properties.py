@@ -23,7 +23,7 @@ __all__ = ["Feature", "MeshDefects", "SolidDefects", "Topology", "count_inside_o
 #   count_inside_out face_components Feature find_features
 @dataclass(frozen=True, repr=False)
 class SolidDefects(Result):
-    """What keeps a mesh from being a solid; `bool()` says whether there is anything.
+    """The defects that keep a mesh from being a solid. True if there are any.
 
     nonfinite_vertices: With a NaN or infinite coordinate, used or not.
     unusable_faces: With an invalid corner; not counted below.
@@ -38,7 +38,7 @@ class SolidDefects(Result):
     meeting_pairs: Pairs of faces that meet beyond common corners.
     inverted: Closed components that are inside out, and inside no other one.
     wrongly_nested: Disjoint closed components are nested, but not as a solid and its cavities.
-    message: 'open at 37 edges, 2 pairs of faces meet'; 'none'.
+    message: The defects in words, such as 'open at 37 edges, 2 pairs of faces meet', or 'none'.
     """
 
     nonfinite_vertices: int
@@ -233,7 +233,7 @@ def find_features(mesh: MeshLike, kind: str = "plane", *, tolerance: float | Non
     from the largest face, or pair of faces with an angle between them, that is not yet in a region.
     Join points with equal coordinates first (`join_equal_points`). Cones are not found.
 
-    kind: 'plane' for the flat regions, 'axis' for the cylindrical ones.
+    kind: 'plane' for flat regions, 'axis' for cylindrical ones.
     tolerance: Largest distance of a corner from the plane or cylinder. None: 1e-4 of the diagonal.
     plane_angle: In degrees: largest angle between a face and the plane.
     facet_angle: In degrees: largest angle between neighboring faces of a cylinder.

@@ -49,12 +49,13 @@ def steps_of(steps: Iterable[str]) -> dict[str, bool]:
 #   ConvexHull
 @dataclass(frozen=True, repr=False)
 class ConvexHull(Result):
-    """The convex hull of points: triangles, grouped by flat sides.
+    """The convex hull of points: triangles, grouped into planar sides.
 
     dimension: The dimension that the points span: 3, 2 in a plane, 1 on a line, 0 if all are equal,
         -1 for no points.
-    faces: (F, 3) numbers of the points, outward.
-    first_face: (S,) the first face of each flat side; its faces follow one another.
+    faces: (F, 3) the numbers of the points at the corners of each triangle, counter-clockwise from
+        outside.
+    first_face: (S,) the first face of each planar side; the faces of a side are consecutive.
     areas: (S,) the area of each side.
     normals: (S, 3) the outward normal of each side, of length 1.
     """
@@ -77,13 +78,13 @@ class ConvexHull(Result):
 #   join_equal_points
 @dataclass(frozen=True, repr=False)
 class RepairResult(MadeMesh):
-    """A mended mesh.
+    """A repaired mesh.
 
     face_source: (F',) input face, lowest of those merged, or `NONE`.
     vertex_source: (V',) input vertex that each is, or `NONE`.
-    is_left: (faces of the input,) whether something is left of each, also where it was merged with
-        others.
-    steps: What each step has done: faces flipped, holes filled, ...
+    is_left: (F,) for each input face, whether any part of it is in the result, possibly merged with
+        other faces.
+    steps: Counters of each step: faces flipped, holes filled, ...
     """
 
     face_source: Ids
@@ -112,9 +113,9 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
     - A closed part stays as it is where a part with a border passes through it.
     - Where every face of a part has a copy, as in a sheet with a back, one copy stays.
 
-    mode: 'outer' cuts faces along each other and keeps what bounds the solid; 'split' keeps every
-        piece; 'remove' deletes faces that meet and fills the holes, for surfaces that bound no
-        solid.
+    mode: 'outer' cuts faces along their intersections and keeps those that bound the solid; 'split'
+        keeps all pieces; 'remove', for surfaces that do not bound a solid, deletes intersecting
+        faces and fills the holes.
     inside: 'nonzero', 'odd' or 'positive'. For `outer`: what is solid.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
     max_displacement: For `split` and `outer`: as in `boolean`.
@@ -123,9 +124,9 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
     max_loss: For `outer` and `remove`: losing more than this share gives the status
         `excessive_loss`. The share is of the volume of the solid, or of the area if the mesh bounds
         none. 1 allows any loss. The solid before is that of `repair` without filling holes.
-    check: False returns what could not be certified, too, with its `certificate`.
+    check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError where the mesh is open, NotCertifiedError where the result could not be
+    Raises NotSolidError if the mesh is open, NotCertifiedError if the result could not be
     certified; ValueError as `boolean`; for `remove`, a coordinate may be beyond 2^1000.
 
     Cost: as `boolean`, and as `repair` where a loss is looked for: in `remove`, and in `outer`
@@ -164,9 +165,9 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
     close it, unless its border is in a plane and it is on one side of the plane. Nor is a mesh
     filled with more than one edge for 10 faces where three or more faces are inconsistent.
 
-    steps: those to take. 'join' drops degenerate and repeated faces and closes cracks, 'orient'
-        makes faces agree and look outward, 'fill' fills holes, 'resolve' cuts self-intersections,
-        'detach' moves apart what touches in an edge or a vertex.
+    steps: the steps to perform. 'join' removes degenerate and duplicate faces and closes cracks;
+        'orient' orients faces consistently and outward; 'fill' fills holes; 'resolve' removes
+        self-intersections; 'detach' separates parts that touch only at an edge or a vertex.
     gap: Widest crack to close, in the mesh's length unit. By default the narrowest that leaves the
         fewest open edges, out of 0, a float step, and 1e-6, 1e-5, 1e-4, 1e-3 of the diagonal of the
         bounding box.
@@ -174,18 +175,19 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
     strays: Drops loose open pieces below this share of the area, and single triangles below 1 %. If
         a larger component vanishes since it bounds nothing, the status is `excessive_loss`, unless
         `max_loss` is 1.
-    inside: 'nonzero', 'odd' or 'positive': what is solid. By default 'positive' where each shell
-        looks outward, else 'nonzero', or labels.
+    inside: 'nonzero', 'odd' or 'positive': the winding numbers that count as inside. None:
+        'positive' if all shells are oriented outward, otherwise 'nonzero'; if faces are
+        inconsistent, inside and outside are determined by a minimum cut.
     max_loss: Losing more than this share of the volume gives the status `excessive_loss`; if there
         were holes, of the area. Faces that are still there or hidden in the solid are not lost. 1
         allows any loss.
     sheet: The mesh is an open surface: keep its border, and fill nothing.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
     max_displacement: As in `boolean`.
-    keep_cuts: as in `boolean`; faces that fill holes are merged with each other alone.
-    check: False returns what could not be certified, too, with its `certificate`.
+    keep_cuts: as in `boolean`; faces that fill holes are only merged with each other.
+    check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError where the mesh is open, NotCertifiedError where the result could not be
+    Raises NotSolidError if the mesh is open, NotCertifiedError if the result could not be
     certified; ValueError as `boolean`; if a gap or share is negative or not finite.
 
     Cost: O(V log V + F log F), plus `resolve_self_intersections` if faces meet; for a hole of n
@@ -206,7 +208,7 @@ def convex_hull(points: Body, *, progress: Progress = None) -> ConvexHull:
     points, the lowest number is used. Corners of triangles may lie on an edge or inside a side of
     the hull.
 
-    points: (n, 3), or a mesh.
+    points: points (n, 3), or a mesh.
 
     Raises ValueError naming the first point that is not finite; for more points than 32 bits can
     number.
@@ -224,8 +226,8 @@ def convex_hull(points: Body, *, progress: Progress = None) -> ConvexHull:
 
 
 def rounded(points: ArrayLike, precision: str = "float32", *, progress: Progress = None) -> Floats:
-    """(n, 3) the points with each coordinate rounded to the nearest number of the precision, as
-    float64; infinite beyond its range.
+    """(n, 3) the points with each coordinate rounded to the nearest value of this precision, as
+    float64; infinite if it is out of range.
 
     precision: 'float32' or 'float64'.
 
@@ -242,10 +244,10 @@ def find_rounding_defects(mesh: MeshLike, placed: ArrayLike, *,
     and turned, too: distances are not compared, only how faces lie to each other: `collapsed` and
     `meeting` are found, the latter of all kinds except touching and degenerate.
 
-    Returns the number of faces that have lost their area, and of pairs of faces that meet now and
-    did not before.
+    Returns the number of faces that became degenerate, and the number of pairs of faces that
+    intersect only after rounding.
 
-    placed: (V, 3)
+    placed: (V, 3) the rounded vertices.
 
     Raises ValueError as `self_intersections` for either, or for another number of points.
 

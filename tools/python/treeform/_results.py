@@ -44,17 +44,18 @@ class Result:
 #   Certificate
 @dataclass(frozen=True, repr=False)
 class Certificate(Result):
-    """What was checked about the coordinates of a result, with exact predicates. True where
-    everything that the operation promises holds.
+    """What was verified about the coordinates of a result, with exact predicates. True if the
+    result has all properties that the operation guarantees.
 
-    status: 'ok', or how the operation ended.
-    meeting_count: Pairs of faces that meet where they should not.
+    status: 'ok', or why the result is not certified.
+    meeting_count: Number of pairs of faces that intersect although they should not.
     meeting: (n, 2) the first 100 of these pairs.
-    open_count: Edges whose signed face count is not zero.
+    open_count: Number of edges where the surface is not closed: the faces on both sides do not
+        cancel out.
     open_edges: (n, 2, 3) the ends of the first 100 of these edges.
-    open_faces: (n, 2) the operand and the face at each of them.
-    boundary_edges: Of the open edges, those of an odd number of faces.
-    misoriented_edges: Of the open edges, those of faces that run the same way.
+    open_faces: (n, 2) the operand and the face at each of these edges.
+    boundary_edges: Open edges with an odd number of faces.
+    misoriented_edges: Open edges between faces that are oriented inconsistently.
     max_displacement: The largest change of a coordinate by rounding, from the exact position of the
         vertex. For vertices added or removed by mending, from the nearest point of the exact
         surface. Measured on the result; intermediate moves do not add up.
@@ -63,9 +64,9 @@ class Certificate(Result):
         coordinates; 0 if it had no faces.
     size_before: For status `excessive_loss`: the volume (the area, if there is no solid) before and
         after.
-    size_after: The same after.
-    size_is_volume: Whether these are volumes.
-    message: Half a sentence for people.
+    size_after: The volume (or area) after.
+    size_is_volume: Whether these are volumes, not areas.
+    message: The result in words, without a full stop.
     """
 
     status: str

@@ -23,13 +23,13 @@ __all__ = ["Joint", "Robot", "read_urdf"]
 # made of headers:
 #   Joint
 class Joint(NamedTuple):
-    """What connects two links.
+    """A joint, which connects two links.
 
     name: As in the file.
     kind: 'fixed', 'revolute', 'continuous' or 'prismatic'.
-    parent: Name of the link that it is on.
-    child: Name of the link that it moves.
-    limits: Least and greatest value, in radians or meters; None where there are none.
+    parent: Name of the parent link.
+    child: Name of the child link.
+    limits: Lowest and highest value, in radians or meters; None if unlimited.
     """
 
     name: str
@@ -47,19 +47,20 @@ class Joint(NamedTuple):
 #   Robot
 @dataclass(frozen=True, repr=False)
 class Robot(Result):
-    """Links and joints, with a mesh for each link that has any.
+    """The links and joints of a robot, with a mesh for each link that has geometry.
 
-    `clash(robot.parts, ...)` and `check_poses(robot.parts, robot.poses(values),
-    ignored=robot.adjacent)` take its parts.
+    Check it with `clash(robot.parts, ...)` or `check_poses(robot.parts, robot.poses(values),
+    ignored=robot.adjacent)`.
 
     name: As in the file.
-    links: Names, in the order of the file.
-    joints: Parents ahead of their children.
-    parts: The meshes of a link as one, in the frame of the link.
+    links: Names of the links, in the order of the file.
+    joints: The joints, parents before their children.
+    parts: One mesh for each link that has geometry, in the frame of the link.
     link_of_part: (N,) the link of each part.
-    adjacent: (n, 2) parts that a joint connects, the lower number first: they always touch.
-    approximated: Cylinders and spheres, for which triangles around them stand, a sentence each.
-    skipped: What else is no mesh, a sentence each.
+    adjacent: (n, 2) parts that are connected by a joint, the lower number first. These always
+        touch.
+    approximated: The cylinders and spheres that were approximated by triangles, a sentence each.
+    skipped: Other geometry that is not a mesh and was skipped, a sentence each.
     """
 
     name: str

@@ -63,7 +63,7 @@ class Isolines(Result):
 #   OrientedBox oriented_box Isoline isolines
 @dataclass(frozen=True, repr=False)
 class OffsetResult(MadeMesh):
-    """A solid at a distance from a mesh: around it, hollow, or a wrap.
+    """The result of `offset`, `hollow`, `thicken` or `wrap`.
 
     blind_drains: (n,) For `hollow`: numbers of drains that do not lead from outside into a cavity,
         as far as the ends of their axes show.
@@ -111,9 +111,9 @@ def offset(mesh: MeshLike, distance: float, *, resolution: float | None = None,
         half of the distance, if there would be more than about 2^16 cells at the surface (170,000
         faces). `OffsetResult` has the value used, and the error.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
-    check: False returns what could not be certified, too, with its `certificate`.
+    check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError where the mesh is open, NotCertifiedError where the result could not be
+    Raises NotSolidError if the mesh is open, NotCertifiedError if the result could not be
     certified; ValueError as `boolean`; for a distance that is 0 or not finite; for a resolution
     that is not positive, more than half of the distance, below the spacing of the coordinates, or
     so fine that there would be more than 2^22 cells: the message names a sufficient one.
@@ -140,8 +140,8 @@ def hollow(mesh: MeshLike, wall: float, *, drains: ArrayLike = (), resolution: f
     is that of the circle through its corners. It extends beyond both ends by its diameter, but at
     most half of the way to the next surface.
 
-    drains: (n, 4) holes through the wall: a point, and the diameter of the hole at the nearest
-        point of the surface.
+    drains: (n, 4) drain holes through the wall: for each, a point and a diameter. The hole is at
+        the surface point nearest to that point.
     resolution: Edge length of the cells from which the surface is made, in the mesh's length unit;
         at most half of the distance. Every point whose distance differs from the given one by more
         than twice the resolution is on the right side of the surface. Smaller details may be lost.
@@ -149,9 +149,9 @@ def hollow(mesh: MeshLike, wall: float, *, drains: ArrayLike = (), resolution: f
         half of the distance, if there would be more than about 2^16 cells at the surface (170,000
         faces). `OffsetResult` has the value used, and the error.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
-    check: False returns what could not be certified, too, with its `certificate`.
+    check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError where the mesh is open, NotCertifiedError where the result could not be
+    Raises NotSolidError if the mesh is open, NotCertifiedError if the result could not be
     certified; ValueError as `offset`; for a wall that is not positive; for a drain that is not
     finite, or with a diameter that is not positive.
 
@@ -183,12 +183,13 @@ def thicken(mesh: MeshLike, thickness: float, *, resolution: float | None = None
         None: a quarter of the distance, at most 1/64 of the diagonal of the result; larger, up to
         half of the distance, if there would be more than about 2^16 cells at the surface (170,000
         faces). `OffsetResult` has the value used, and the error.
-    shift: how far the surface is first moved to its front; negative: to its back. Half of the
-        thickness leaves its back where it is.
+    shift: move the surface by this distance before thickening: toward its front if positive, toward
+        its back if negative. By default, half of the thickness is added on each side; with half of
+        the thickness as `shift`, all of it is added on the front.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
-    check: False returns what could not be certified, too, with its `certificate`.
+    check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError where the mesh is open, NotCertifiedError where the result could not be
+    Raises NotSolidError if the mesh is open, NotCertifiedError if the result could not be
     certified; ValueError as `offset`, with half of the thickness as the distance; for a mesh
     without faces; for a shift that is not finite; with a shift, naming a face that is inconsistent
     with its neighbor.
@@ -219,10 +220,10 @@ def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision:
     offset: `wrap`: how far the vertices of the wrap are from the mesh, in its length unit. None: a
         thirtieth of the size.
     precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
-    check: False returns what could not be certified, too, with its `certificate`.
+    check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotCertifiedError where the result could not be certified; ValueError naming a face with
-    a corner out of range or not finite; for a mesh without faces, larger than 2^150 or smaller than
+    Raises NotCertifiedError if the result could not be certified; ValueError naming a face with a
+    corner out of range or not finite; for a mesh without faces, larger than 2^150 or smaller than
     2^-150; for a size or offset that is not positive and finite; for an offset near the spacing of
     the coordinates; for a wrap of more than 2^30 faces.
 
@@ -289,19 +290,19 @@ def simplify(mesh: MeshLike, max_distance: float, *, face_groups: ArrayLike | No
     coordinates are one vertex; faces with two equal corners are dropped, and belong to neither
     surface.
 
-    Values of vertices and corners are interpolated; seams, and borders of materials and of values
-    of faces, are kept.
+    Values of vertices and corners are interpolated. Seams, and borders between faces with different
+    materials or values, are preserved.
 
-    face_groups: (F,) numbers; edges between faces of different ones are borders, too.
+    face_groups: (F,) a group number for each face; borders between groups are preserved, too.
     precision: 'float32' or 'float64'. Precision of the points returned. With float32, all points
         are rounded first, and the bounds include this; values are stored as doubles.
     target_faces: Stop at this number of faces.
     feature_angle: Edges are features if the normals of their faces differ by more than this, in
         degrees; 180: none.
-    check: False returns what could not be certified, too, with its `certificate`.
+    check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotCertifiedError where the result could not be certified; ValueError for a distance that
-    is negative or not finite, for a number of groups other than that of faces or corners; naming a
+    Raises NotCertifiedError if the result could not be certified; ValueError for a distance that is
+    negative or not finite, for a number of groups other than that of faces or corners; naming a
     face with a corner that is out of range or not finite.
 
     Cost: O(n log n) for n collapses, 50 to 150 microseconds each, serial; more if a face replaces
@@ -337,8 +338,8 @@ def wall_thickness(mesh: MeshLike, by: str = "ray", *, progress: Progress = None
     the rounded center and normal; lengths are rounded. Balls are accurate to 2^-20 of their
     diameter. Near a sharp edge balls are small: there they measure the edge.
 
-    by: 'ray', along the normal inward from the center of a face; or 'sphere', the diameter of the
-        largest ball within that touches the center.
+    by: 'ray': along the inward normal from the center of each face; 'sphere': the diameter of the
+        largest inscribed sphere that touches the center of the face.
 
     Raises ValueError naming a face with a corner out of range or not finite.
 
@@ -373,7 +374,7 @@ def oriented_box(points: Body, *, progress: Progress = None) -> OrientedBox | No
 
     Axes, center and size are rounded: a point may be outside by 2^-48 of the largest coordinate.
 
-    points: (n, 3), or a mesh.
+    points: points (n, 3), or a mesh.
 
     Raises ValueError as `convex_hull`.
 
@@ -416,8 +417,8 @@ def isolines(mesh: MeshLike, values: ArrayLike, levels: ArrayLike, *,
     as above it, as in `section`: with heights as values, the lines are sections by planes across z.
     Vertices with equal coordinates are joined if their values are equal; otherwise lines end there.
 
-    values: (V,) of the vertices, linear in each face.
-    levels: (K,)
+    values: (V,) a value for each vertex, interpolated linearly over each face.
+    levels: (K,) the values of the lines.
 
     Raises ValueError naming a face with a corner out of range or not finite, a corner or level with
     a value that is not finite, or if there is not one value for each vertex.

@@ -29,11 +29,11 @@ __all__ = ["SharedWeld", "WeldResult", "WeldStreamResult", "count_nearly_equal",
 class WeldResult(MeshResult):
     """A welded mesh or cloud.
 
-    mesh: The welded mesh; of a cloud, one without faces.
-    index: (n,) the new number of each point.
-    source: (m,) the input point that gave each new one its properties.
-    face_source: (F,) the input face that each face was; empty for a cloud.
-    statistics: Counts of what was done.
+    mesh: The welded mesh; without faces for a cloud.
+    index: (n,) for each input point, its number in the result.
+    source: (m,) for each point of the result, the input point that its properties come from.
+    face_source: (F,) for each face of the result, its number in the input; empty for a cloud.
+    statistics: Counters of the operation.
     """
 
     mesh: Mesh
@@ -164,22 +164,26 @@ def weld(mesh_or_points: Body, tolerance: float = 0.0, *, chain: bool = False,
     within the tolerance of each other, and with the rule `first` a point may move by twice the
     tolerance.
 
-    mesh_or_points: a mesh, points (n, 3), or anything with `points` or `vertices` and no faces.
+    mesh_or_points: a mesh, points (n, 3), or an object with `points` or `vertices` and no faces.
     tolerance: Euclidean, inclusive; 0: equal coordinates (-0 equals +0).
-    chain: one point of all that steps of at most the tolerance link. By default a point is dropped
-        when an earlier kept one is within the tolerance.
-    same: vertex properties that must agree, with the largest difference.
-    keep_seams: normals, texture coordinates and colors must agree, except for those in `across`.
-    across: properties that `keep_seams` does not look at.
-    keep: which point of a group stays: 'first', 'last', 'mean', 'lowest' or 'highest' of `keep_by`.
-    keep_by: a property of vertices.
-    order_by: a property of vertices: points are visited by its values, the least first; needs
-        `keep` 'first'. '': by number.
-    highest_first: the greatest value of `order_by` first.
+    chain: merge all points that are connected by a chain of points, each within the tolerance of
+        the next. By default, a point is dropped if it is within the tolerance of an earlier point
+        that is kept.
+    same: vertex properties that must agree for points to be merged, each with the largest
+        difference allowed.
+    keep_seams: merge only points with equal normals, texture coordinates and colors, except for
+        those in `across`.
+    across: properties that `keep_seams` ignores.
+    keep: which point of a group is kept: 'first', 'last', 'mean', or the one with the 'lowest' or
+        'highest' value of `keep_by`.
+    keep_by: a vertex property.
+    order_by: a vertex property: visit the points in ascending order of its values. Requires `keep`
+        'first'. Empty: in the order of their numbers.
+    highest_first: visit the points in descending order of `order_by`.
     only_borders: Merge only points on edges of exactly one face.
     keep_manifold: Split groups that would make non-manifold edges or points.
     keep_degenerate: Keep faces that repeat a corner.
-    label: (n,) numbers; points with different ones are never merged.
+    label: (n,) a label for each point; points with different labels are never merged.
 
     Raises ValueError for a tolerance that is negative or not finite; unless there is one label for
     each point; for more than 2^32 - 2 points; for a corner out of range; for a property that is
@@ -214,19 +218,20 @@ def count_nearly_equal(points: ArrayLike, distance: float, *, progress: Progress
 
 @dataclass(frozen=True, repr=False)
 class WeldStreamResult(Result):
-    """What `weld_stream` has done.
+    """The result of `weld_stream`.
 
-    points: Points of the inputs.
-    kept: Points that are left.
-    max_displacement: The furthest that a point moved, at most; also to a step of LAS.
-    tolerance: As a length.
-    non_finite: Points that are not finite; all are kept.
-    tiles: Parts that space was cut into.
-    continued: Whether the run went on from what an earlier one had left.
-    faces: Of a mesh, faces that are left.
-    statistics: Counts of what was done, as in `WeldResult`.
-    warnings: What a person should know.
-    triangles: Of these, cut into triangles.
+    points: Number of input points.
+    kept: Number of points in the output.
+    max_displacement: Upper bound of how far points moved, including rounding to the resolution of
+        LAS.
+    tolerance: The tolerance as a length.
+    non_finite: Number of points that are not finite; all are kept.
+    tiles: Number of tiles that space was divided into.
+    continued: Whether the run resumed an earlier one.
+    faces: For a mesh, the number of faces in the output.
+    statistics: Counters of the operation, as in `WeldResult`.
+    warnings: Warnings for the user.
+    triangles: The same, with polygons cut into triangles.
     """
 
     points: int
@@ -257,36 +262,42 @@ def weld_stream(files: Path | Iterable[Path], out: Path, tolerance: float = 0.0,
     rank has a share of points and of faces. Meshes need `out` as PLY or OBJ; an STL no tolerance,
     or `chain`.
 
-    The bytes of the outputs are those of `weld` of the whole.
+    The outputs are the same, byte for byte, as those of `weld` for the whole input.
 
-    files: one or several, as one cloud; or one mesh.
+    files: one or several files of points, read as one cloud; or one file of a mesh.
     tolerance: as for `weld`.
     relative: `tolerance` is a share of the diagonal of the cloud's box.
-    chain: one point of all that steps of at most the tolerance link. By default a point is dropped
-        when an earlier kept one is within the tolerance.
-    same: vertex properties that must agree, with the largest difference.
-    keep: which point of a group stays: 'first', 'last', 'mean', 'lowest' or 'highest' of `keep_by`.
-    keep_by: a property of vertices.
-    order_by: a property of vertices: points are visited by its values, the least first; needs
-        `keep` 'first'. '': by number.
-    highest_first: the greatest value of `order_by` first.
-    keep_seams: normals, texture coordinates and colors must agree, except for those in `across`.
-    across: properties that `keep_seams` does not look at.
-    keep_degenerate: keep faces that repeat a corner.
-    as_las: for `out` in LAS: coordinates, and means of them, are rounded to the steps of that file
-        before anything is decided of them.
-    memory: bytes that the process may take; 0: three quarters of the machine's.
-    folder: for tiles; empty: beside the first input. Where a run was killed, the same call goes on.
+    chain: merge all points that are connected by a chain of points, each within the tolerance of
+        the next. By default, a point is dropped if it is within the tolerance of an earlier point
+        that is kept.
+    same: vertex properties that must agree for points to be merged, each with the largest
+        difference allowed.
+    keep: which point of a group is kept: 'first', 'last', 'mean', or the one with the 'lowest' or
+        'highest' value of `keep_by`.
+    keep_by: a vertex property.
+    order_by: a vertex property: visit the points in ascending order of its values. Requires `keep`
+        'first'. Empty: in the order of their numbers.
+    highest_first: visit the points in descending order of `order_by`.
+    keep_seams: merge only points with equal normals, texture coordinates and colors, except for
+        those in `across`.
+    across: properties that `keep_seams` ignores.
+    keep_degenerate: keep faces that have the same vertex more than once.
+    as_las: if `out` is a LAS file: round the coordinates, and means of coordinates, to the
+        resolution of that file before they are compared.
+    memory: memory limit of the process, in bytes; 0: three quarters of the memory of the machine.
+    folder: the folder for temporary tiles; empty: a folder next to the first input. If a run was
+        interrupted, the same call resumes it.
     points_per_tile: At most about this many; 0: as the memory allows.
     removed: a file for the dropped points.
-    label: write all points, with the group of each in a property of this name.
-    withhold: write all points, with LAS's flag "withheld" of those dropped.
+    label: write all points, with the number of their group as a property of this name.
+    withhold: write all points, and set the LAS flag "withheld" for those dropped.
     columns: as for `read`.
-    mixed: LAS files may have other reference systems or time types than the first, whose are
-        written.
-    communicator: ranks that do it together, each its share, in a folder that all see: anything with
-        `rank`, `size` and `allgather`, such as `mpi4py.MPI.COMM_WORLD`. All call the same. Where
-        one fails or is interrupted, all raise at the next collective call.
+    mixed: allow LAS files with different coordinate reference systems or time types. The output has
+        those of the first file.
+    communicator: processes that share the work, in a folder that all can access: an object with
+        `rank`, `size` and `allgather`, such as `mpi4py.MPI.COMM_WORLD`. All processes make the same
+        call. If one fails or is interrupted, all others raise an error at their next collective
+        call.
 
     Raises FileError when an input cannot be read or an output cannot be written, or for the folder;
     ValueError for a tolerance below 0 or not finite, and as `weld`.
