@@ -169,14 +169,14 @@ def test_files_that_are_open_are_read_and_written(tmp_path, format):
 
 
 def test_what_is_no_file_for_bytes_is_refused(tmp_path):
-    with pytest.raises(ValueError, match="format: it has to be said"):
+    with pytest.raises(ValueError, match="format: required for a file object"):
         tf.write(io.BytesIO(), CUBE)
     with pytest.raises(ValueError, match="open for text"):
         tf.read(io.StringIO("OFF"), format="off")
     for wrong in (3, None, object()):
-        with pytest.raises(ValueError, match="path: a path or a file is needed"):
+        with pytest.raises(ValueError, match="path: expected a path or a file"):
             tf.read(wrong)
-        with pytest.raises(ValueError, match="path: a path or a file is needed"):
+        with pytest.raises(ValueError, match="path: expected a path or a file"):
             tf.write(wrong, CUBE, format="stl")
     with pytest.raises(tf.FileError):
         tf.read(io.BytesIO(b"OFF 1"), format="off")
@@ -199,7 +199,7 @@ def test_several_meshes_are_parts(tmp_path):
     assert "does not hold them" in tf.write(tmp_path / "m.ply",
                                             (m for m in (CUBE, lid))).warnings[0]
     assert len(tf.read(tmp_path / "m.ply").faces) == 24
-    with pytest.raises(ValueError, match="mesh: there is none in the list"):
+    with pytest.raises(ValueError, match="mesh: the list is empty"):
         tf.write(tmp_path / "m.3mf", [])
     with pytest.raises(ValueError, match="mesh"):
         tf.write(tmp_path / "m.3mf", [CUBE, 3])

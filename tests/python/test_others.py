@@ -114,7 +114,7 @@ def test_polygons_of_three_and_four_corners_are_taken():
     # Numbers that could also be of triangles: all are read in their turn.
     assert tf.from_pyvista(PolyData(flat([[3, 0, 1, 2], [5, 6, 7]]))).faces.tolist() == [
         [3, 0, 1], [3, 1, 2], [5, 6, 7]]
-    with pytest.raises(ValueError, match="face 1 has 5 corners; only triangles and quads"):
+    with pytest.raises(ValueError, match="face 1 has 5 corners, but only triangles and quads"):
         tf.from_pyvista(PolyData(flat([[0, 1, 2], [0, 1, 2, 3, 4]])))
     sides = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
     corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)

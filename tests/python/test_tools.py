@@ -229,5 +229,5 @@ def test_robots_are_those_of_the_tool(folder):
                           poses[7])
     with pytest.raises(ValueError, match="weld"):
         robot.poses({"weld": 1.0})
-    with pytest.raises(ValueError, match="bend: numbers are needed"):
+    with pytest.raises(ValueError, match="bend: expected numbers"):
         robot.poses({"bend": "x"})

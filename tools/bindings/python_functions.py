@@ -209,19 +209,21 @@ class FunctionWriter:
                 values.append("how")
             else:
                 plain = name.strip("*")
-                annotation, value = ("str", "{}") if type in language.enums else \
-                    ARGUMENTS[type][3:] if type in ARGUMENTS else (type, "{}")
+                annotation, value = ARGUMENTS["str" if type in language.enums else type][3:] \
+                    if type in language.enums or type in ARGUMENTS else (type, "{}")
                 if default == "None" and "None" not in annotation and annotation != "Any":
                     annotation += " | None"
                 (last if name.startswith("**") else signature).append(
                     f"{name}: {annotation}{default and ' = ' + default}")
                 if plain in taken:
                     values.append(value.format(plain))
-        only_by_name()
+        if one.progress:
+            only_by_name()
+            last.insert(0, "progress: Progress = None")
         if one.check:
             signature.append("check: bool = True")
             notes["check"] = _CHECK
-        signature += ["progress: Progress = None", *last]
+        signature += last
         returns = one.made or re.sub(r"Optional\[(.+)\]$", r"\1 | None", one.returns)
         if one.missing:
             returns = returns.removesuffix(" | None")

@@ -93,6 +93,7 @@ class Function:
     doc: str = ""  #: in place of what C++ says, where that is of no use
     also: str = ""  #: beside it
     docs: dict[str, str] = field(default_factory=dict)  #: of arguments
+    progress: bool = True  #: whether it takes `progress`
 
     @property
     def name(self) -> str:
@@ -146,6 +147,9 @@ ARGUMENTS = {
                'np.atleast_1d(_arrays.floats({0}, "{0}"))'),
     "Groups": ("const ids_array&", "Ids", "rows_of<std::uint32_t>({})", "ArrayLike | None",
                '_arrays.labels({0}, "{0}")'),
+    "File": ("const std::filesystem::path&", "str", "{}", "Path", "path_of({})"),
+    "Folders": ("const std::vector<std::filesystem::path>&", "list[str]", "{}", "Iterable[Path]",
+                '_arrays.paths({0}, "{0}")'),
     "Feature": ("const tf::mesh_feature&", "Feature", "{}", "Feature",
                 'need({0}, "{0}", Feature)'),
     "PairIds": ("const ids_array&", "Ids", "{}", "", ""),
@@ -160,9 +164,10 @@ ARGUMENTS = {
     "Chosen": ("const ids_array&", "Ids", "rows_of<std::uint32_t>({})", "ArrayLike",
                "chosen_of(mesh, {})"),
     "Pairs": ("const ids_array&", "Ids", "rows_of<tf::part_pair>({})", "", ""),
-    **{type: (cpp, type, "{}", type, "{}") for type, cpp in (
-        ("float", "double"), ("int", "std::size_t"), ("bool", "bool"),
-        ("str", "const std::string&"))},
+    **{type: (cpp, type, "{}", type, f'_arrays.{convert}({{0}}, "{{0}}")')
+       for type, cpp, convert in (
+           ("float", "double", "number"), ("int", "std::size_t", "whole"), ("bool", "bool", "flag"),
+           ("str", "const std::string&", "word"))},
 }
 
 

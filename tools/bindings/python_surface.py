@@ -96,10 +96,10 @@ RESULTS = [
            custom={"first_point": [
                Attribute("points", "Floats", "(n, 2) in the plane of the section; the first point"
                                              " is not repeated at the end.",
-                         "part_of<double>(whole.points, from)"),
+                         "part_of(whole.points, from)"),
                Attribute("faces", "Ids", "(n,) for each point, the face that contains the side to"
                                          " the next point.",
-                         "part_of<std::uint32_t>(whole.faces, from)")],
+                         "part_of(whole.faces, from)")],
                "point_count": [],
                "parent": [Attribute("parent", "int | None", "The number of the innermost loop of "
                                                             "the layer that encloses it, or None.",
@@ -124,7 +124,7 @@ RESULTS = [
                "points": [Attribute("points", "Floats", "(P, 2) the points of all loops, one loop"
                                                         " after the other: (x . p, y . p) for a "
                                                         "point p in space.",
-                                    "as_array<double>(std::vector(from.points))")],
+                                    "as_array(std::vector(from.points))")],
                "faces": [Attribute("faces", "Ids", "(P,) for each point, the face that contains "
                                                    "the side starting at it.",
                                    "as_array(std::vector(from.faces))")],

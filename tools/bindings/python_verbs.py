@@ -49,6 +49,11 @@ def _operation(name: str, what: str, leave: str = "gap",
                     body=f'combined("{name}", meshes, how, progress)')
 
 
+def _from(library: str, takes: str, doc: str) -> Function:
+    return Function(f"from_{library}(mesh: {takes}) -> Mesh", body="as_mesh(mesh)", doc=doc,
+                    progress=False)
+
+
 def _of_others(own: str) -> str:
     "Options that only some placement functions have, except for `own`."
     return " ".join(sorted({"bed", "effort", "flip", "max_angle", "tolerance"} - {*own.split()}))
@@ -336,6 +341,29 @@ FUNCTIONS = [
                             "precision of the file. The rounded mesh may no longer have the "
                             "certified properties, so this is an error by default: compute the "
                             "result with `precision='float32'` instead."}),
+    # _from_others
+    _from("trimesh", "HasFaces", "A Mesh with the arrays of a `trimesh.Trimesh`, or of any other "
+                                 "object that is accepted as a mesh."),
+    _from("open3d", "HasTriangles | HasTensors", "A Mesh with the arrays of a TriangleMesh of "
+                                                 "`open3d.geometry` or `open3d.t.geometry`."),
+    _from("pyvista", "HasFaces | HasCells", "A Mesh with the triangles of a `pyvista.PolyData` or "
+                                            "grid; each quad is cut into two triangles."),
+    _from("vtk", "HasPolys", "A Mesh with the triangles of a `vtkPolyData`; each quad is cut into "
+                             "two triangles."),
+    _from("meshio", "HasCells", "A Mesh with the triangles of a `meshio.Mesh`; each quad is cut "
+                                "into two triangles."),
+    # _robots
+    Function("read_urdf(path: File, *, package_folders: Folders = (), visual: bool = False)"
+             " -> Robot",
+             doc="Reads a robot from a URDF file, with its meshes. Joints are fixed, revolute, "
+                 "continuous or prismatic. Boxes are exact. Cylinders and spheres become triangles "
+                 "around them, at most 0.13 % of the radius too large, so that no collision is "
+                 "missed. Faces that are not finite are dropped, and equal vertices merged.",
+             docs={"path": "the path of the file.",
+                   "package_folders": "where to look for packages: `package://name/rest` is "
+                                      "FOLDER/name/rest or FOLDER/rest, otherwise relative to the "
+                                      "folder of the file or one above it.",
+                   "visual": "use the visual meshes instead of the collision meshes."}),
     # _weld
     Function("count_nearly_equal(points: Points, distance: float) -> int",
              "tf::count_nearly_equal($points, distance)"),

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Fields of options and results, between C++ and Python: what `made/` is written with.
+/// Converts the fields of options and results between C++ and Python; used by `made/`.
 
 #include "carrying.hpp"
 #include "made/words.hpp"
@@ -9,81 +9,69 @@ namespace binding {
 
 // ---- options ----
 
-/// \throws py::type_error, which names the argument to those who called the package
+/// The function of the package's `_arrays` that checks and converts a value to each type.
+using conditions = std::vector<std::pair<std::string, double>>;
+inline auto converter(bool) { return "flag"; }
+inline auto converter(std::integral auto) { return "whole"; }
+inline auto converter(double) { return "number"; }
+inline auto converter(const std::string&) { return "word"; }
+inline auto converter(const std::filesystem::path&) { return "path_of"; }
+inline auto converter(const std::array<double, 2>&) { return "pair"; }
+inline auto converter(const std::array<double, 3>&) { return "vector"; }
+inline auto converter(const array_of<double>&) { return "matrix"; }
+inline auto converter(const name_pairs&) { return "columns_of"; }
+inline auto converter(const conditions&) { return "conditions"; }
+inline auto converter(const std::vector<std::filesystem::path>&) { return "paths"; }
+inline auto converter(const std::vector<std::string>&) { return "words"; }
+
+/// Sets an option. None for a count is its default.
 template <class T>
-T cast_of(py::handle value) {
+requires requires(const T& to) { converter(to); }
+void take(const char* name, py::handle value, T& to) {
+    if (std::is_integral_v<T> && !std::is_same_v<T, bool> && value.is_none()) return;
+    const py::object package = py::module_::import("treeform._arrays");
     try {
-        return value.cast<T>();
+        to = package.attr(converter(to))(value, name).template cast<T>();
     } catch (const py::cast_error&) {
-        throw py::type_error("incompatible constructor arguments");
+        throw std::invalid_argument(std::string(name) + ": out of range");
     }
 }
-
+/// What `take` makes of a value.
 template <class T>
-requires std::is_arithmetic_v<T>
-void take(const char*, py::handle value, T& to) {
-    if (!value.is_none() || std::is_floating_point_v<T>)
-        to = cast_of<T>(value);  // None of a count is the default
-    else if (std::is_same_v<T, bool>)
-        throw py::type_error("incompatible constructor arguments");
-}
+T taken(const char* name, py::handle value);
 template <has_words Enum>
 void take(const char* name, py::handle value, Enum& to) {
-    to = choice<Enum>(name, words_of<Enum>::all, cast_of<std::string>(value));
-}
-/// What `function` of the package's `_arrays` makes of an argument; it names what it refuses.
-template <class T>
-T made_by(const char* function, const char* name, py::handle value) {
-    return py::module_::import("treeform._arrays").attr(function)(value, name).template cast<T>();
-}
-inline void take(const char* name, py::handle value, std::string& to) {
-    to = made_by<std::string>("word", name, value);
-}
-inline void take(const char* name, py::handle value, std::filesystem::path& to) {
-    to = made_by<std::string>("path_of", name, value);
+    to = choice<Enum>(name, words_of<Enum>::all, taken<std::string>(name, value));
 }
 inline void take(const char* name, py::handle value, tf::point3& to) {
-    to = point_of(made_by<array_of<double>>("vector", name, value));
+    const auto [x, y, z] = taken<std::array<double, 3>>(name, value);
+    to = {x, y, z};
 }
 inline void take(const char* name, py::handle value, tf::transform<3>& to) {
-    to = transform_of(made_by<array_of<double>>("matrix", name, value));
-}
-inline void take(const char* name, py::handle value, std::array<double, 3>& to) {
-    to = made_by<std::array<double, 3>>("vector", name, value);
-}
-inline void take(const char* name, py::handle value, name_pairs& to) {
-    to = made_by<name_pairs>("columns_of", name, value);
-}
-inline void take(const char* name, py::handle value, std::array<double, 2>& to) {
-    to = made_by<std::array<double, 2>>("pair", name, value);
-}
-inline void take(const char* name, py::handle value, std::vector<std::filesystem::path>& to) {
-    to = made_by<std::vector<std::filesystem::path>>("paths", name, value);
-}
-inline void take(const char* name, py::handle value, std::vector<std::string>& to) {
-    to = made_by<std::vector<std::string>>("words", name, value);
+    to = transform_of(taken<array_of<double>>(name, value));
 }
 inline void take(const char* name, py::handle value, std::vector<tf::weld_condition>& to) {
-    using conditions = std::vector<std::pair<std::string, double>>;
-    for (const auto& [column, within] : made_by<conditions>("conditions", name, value))
+    for (const auto& [column, within] : taken<conditions>(name, value))
         to.push_back({column, within});
 }
 inline void take(const char* name, py::handle value, tf::pair_kinds& to) {
     if (value.is_none()) return;
     to = {};
-    for (const std::string& one : made_by<std::vector<std::string>>("words", name, value))
+    for (const std::string& one : taken<std::vector<std::string>>(name, value))
         to = to + choice<tf::pair_kind>(name, words_of<tf::pair_kind>::all, one);
 }
-
 template <class T>
 void take(const char* name, py::handle value, std::optional<T>& to) {
-    if (value.is_none()) return;
+    if (!value.is_none()) to = taken<T>(name, value);
+}
+template <class T>
+T taken(const char* name, py::handle value) {
     T made{};
     take(name, value, made);
-    to = std::move(made);
+    return made;
 }
 
-/// Options of named values; `each_field` of `made/options.cpp` says what the fields are.
+/// Options from keyword arguments; `each_field` in `made/options.cpp` lists the fields.
 template <class Options>
 Options options_of(const py::kwargs& named) {
     Options how;
@@ -100,7 +88,7 @@ Options options_of(const py::kwargs& named) {
     return how;
 }
 
-/// The class of options, with `names` of them and `defaults` of those that are numbers or words.
+/// The class for options, with their `names`, and the `defaults` of numbers, words and strings.
 template <class Options>
 void add_options_of(py::module_& module, const char* type) {
     const py::object made = py::class_<Options>(module, type).def(py::init(&options_of<Options>));
@@ -121,7 +109,7 @@ void add_options_of(py::module_& module, const char* type) {
 
 }  // namespace binding
 
-/// What Python has for a feature.
+/// Takes a `Feature` of the package.
 template <>
 struct pybind11::detail::type_caster<treeform::mesh_feature> {
     PYBIND11_TYPE_CASTER(treeform::mesh_feature, const_name("Feature"));
@@ -155,20 +143,14 @@ template <has_words Enum>
 py::object value_of(Enum value) {
     return py::cast(word_of(value));
 }
-template <class T>
-requires std::is_arithmetic_v<T> py::object value_of(std::vector<T>&& numbers) {
-    return as_array<T>(std::move(numbers));
-}
-inline py::object value_of(std::vector<tf::point3>&& points) { return as_array(std::move(points)); }
-inline py::object value_of(std::vector<tf::face>&& faces) { return as_array(std::move(faces)); }
-inline py::object value_of(std::vector<tf::operand_element>&& elements) {
-    return as_array<std::uint32_t>(std::move(elements));
+template <row T>
+py::object value_of(std::vector<T>&& rows) {
+    return as_array(std::move(rows));
 }
 template <class T, std::size_t N>
 requires std::is_arithmetic_v<T> py::object value_of(const std::array<T, N>& numbers) {
     return py::tuple(py::cast(numbers));
 }
-/// Corners or axes, as rows.
 template <std::size_t N>
 py::object value_of(const std::array<tf::point3, N>& rows) {
     return column(rows, [](const tf::point3& p) { return numbers(p); });
@@ -179,10 +161,11 @@ py::object value_of(std::optional<T>&& value) {
     return value ? value_of(std::move(*value)) : py::object(py::none());
 }
 
-/// Finds the functions of results, `made/results.cpp`.
+/// Selects the overloads of `object` in `made/results.cpp`, by argument-dependent lookup.
 struct of_result {};
 
-/// The same with what the objects are made in: attributes of operands, the mesh that moves.
+/// A value or result in Python; `context` is what a result also needs, such as the attributes of the
+/// operands or the moving mesh.
 template <class T, class... Context>
 py::object as_python(T&& value, const Context&... context) {
     if constexpr (requires { object(of_result{}, std::forward<T>(value), context...); })
@@ -207,7 +190,7 @@ py::object as_python(std::optional<T>&& value, const Context&... context) {
     return value ? as_python(std::move(*value), context...) : py::object(py::none());
 }
 
-/// How many there are of each word.
+/// Counts by word.
 template <class Enum, std::size_t N>
 py::dict counts_of(const std::array<std::uint64_t, N>& counts) {
     py::dict made;
@@ -215,20 +198,20 @@ py::dict counts_of(const std::array<std::uint64_t, N>& counts) {
     return made;
 }
 
-/// A dictionary with one more.
+/// `made` with one more entry.
 template <class T>
 py::dict with(py::dict made, const char* name, const T& value) {
     made[name] = value;
     return made;
 }
 
-/// `Mesh` of the package.
+/// A `Mesh` of the package.
 py::object mesh_object(tf::mesh&& mesh, const py::object& certificate, const py::object& data);
-/// `Mesh` of a body that `matrix` has moved, with its attributes.
+/// A `Mesh` of a body moved by `matrix`, with its attributes.
 py::object moved_mesh(std::vector<tf::point3>&& points, const held_mesh& body,
                       const tf::transform<3>& matrix, const py::object& certificate);
 
-/// What results get of their operands.
+/// The attributes of a result, carried over from its operands.
 template <class Result>
 py::object data_of(const Result& from, const carrying& attributes) {
     if constexpr (!requires { from.face_source; })

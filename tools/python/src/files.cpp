@@ -72,10 +72,10 @@ py::object column_values(const tf::column& c) {
     return tf::with_type(c.type, [&]<class T>(T) -> py::object {
         std::vector<T> values(c.size());
         if (!values.empty()) std::memcpy(values.data(), c.values.data(), c.values.size());
-        py::array numbers = as_array<T>(std::move(values));
+        py::array numbers = as_array(std::move(values));
         if (!c.list_length) return numbers;
         std::vector<std::uint64_t> begin = c.list_begin;
-        return py::make_tuple(as_array<std::uint64_t>(std::move(begin)), numbers);
+        return py::make_tuple(as_array(std::move(begin)), numbers);
     });
 }
 
@@ -114,7 +114,7 @@ void set_column(file_data& data, const std::string& element, const std::string& 
 py::dict corners(const file_data& data) {
     tf::corner_values copy = data.file().attributes.corners;
     py::dict all;
-    all["texture"] = as_array<double>(std::move(copy.texture));
+    all["texture"] = as_array(std::move(copy.texture));
     all["texture_of_corner"] = as_array(std::move(copy.texture_of_corner));
     all["normals"] = as_array(std::move(copy.normals));
     all["normal_of_corner"] = as_array(std::move(copy.normal_of_corner));

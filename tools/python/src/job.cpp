@@ -297,17 +297,6 @@ py::object run_job(const py::object& function, const py::args& arguments,
     return watch(mine, progress).result();
 }
 
-py::object call(const py::object& function, const py::args& arguments, const py::object& progress,
-                job_kind kind) {
-    try {
-        return run_job(function, arguments, progress, kind);
-    } catch (const py::error_already_set& error) {
-        if (error.matches(PyExc_TypeError))
-            py::module_::import("treeform._errors").attr("name_argument")(error.value());
-        throw;
-    }
-}
-
 }  // namespace
 
 void make_job(const py::object& scope, const char* name, job_kind kind) {
@@ -317,7 +306,7 @@ void make_job(const py::object& scope, const char* name, job_kind kind) {
             named.contains("progress") ? py::object(named["progress"]) : py::none();
         if (py::hasattr(progress, "update"))
             progress = py::module_::import("treeform._progress").attr("of_bar")(progress);
-        return call(function, arguments, progress, kind);
+        return run_job(function, arguments, progress, kind);
     };
     const auto doc = function.attr("__doc__").cast<std::string>();  // has the arguments
     if (py::isinstance<py::module_>(scope))

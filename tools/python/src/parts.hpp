@@ -10,11 +10,10 @@ py::object volumes_of(const tf::boolean_result& from);
 py::array ends_of(const std::vector<std::array<tf::point3, 2>>& edges);
 py::list regions_of(tf::part_clash& from);
 /// Of values of points, those of a loop.
-template <class Number, class T>
+template <class T>
 py::array part_of(const std::vector<T>& all, const tf::section_loop& loop) {
     const auto begin = all.begin() + static_cast<std::ptrdiff_t>(loop.first_point);
-    return as_array<Number>(
-        std::vector(begin, begin + static_cast<std::ptrdiff_t>(loop.point_count)));
+    return as_array(std::vector(begin, begin + static_cast<std::ptrdiff_t>(loop.point_count)));
 }
 /// The loop around one, by its number in the layer.
 py::object parent_of(const tf::section_result& whole, const tf::section_loop& loop);

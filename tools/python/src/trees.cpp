@@ -17,7 +17,7 @@ py::tuple nearest_of(std::size_t queries, std::size_t k, std::size_t none, const
         tools::fill_rows(find(begin, end), begin, k, ids.data(), distances.data(),
                          static_cast<id>(none), distance_of);
     });
-    return py::make_tuple(as_array<double>(std::move(distances)), as_array<id>(std::move(ids)));
+    return py::make_tuple(as_array(std::move(distances)), as_array(std::move(ids)));
 }
 
 /// [n][2]
@@ -73,8 +73,8 @@ class cloud {
                 begins.push_back(static_cast<id>(ids.size()));
             }
         });
-        return py::make_tuple(as_array<id>(std::move(begins)), as_array<id>(std::move(ids)),
-                              as_array<double>(std::move(distances)));
+        return py::make_tuple(as_array(std::move(begins)), as_array(std::move(ids)),
+                              as_array(std::move(distances)));
     }
 
     /// The pairs of points within `radius`, ascending.
@@ -149,7 +149,7 @@ class boxes {
             tools::append_lists(begin, end, begins, ids,
                                 [&](std::size_t q) { return all_.overlapping(queries[q]); });
         });
-        return py::make_tuple(as_array<id>(std::move(begins)), as_array<id>(std::move(ids)));
+        return py::make_tuple(as_array(std::move(begins)), as_array(std::move(ids)));
     }
 
     /// The nearest boxes.

@@ -192,7 +192,7 @@ py::array distance(const held_mesh& a, const held_mesh& b, const array_of<double
                    const array_of<double>& move_b, double radius) {
     auto all = positions_of(move_a, move_b);
     for (tf::mesh_positions& one : all) one.radius = radius;
-    return as_array<double>(in_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
+    return as_array(in_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
         return tf::distance(a.prepared(), b.prepared(), some_of(all, begin, end));
     }));
 }

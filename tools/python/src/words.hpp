@@ -28,8 +28,8 @@ Enum choice(const char* argument, const words<N>& all, std::string_view word) {
         if (word == all[i]) return static_cast<Enum>(i);
         there += (i == 0 ? "" : ", ") + std::string(all[i]);
     }
-    throw std::invalid_argument(std::string(argument) + ": \"" + std::string(word) +
-                                "\" is none of " + there);
+    throw std::invalid_argument(std::string(argument) + ": expected one of " + there + ", not '" +
+                                std::string(word) + "'");
 }
 
 template <has_words Enum>

@@ -1,8 +1,8 @@
 """Exact, fast mesh processing.
 
-NumPy arrays in, NumPy arrays out. A mesh is a `Mesh`, a pair (vertices, faces), or anything with
-such arrays: of trimesh, PyVista, Open3D, meshio. Every yes or no is exact on the coordinates as
-given; what operations return has been checked in the numbers returned.
+Functions take and return NumPy arrays. A mesh is a `Mesh`, a pair (vertices, faces), or a mesh of
+trimesh, PyVista, Open3D, VTK or meshio. All decisions are exact for the given coordinates, and
+results of operations are verified in the returned coordinates.
 
 >>> import treeform
 >>> m = treeform.read("data/two_spheres.stl")

@@ -1,5 +1,4 @@
-"""Two bodies, or all parts of an assembly: whether they meet, how far apart they are; in many
-poses."""
+"""Contacts and distances of two bodies or of all parts of an assembly, also in many poses."""
 
 from __future__ import annotations
 
@@ -22,12 +21,12 @@ __all__ = ["ClashResult", "NearestPoints", "PartClash", "PoseClashes", "RELATION
            "clash", "closest_points", "distance", "intersects"]
 # end
 
-#: How two parts lie to each other; a number in `PoseClashes.how` is a place in this list.
+#: The relations of two parts; numbers in `PoseClashes.how` are indexes of this list.
 RELATIONS = tuple(_core.RELATIONS)
 
 
 def poses_of(values: ArrayLike | None, name: str) -> Floats:
-    """Affine maps as (n, 4, 4)."""
+    """Affine transforms as (n, 4, 4)."""
     if values is None:
         return _arrays.matrix(None, name)[None]
     array = _arrays.floats(values, name)
@@ -45,7 +44,7 @@ def poses_of(values: ArrayLike | None, name: str) -> Floats:
 
 
 def one_or_all(found: NDArray[Any], *moves: ArrayLike | None) -> Any:
-    """The only one, where there is no batch of maps."""
+    """The single result, unless one of `moves` is a batch of transforms."""
     is_one = all(move is None or np.ndim(move) == 2 for move in moves)
     return found[0].item() if is_one else found
 
@@ -60,7 +59,7 @@ def _pairs(pairs: PartPairs) -> Ids:
 
 
 def _at(body: _core.HeldMesh, pose: Floats) -> _core.HeldMesh:
-    """A body moved, rounded once; where the map is a reflection, its faces are turned over."""
+    """A transformed body, rounded once. A reflection also flips its faces."""
     x, y, z = body.vertices.T[:, :, None]
     points = np.ascontiguousarray(x * pose[:3, 0] + y * pose[:3, 1] + z * pose[:3, 2] + pose[:3, 3])
     if body.is_cloud:
@@ -77,7 +76,7 @@ def _held(parts: Iterable[Body]) -> list[_core.HeldMesh]:
 
 def clashes(parts: Iterable[Body], poses: ArrayLike | None, how: _core.ClashOptions,
             ignored: PartPairs, progress: Progress) -> ClashResult:
-    """`clash` of parts where they are."""
+    """Implements `clash`."""
     bodies = _held(parts)
     if poses is not None:
         maps = poses_of(poses, "poses")
@@ -108,7 +107,7 @@ class PoseClashes(Result):
 # end
 
     def in_collision(self, poses: int) -> NDArray[np.bool_]:
-        """(poses,) bool: whether something penetrates or is too close in each pose."""
+        """(poses,) bool: whether any parts penetrate or are too close in each pose."""
         bad = np.zeros(poses, np.bool_)
         bad[self.pose[np.isin(self.how, [RELATIONS.index("penetrating"),
                                          RELATIONS.index("closer_than_clearance")])]] = True
@@ -117,7 +116,7 @@ class PoseClashes(Result):
 
 def clashes_in_poses(parts: Iterable[Body], poses: ArrayLike, how: _core.ClashOptions,
                      ignored: PartPairs, progress: Progress) -> PoseClashes:
-    """`check_poses`, of all parts or of the first."""
+    """Implements `check_poses`."""
     bodies = _held(parts)
     array = _arrays.floats(poses, "poses")
     if array.ndim == 3 and array.shape[1:] == (4, 4):
@@ -174,7 +173,7 @@ def distance(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     0.5
     """
     return one_or_all(_core.distance(held(a), held(b), poses_of(move_a, "move_a"),
-                                     poses_of(move_b, "move_b"), radius,
+                                     poses_of(move_b, "move_b"), _arrays.number(radius, "radius"),
                                      progress=progress), move_a, move_b)
 
 
@@ -228,7 +227,8 @@ def closest_points(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     2.0
     """
     return _core.closest_points(held(a), held(b), _arrays.matrix(move_a, "move_a"),
-                                _arrays.matrix(move_b, "move_b"), radius, progress=progress)
+                                _arrays.matrix(move_b, "move_b"), _arrays.number(radius, "radius"),
+                                progress=progress)
 
 
 @dataclass(frozen=True, repr=False)

@@ -8,7 +8,7 @@ from typing import Any, Iterable, Union
 
 import numpy as np
 
-from . import _core
+from . import _arrays, _core
 from ._arrays import Ids
 from ._errors import checked, options
 from ._mesh import Mesh, MeshLike, MeshResult, held, listed
@@ -20,12 +20,12 @@ __all__ = ["BooleanResult", "boolean", "check_solid", "clip", "difference", "int
 # end
 
 
-#: What set operations take: a mesh, or several in whatever can be gone through.
+#: Operands of set operations: a mesh, or an iterable of meshes.
 MeshesLike = Union[MeshLike, Iterable[MeshLike]]
 
 
 def operands_of(meshes: Iterable[Any]) -> list[_core.HeldMesh]:
-    """Those of `union(a, b, c)`, `union([a, b, c])` or `difference(a, [b, c])`."""
+    """The operands of `union(a, b, c)`, `union([a, b, c])` or `difference(a, [b, c])`."""
     all: list[_core.HeldMesh] = []
     for one in meshes:
         several = listed(one)
@@ -35,7 +35,7 @@ def operands_of(meshes: Iterable[Any]) -> list[_core.HeldMesh]:
 
 def combined(operation: str, meshes: tuple[Any, ...], how: _core.BooleanOptions,
              progress: Progress) -> BooleanResult:
-    """A single mesh stands for its objects, except in a union."""
+    """The set operation. Except in a union, a single mesh stands for the objects in it."""
     operands = operands_of(meshes)
     if len(operands) == 1 and operation != "union":
         operands = _core.objects_of(operands[0]) or operands
@@ -44,18 +44,17 @@ def combined(operation: str, meshes: tuple[Any, ...], how: _core.BooleanOptions,
 
 def by_formula(expression: str, operands: tuple[Any, ...], meshes: dict[str, Any],
                how: _core.BooleanOptions, progress: Progress) -> BooleanResult:
-    """Of operands without a name, which are a, b, c, and of those with one."""
+    """Implements `boolean`: operands without a name are called a, b, c, ..."""
     unnamed = operands_of(operands)
     names = [*(chr(ord("a") + i) for i in range(len(unnamed))), *meshes]
-    return _core.boolean_of([*unnamed, *(held(mesh) for mesh in meshes.values())], "", expression,
-                            names, how, progress=progress)
+    return _core.boolean_of([*unnamed, *(held(mesh) for mesh in meshes.values())], "",
+                            _arrays.word(expression, "expression"), names, how, progress=progress)
 
 
 def clipped(sheet: MeshLike, solids: tuple[Any, ...], keep: str, how: _core.BooleanOptions,
             progress: Progress) -> BooleanResult:
-    """The pieces of a sheet outside of all solids, or inside."""
-    if keep not in ("outside", "inside"):
-        raise ValueError(f"keep: {keep!r} is neither 'outside' nor 'inside'")
+    """Implements `clip`."""
+    keep = _arrays.one_of(keep, "keep", ("outside", "inside"))
     operation = "difference" if keep == "outside" else "intersection"
     return _core.clip_by([held(sheet), *operands_of(solids)], operation, how, progress=progress)
 

@@ -1,4 +1,4 @@
-"""Sections of meshes by planes, solids cut by them; parts of meshes."""
+"""Plane sections of meshes, solids cut by planes, and parts of meshes."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ class Section(Result):
         return self._data.loops(range(len(self))[layer])
 
     def in_space(self, layer: int, points: ArrayLike) -> Floats:
-        """(n, 3) points (n, 2) of a layer in space, rounded."""
+        """(n, 3) the positions in space of `points` (n, 2) of a layer, rounded."""
         x, y, normal = self.axes
         flat = _arrays.rows(points, 2, "points")
         up: Floats = normal * (normal @ self.origins[layer])
@@ -79,22 +79,24 @@ class Section(Result):
 
     def write(self, path: Union[str, os.PathLike[str]], *, format: str = "", unit: str = "",
               progress: Progress = None) -> None:
-        """Writes all layers as SVG, DXF, OBJ (lines in space) or JSON, by the extension or
-        `format`. With a unit, 'mm', 'cm', 'm', 'in', 'ft' or 'um', SVG has its size on paper."""
-        _core.write_section(os.fspath(path), self._data, format, unit, progress=progress)
+        """Writes all layers as SVG, DXF, OBJ (lines in space) or JSON, according to `format` or the
+        extension. With a unit ('mm', 'cm', 'm', 'in', 'ft' or 'um'), an SVG has its true size."""
+        _core.write_section(os.fspath(path), self._data, _arrays.word(format, "format"),
+                            _arrays.word(unit, "unit"), progress=progress)
 
 
 def heights_of(heights: ArrayLike | None) -> Floats:
-    """Without any, the plane itself."""
+    """Heights of planes; None is the plane itself."""
     return np.zeros(1) if heights is None else np.atleast_1d(_arrays.floats(heights, "heights"))
 
 
 class CutPieces(List["CutPiece"]):
-    """A list of pieces, and what was checked.
+    """A list of the pieces of a mesh.
 
-    certificate: That of the first piece that is not ok, or of the mesh where it bounds no solid.
-    resolved: Faces of the mesh met: what was cut is the solid that it winds around, where parts
-        that overlap are one; without caps, the faces cut along each other.
+    certificate: The certificate of the first piece that is not ok, or of the mesh if it does not
+        bound a solid.
+    resolved: Whether the mesh intersected itself. Then the solid that it encloses was cut, with
+        overlapping parts united; without caps, the faces were cut along their intersections.
     """
 
     certificate: Certificate
@@ -102,7 +104,7 @@ class CutPieces(List["CutPiece"]):
 
 
 def chosen_of(mesh: MeshLike, faces: ArrayLike) -> Ids:
-    """Numbers of faces, or those that a mask has."""
+    """Face numbers, also from a boolean mask."""
     chosen = np.asarray(faces)
     if chosen.dtype == bool:
         count = len(as_mesh(mesh).faces)
@@ -113,10 +115,10 @@ def chosen_of(mesh: MeshLike, faces: ArrayLike) -> Ids:
 
 
 def joined(meshes: Iterable[MeshLike], progress: Progress) -> Mesh:
-    """The meshes of a list, one after the other."""
+    """Implements `concatenate`."""
     several = listed(meshes)
     if several is None:
-        raise ValueError("meshes: several meshes are needed")
+        raise ValueError("meshes: expected a list of meshes, not a mesh")
     return _core.concatenate([held(one) for one in several], progress=progress)
 
 
@@ -205,8 +207,9 @@ def layer_heights(mesh: MeshLike, thickness: float, normal: ArrayLike = (0, 0, 1
     >>> treeform.layer_heights(treeform.read("data/cube.stl"), 0.5).tolist()
     [0.25, 0.75]
     """
-    return _core.layer_heights(held(mesh), thickness, _arrays.vector(normal, "normal"),
-                               _arrays.vector(at, "at"), progress=progress)
+    return _core.layer_heights(held(mesh), _arrays.number(thickness, "thickness"),
+                               _arrays.vector(normal, "normal"), _arrays.vector(at, "at"),
+                               progress=progress)
 
 
 @dataclass(frozen=True, repr=False)
@@ -365,7 +368,8 @@ def components(mesh: MeshLike, *, min_volume: float = 0.0, largest: int = 0,
     >>> [part.mesh for part in spheres]
     [Mesh(162 vertices, 320 faces), Mesh(162 vertices, 320 faces)]
     """
-    return _core.components(held(mesh), min_volume, largest, progress=progress)
+    return _core.components(held(mesh), _arrays.number(min_volume, "min_volume"),
+                            _arrays.whole(largest, "largest"), progress=progress)
 
 
 def submesh(mesh: MeshLike, faces: ArrayLike, *, progress: Progress = None) -> MeshPart:

@@ -1,18 +1,12 @@
-"""What goes wrong. Data that makes no sense is a ValueError that names the element; memory that is
-not enough is a MemoryError."""
+"""The exceptions of the package. Invalid arguments raise ValueError, naming the element; running
+out of memory raises MemoryError."""
 
 from __future__ import annotations
 
 import os
-import re
-import sys
-from numbers import Real
-from types import FrameType
 from typing import Any, Callable, Mapping, Protocol, TypeVar, cast
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ._arrays import Floats, Ids, expect
 from ._results import Certificate
 
 __all__ = ["Cancelled", "CertificateError", "Error", "FileError", "NotCertifiedError",
@@ -22,16 +16,15 @@ _Made = TypeVar("_Made")
 
 
 class Error(Exception):
-    """What is raised by treeform alone."""
+    """Base of the exceptions that only treeform raises."""
 
 
 class FileError(Error, OSError):
-    """A file that cannot be read or written. The message names the path, the line or byte, and the
-    reason.
+    """A file cannot be read or written. The message has the path, the line or byte, and the reason.
 
-    Where the system gives the reason, `errno`, `strerror` and `filename` say it, and the error is
-    also what Python raises for it: FileNotFoundError, PermissionError, IsADirectoryError, ... They
-    are None where the reason is in the file.
+    If the operating system reported the error, it is also the Python exception for it, such as
+    FileNotFoundError or PermissionError, with `errno`, `strerror` and `filename`. If the content of
+    the file is the reason, these are None.
     """
 
     _message: str
@@ -43,12 +36,12 @@ class FileError(Error, OSError):
         return file_error, (str(self), self.errno or 0, self.filename or "")
 
 
-#: By the classes of Python.
+#: By the exception that Python raises.
 _FILE_ERRORS: dict[type[OSError], type[FileError]] = {}
 
 
 def file_error(message: str, errno: int = 0, filename: str = "") -> FileError:
-    """The FileError for what the system says, which is also what Python raises for that."""
+    """A FileError that is also the exception that Python raises for `errno`."""
     if errno == 0:
         return FileError(message)
     kind = type(OSError(errno, ""))
@@ -62,13 +55,14 @@ def file_error(message: str, errno: int = 0, filename: str = "") -> FileError:
 
 
 class Cancelled(Error):
-    """`progress` has returned False."""
+    """`progress` returned False."""
 
 
 class CertificateError(Error, ValueError):
-    """A result that is not what was asked for.
+    """A result does not have the guaranteed properties.
 
-    `certificate` says why. With `check=False`, the operation returns it with the result instead.
+    `certificate` says why. With `check=False`, the operation returns the result with its
+    certificate instead.
     """
 
     def __init__(self, certificate: Certificate, of_one: bool = False) -> None:
@@ -82,16 +76,16 @@ class CertificateError(Error, ValueError):
 
 
 class NotSolidError(CertificateError):
-    """A mesh does not bound a solid: its surface ends somewhere."""
+    """A mesh does not bound a solid, since it is open."""
 
     @property
-    def edges(self) -> NDArray[np.float64]:
-        """(n, 2, 3): the ends of the first 100 edges where the surface ends."""
+    def edges(self) -> Floats:
+        """(n, 2, 3) the end points of the first 100 open edges."""
         return self.certificate.open_edges
 
     @property
-    def faces(self) -> NDArray[np.uint32]:
-        """(n, 2): the operand and the face at each of these edges."""
+    def faces(self) -> Ids:
+        """(n, 2) the operand and the face at each of these edges."""
         return self.certificate.open_faces
 
 
@@ -99,14 +93,14 @@ class NotCertifiedError(CertificateError):
     """The coordinates of a result could not be certified."""
 
     @property
-    def pairs(self) -> NDArray[np.uint32]:
-        """(n, 2): the first 100 pairs of faces of the result that still meet."""
+    def pairs(self) -> Ids:
+        """(n, 2) the first 100 pairs of faces of the result that still intersect."""
         return self.certificate.meeting
 
 
 def require(certificate: Certificate, *also: str, of_one: bool = False) -> None:
-    """Raises what `certificate` says, unless it is ok or its status is one of `also`. `of_one`: of
-    a single mesh, which is no operand."""
+    """Raises an error unless the status is ok, or one of `also`. `of_one`: the message is about a
+    single mesh, not about operands."""
     if certificate or certificate.status in also:
         return
     if certificate.status == "open_input":
@@ -123,58 +117,20 @@ _Result = TypeVar("_Result", bound=_Certified)
 
 
 def checked(made: _Result, check: bool, of_one: bool = False) -> _Result:
-    """A result; with `check`, raises what its certificate says."""
+    """A result, if its certificate is ok or `check` is False."""
     if check:
         require(made.certificate, "sheet", of_one=of_one)
     return made
 
 
-#: What annotations ask for, and how that is said.
-_KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
-    "float": (lambda value: isinstance(value, (float, np.floating))
-              or isinstance(value, Real) and abs(value) < 2**1023, "a number"),
-    "int": (lambda value: isinstance(value, (int, np.integer)) and bool(0 <= value < 2**64),
-            "a whole number, not negative,"),
-    "bool": (lambda value: isinstance(value, (bool, np.bool_)), "True or False"),
-    "str": (lambda value: isinstance(value, str), "a word"),
-    "tuple[float, float]": (lambda value: np.shape(value) == (2,), "a pair of numbers"),
-}
-
-
-def name_argument(error: TypeError) -> None:
-    """Raises ValueError that names an argument which is not what its function's annotation asks
-    for, where the extension has refused those it was called with."""
-    frame: FrameType | None = sys._getframe(1)
-    if not re.search("incompatible (function|constructor) arguments", str(error)):
-        return
-    while frame is not None and frame.f_globals.get("__name__", "").startswith("treeform."):
-        name = frame.f_code.co_name
-        function = getattr(type(frame.f_locals.get("self")), name, frame.f_globals.get(name))
-        for argument, annotation in getattr(function, "__annotations__", {}).items():
-            if argument == "return":
-                continue
-            is_one, wanted = _KINDS.get(annotation.removesuffix(" | None"), (None, ""))
-            value = frame.f_locals.get(argument)
-            if is_one is None or (value is None and annotation.endswith("None")) or is_one(value):
-                continue
-            raise ValueError(f"{argument}: {wanted} is needed, not {value!r}") from None
-        frame = frame.f_back
-
-
 def options(type: Callable[..., _Made], arguments: Mapping[str, Any], **others: Any) -> _Made:
-    """Options of the extension: those of a function's arguments, its `locals()`, that have their
-    names; `others` in place of them."""
+    """Options of the extension: those arguments of a function (its `locals()`) that are options;
+    `others` override them."""
     names = cast(Any, type).names
-    named = {name: value for name, value in {**arguments, **others}.items() if name in names}
-    try:
-        return type(**named)
-    except TypeError as error:
-        name_argument(error)
-        raise
+    return type(**{name: value for name, value in {**arguments, **others}.items()
+                   if name in names})
 
 
 def need(value: Any, name: str, kind: type) -> Any:
-    """`value`, which has to be one of these."""
-    if not isinstance(value, kind):
-        raise ValueError(f"{name}: {kind.__name__} is needed, not {value!r}")
-    return value
+    """`value`, if it is of this class."""
+    return expect(isinstance(value, kind), value, name, kind.__name__)

@@ -1,4 +1,4 @@
-"""Files, and work on files that are larger than memory."""
+"""Reading and writing of files."""
 
 from __future__ import annotations
 
@@ -26,43 +26,44 @@ Columns = Mapping[str, Union[str, int]]
 
 def read_from(path: Path | IO[bytes], format: str, join: bool, how: _core.ReadOptions,
               progress: Progress) -> Mesh:
-    """Of a path, or of what is open."""
+    """Reads a path or a file object."""
+    format, join = _arrays.word(format, "format"), _arrays.flag(join, "join")
     if isinstance(path, (str, os.PathLike)):
         return _core.read(path_of(path), format, join, how, progress=progress)
     return _core.read_bytes(_content(path), _name_of(path), format, join, how, progress=progress)
 
 
 def _content(file: Any) -> bytes:
-    """All that is left in it."""
+    """The rest of a file object."""
     content = file.read() if hasattr(file, "read") else None
     if isinstance(content, (bytes, bytearray, memoryview)):
         return bytes(content)
     if content is None:
-        raise ValueError(f"path: a path or a file is needed, not {file!r}")
-    raise ValueError(f"path: the file is open for text, not for bytes: {file!r}")
+        raise ValueError(f"path: expected a path or a file, not {file!r}")
+    raise ValueError(f"path: the file is open for text, not in binary mode: {file!r}")
 
 
 def _name_of(file: Any) -> str:
-    """For messages; its extension counts."""
+    """A name for messages; its extension may tell the format."""
     name = getattr(file, "name", "")
     return name if isinstance(name, str) and name else "bytes"
 
 
-#: What `write` takes: a mesh, or several as parts, with names or without.
+#: What `write` takes: a mesh, several meshes as parts, or a dict of parts by name.
 PartsLike = Union[MeshLike, Iterable[MeshLike], Mapping[str, MeshLike]]
 
 
 def written(path: Path | IO[bytes], mesh: PartsLike, format: str, how: _core.WriteOptions,
             progress: Progress) -> Written:
-    """To a path, or to what is open."""
+    """Writes to a path or a file object."""
     put = partial(_write, mesh, how, progress)
     if isinstance(path, (str, os.PathLike)):
         return put(path_of(path))
     if not hasattr(path, "write"):
-        raise ValueError(f"path: a path or a file is needed, not {path!r}")
+        raise ValueError(f"path: expected a path or a file, not {path!r}")
     name = _name_of(path)
     if not format and "." not in name:
-        raise ValueError("format: it has to be said for a file without a name")
+        raise ValueError("format: required for a file object without a name")
     with tempfile.TemporaryDirectory() as folder:
         beside = os.path.join(folder, os.path.basename(name))
         try:
@@ -84,14 +85,14 @@ def _write(mesh: PartsLike, how: _core.WriteOptions, progress: Progress, path: s
             str(number): part for number, part in enumerate(parts, 1)})
     written = _core.write(path, made._held, certified, how, progress=progress)
     if parts is not None and not written.format.startswith(("3mf", "obj")):
-        written.warnings.append(f"parts are one mesh now: {written.format} does not hold them")
+        written.warnings.append(f"parts were merged: {written.format} cannot store parts")
     return written
 
 
 def _scene_of(parts: Mapping[str, Any]) -> tuple[Mesh, bool]:
-    """All as one, and whether the coordinates of one are certified."""
+    """All parts as one scene, and whether the coordinates of any part are certified."""
     if not parts:
-        raise ValueError("mesh: there is none in the list")
+        raise ValueError("mesh: the list is empty")
     meshes = [as_mesh(part) for part in parts.values()]
     made = _core.scene([one._held for one in meshes],
                        [_arrays.word(name, "mesh") for name in parts])

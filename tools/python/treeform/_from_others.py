@@ -1,15 +1,20 @@
-"""Meshes of other libraries as a Mesh. Whatever takes a mesh takes these, too; a Mesh keeps its
-indexes."""
+"""Meshes of other libraries as a Mesh. All functions that take a mesh also take these, but only a
+Mesh keeps its indexes."""
 
 from __future__ import annotations
 
+# made of uses:
 from ._mesh import HasCells, HasFaces, HasPolys, HasTensors, HasTriangles, Mesh, as_mesh
 
 __all__ = ["from_meshio", "from_open3d", "from_pyvista", "from_trimesh", "from_vtk"]
+# end
 
 
+# made of headers:
+#   from_trimesh from_open3d from_pyvista from_vtk from_meshio
 def from_trimesh(mesh: HasFaces) -> Mesh:
-    """A Mesh of the arrays of a `trimesh.Trimesh`, or of whatever else is taken for a mesh.
+    """A Mesh with the arrays of a `trimesh.Trimesh`, or of any other object that is accepted as a
+    mesh.
 
     >>> import treeform
     >>> class Trimesh:
@@ -22,7 +27,7 @@ def from_trimesh(mesh: HasFaces) -> Mesh:
 
 
 def from_open3d(mesh: HasTriangles | HasTensors) -> Mesh:
-    """A Mesh of a TriangleMesh of `open3d.geometry` or `open3d.t.geometry`.
+    """A Mesh with the arrays of a TriangleMesh of `open3d.geometry` or `open3d.t.geometry`.
 
     >>> import treeform
     >>> class TriangleMesh:
@@ -35,7 +40,8 @@ def from_open3d(mesh: HasTriangles | HasTensors) -> Mesh:
 
 
 def from_pyvista(mesh: HasFaces | HasCells) -> Mesh:
-    """A Mesh of a `pyvista.PolyData` or grid: triangles, and quads, each cut in two.
+    """A Mesh with the triangles of a `pyvista.PolyData` or grid; each quad is cut into two
+    triangles.
 
     >>> import treeform
     >>> class PolyData:
@@ -48,7 +54,7 @@ def from_pyvista(mesh: HasFaces | HasCells) -> Mesh:
 
 
 def from_vtk(mesh: HasPolys) -> Mesh:
-    """A Mesh of a `vtkPolyData`: triangles, and quads, each cut in two.
+    """A Mesh with the triangles of a `vtkPolyData`; each quad is cut into two triangles.
 
     >>> import treeform
     >>> def mesh_of(reader):  # a vtkSTLReader
@@ -59,7 +65,7 @@ def from_vtk(mesh: HasPolys) -> Mesh:
 
 
 def from_meshio(mesh: HasCells) -> Mesh:
-    """A Mesh of a `meshio.Mesh`: triangles, and quads, each cut in two.
+    """A Mesh with the triangles of a `meshio.Mesh`; each quad is cut into two triangles.
 
     >>> import treeform
     >>> class Meshio:
@@ -69,3 +75,4 @@ def from_meshio(mesh: HasCells) -> Mesh:
     Mesh(4 vertices, 2 faces)
     """
     return as_mesh(mesh)
+# end

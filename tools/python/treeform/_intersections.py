@@ -1,4 +1,4 @@
-"""Faces that meet: of one mesh, of two, of a file larger than memory."""
+"""Intersecting faces of a mesh, of two meshes, or of a file larger than memory."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ __all__ = ["FacePairs", "FilePairs", "KINDS", "Region", "SharedSearch", "faces_i
            "self_intersections", "self_intersections_of_file"]
 # end
 
-#: How two faces meet; a number in `kinds` is a place in this list.
+#: The kinds of intersecting pairs; numbers in `kinds` are indexes of this list.
 KINDS = tuple(_core.KINDS)
 
 
@@ -47,7 +47,7 @@ class FacePairs(Result):
         return len(self.pairs)
 
     def of_kind(self, *kinds: str) -> Ids:
-        """(n, 2): the pairs of these kinds.
+        """(n, 2) the pairs of these kinds.
 
         >>> import treeform
         >>> found = treeform.self_intersections(treeform.read("data/two_spheres.stl"))
@@ -79,22 +79,22 @@ class FilePairs(FacePairs):
 
     @property
     def pairs_in_file(self) -> Ids:
-        """(n, 2): the pairs by numbers of the file."""
+        """(n, 2) the pairs, as face numbers of the file."""
         return self.face_in_file[self.pairs]
 
 
 class SharedSearch(InSteps[_core.SearchInSteps]):
-    """`self_intersections_of_file` step by step, for many processes, of one machine or of several
-    that see the folder: those of Dask, of Slurm, of `multiprocessing`.
+    """`self_intersections_of_file` in steps, for many processes on one machine or on several that
+    share a folder, such as those of Dask, Slurm or `multiprocessing`.
 
-    All make it with the same arguments. One calls `scatter`; then each calls `search_tile` for its
-    share of the tiles; and when all have ended, one calls `finish` and `remove_folder`. A tile that
-    is finished is not searched again. Arguments are those of `self_intersections_of_file`; empty
-    `folder`: the input's name and ".search-tiles".
+    All processes create it with the same arguments, those of `self_intersections_of_file`. One
+    process calls `scatter`; then each calls `search_tile` for some of the tiles; when all are done,
+    one calls `finish` and `remove_folder`. Tiles that are finished are not searched again. If
+    `folder` is empty, it is the name of the input with ".search-tiles".
 
-    It has a hold on the folder until `close`, the end of a `with`, or its own end. A copy for
-    another process (pickle) is made anew from its arguments. A step before its turn raises
-    FileError, a tile that is not there IndexError.
+    The folder is locked until `close`, the end of a `with` block, or the end of the object.
+    Pickling stores only the arguments. Steps in the wrong order raise FileError, invalid tiles
+    IndexError.
 
     >>> import tempfile, treeform
     >>> with tempfile.TemporaryDirectory() as home:
@@ -120,26 +120,26 @@ class SharedSearch(InSteps[_core.SearchInSteps]):
 
     @property
     def unfinished(self) -> list[int]:
-        """The tiles that are to be searched."""
+        """The tiles that have not been searched yet."""
         return self._work.unfinished()
 
     def search_tile(self, tile: int, *, progress: Progress = None) -> None:
-        """Searches a tile, from 0, unless that is done."""
+        """Searches a tile, numbered from 0, unless this is done."""
         self._do_tile(tile, progress)
 
     def finish(self, *, progress: Progress = None) -> FilePairs:
-        """Puts together what was found, when all tiles are searched."""
+        """Merges the results, after all tiles have been searched."""
         return self._work.finish(progress=progress)
 
 
 def pairs_of(found: FacePairs) -> tuple[Ids, NDArray[np.uint8]]:
-    """The pairs, and their kinds."""
+    """The pairs and their kinds."""
     need(found, "found", FacePairs)
     return found.pairs, found.kinds
 
 
 def curves(points: Floats, paths: list[tuple[Ids, bool]]) -> list[Floats]:
-    """Of paths by numbers of points; closed ones end where they begin."""
+    """Curves from paths of point numbers; closed curves repeat their first point."""
     return [points[np.append(path, path[:1]) if closed else path] for path, closed in paths]
 
 

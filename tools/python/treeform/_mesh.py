@@ -1,4 +1,4 @@
-"""Meshes, and whatever can be taken for one."""
+"""Meshes, and other objects that are accepted as meshes."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core, _others
 from ._arrays import Floats, Ids
 from ._core import Attributes
-from ._errors import require
+from ._errors import need, require
 from ._others import arrays_of
 from ._results import Certificate, Result
 
@@ -21,35 +21,35 @@ __all__ = ["Mesh", "MeshLike"]
 
 
 class HasFaces(Protocol):
-    """A mesh as trimesh has it; PyVista has `points` and flat `faces`, Open3D `triangles`."""
+    """A mesh of trimesh or PyVista."""
 
     @property
     def faces(self) -> Any: ...
 
 
 class HasTriangles(Protocol):
-    """A mesh as Open3D has it."""
+    """A mesh of Open3D."""
 
     @property
     def triangles(self) -> Any: ...
 
 
 class HasCells(Protocol):
-    """A mesh as meshio has it, and grids of PyVista."""
+    """A mesh of meshio, or a grid of PyVista."""
 
     @property
     def cells_dict(self) -> Any: ...
 
 
 class HasTensors(Protocol):
-    """A mesh as `open3d.t.geometry` has it."""
+    """A mesh of `open3d.t.geometry`."""
 
     @property
     def triangle(self) -> Any: ...
 
 
 class HasPolys(Protocol):
-    """A mesh as VTK has it."""
+    """A mesh of VTK."""
 
     def GetPolys(self) -> Any: ...
 
@@ -73,19 +73,18 @@ def _operators(sign: str) -> tuple[_Operator, _Operator]:
 class Mesh:
     """A triangle mesh.
 
-    vertices: (V, 3) numbers; float64 in one piece is not copied, else it is converted once.
-    faces: (F, 3) whole numbers, the vertices of each face, counter-clockwise from outside; uint32
-    in one piece is not copied. The flat [3, a, b, c, 3, ...] of PyVista and VTK will do.
+    vertices: (V, 3) coordinates. A contiguous float64 array is not copied; others are converted.
+    faces: (F, 3) the vertex numbers of each face, counter-clockwise from outside. A contiguous
+    uint32 array is not copied. The flat [3, a, b, c, 3, ...] of PyVista and VTK is also accepted.
 
-    A face with a corner that is no vertex is refused by the first operation.
+    Faces with a vertex number that is out of range are reported by the first operation.
 
-    A mesh does not change: its arrays cannot be written to, and the arrays that it was made of must
-    stay as they are as long as it is in use. So indexes that queries build are kept, and the second
-    query is fast.
+    A mesh is immutable: its arrays are read-only, and the arrays that it was made from must not be
+    changed while it is in use. It keeps the indexes that queries build, so later queries are fast.
 
     `a | b`, `a - b`, `a & b` and `a ^ b` are exact set operations on solids (see `boolean`). They
-    are collected, and computed at once when the result is looked at: `(a | b) - c` is cut and
-    rounded once. An operand that bounds no solid raises NotSolidError.
+    are evaluated together when the result is first used: `(a | b) - c` is cut and rounded only
+    once. An operand that does not bound a solid raises NotSolidError.
 
     >>> import numpy as np
     >>> import treeform
@@ -102,8 +101,8 @@ class Mesh:
 
     def __init__(self, vertices: ArrayLike, faces: ArrayLike = (),
                  attributes: Attributes | None = None) -> None:
-        if attributes is not None and not isinstance(attributes, Attributes):
-            raise ValueError(f"attributes: Attributes are needed, not {type(attributes).__name__}")
+        if attributes is not None:
+            need(attributes, "attributes", Attributes)
         self._formula: _Formula | None = None
         self._set(_arrays.points(vertices), _arrays.faces(faces), attributes, None)
 
@@ -120,14 +119,14 @@ class Mesh:
     @classmethod
     def _of(cls, vertices: Floats, faces: Ids, attributes: Attributes | None = None,
             certificate: Certificate | None = None) -> Mesh:
-        """Of arrays that the library has made."""
+        """A mesh with arrays that the library has made."""
         made = cls.__new__(cls)
         made._formula = None
         made._set(vertices, faces, attributes, certificate)
         return made
 
     def _ready(self) -> Mesh:
-        """Computes what operators have collected."""
+        """The mesh after evaluating pending set operations."""
         if self._formula is not None:
             made = self._formula.result().mesh
             self._set(made._vertices, made._faces, made._attributes, made._certificate)
@@ -136,29 +135,29 @@ class Mesh:
 
     @property
     def vertices(self) -> Floats:
-        """(V, 3) float64, not to be written to."""
+        """(V, 3) float64, read-only."""
         return _read_only(self._ready()._vertices)
 
     @property
     def faces(self) -> Ids:
-        """(F, 3) uint32, not to be written to."""
+        """(F, 3) uint32, read-only."""
         return _read_only(self._ready()._faces)
 
     @property
     def attributes(self) -> Attributes | None:
-        """What else was in the file; None where there was none."""
+        """The other data of the file that it was read from, or None."""
         return self._ready()._attributes
 
     @property
     def certificate(self) -> Certificate | None:
-        """What was checked about the coordinates by the operation that made them; `write` does not
-        round these unless told to. None for other meshes."""
+        """What the operation that made the mesh verified about its coordinates, or None. `write`
+        does not round certified coordinates unless `round` is set."""
         return self._ready()._certificate
 
     @property
     def is_solid(self) -> bool:
-        """Whether the mesh bounds a solid, as set operations need it: cut along itself, it is
-        closed. It may overlap itself. Decided exactly, once. A cloud is none."""
+        """Whether the mesh bounds a solid, as set operations require: it is closed after cutting it
+        along its self-intersections. Exact; computed once. False for a point cloud."""
         mesh = self._ready()
         return not mesh._is_cloud() and bool(mesh.solid_certificate)
 
@@ -167,7 +166,7 @@ class Mesh:
 
     @property
     def solid_certificate(self) -> Certificate:
-        """Why it bounds a solid or not. Raises ValueError for a cloud."""
+        """Whether and why the mesh does not bound a solid. Raises ValueError for a point cloud."""
         mesh = self._ready()
         if mesh._solid is None:
             mesh._solid = _core.check_solid(mesh._held)
@@ -175,24 +174,22 @@ class Mesh:
 
     @property
     def volume(self) -> float:
-        """The volume inside, negative where the mesh is inside out; in cubic units. Of an open
-        mesh, the sum over its faces of tetrahedra from the origin."""
+        """The enclosed volume in cubic units, negative if the mesh is inside out. For an open mesh,
+        the sum of the signed volumes of tetrahedra from the origin to each face."""
         return _core.signed_volume(self._ready()._held)
 
     @property
     def area(self) -> float:
-        """The area of all faces, in square units."""
+        """The total area of the faces, in square units."""
         return _core.surface_area(self._ready()._held)
 
     @property
     def bounds(self) -> Floats | None:
-        """(2, 3): the lowest and highest coordinates of finite vertices; None where there are
-        none."""
+        """(2, 3) the lowest and highest coordinates of the finite vertices, or None."""
         return _core.bounds(self._ready()._held)
 
     def show(self, *others: MeshLike, **look: Any) -> View:
-        """A view of the mesh, and others, for a notebook or a page: see `show`, which takes the
-        same arguments."""
+        """An interactive view of this mesh and others; the arguments are those of `show`."""
         from ._show import show
 
         return show(self, *others, **look)
@@ -208,7 +205,7 @@ class Mesh:
     __sub__, __rsub__ = _operators("-")
     __xor__, __rxor__ = _operators("^")
 
-    #: NumPy leaves `array - mesh` to the mesh.
+    #: So that NumPy leaves `array - mesh` to the mesh.
     __array_ufunc__ = None
 
     def __iter__(self) -> Iterator[NDArray[Any]]:
@@ -239,15 +236,14 @@ _Array = TypeVar("_Array", Floats, Ids)
 
 
 def _read_only(array: _Array) -> _Array:
-    """The same memory, through a buffer that NumPy cannot be told to write to."""
+    """The same memory in a read-only buffer, which NumPy cannot make writable."""
     memory: Any = array
     locked: Any = memoryview(memory).toreadonly()
     return np.asarray(locked)
 
 
 def listed(meshes: Any) -> tuple[Any, ...] | None:
-    """What is in a list of meshes, or in anything else that can be gone through; None for what is
-    no list, but a mesh."""
+    """The elements of a list or another iterable of meshes; None if `meshes` is a single mesh."""
     if not isinstance(meshes, Iterable) or isinstance(meshes, (str, bytes)) or any(
             hasattr(meshes, name) for name in ("mesh", "vertices", "points", "__array__")):
         return None
@@ -265,7 +261,7 @@ def as_mesh(mesh: Any) -> Mesh:
 
 
 def held(mesh: Any) -> _core.HeldMesh:
-    """`mesh` as operations take it. A Mesh keeps what they index; other things do not."""
+    """`mesh` for the extension. A Mesh keeps the indexes that operations build."""
     made = mesh if type(mesh) is Mesh else getattr(mesh, "mesh", mesh)
     if isinstance(made, Mesh):
         return made._ready()._held
@@ -274,8 +270,8 @@ def held(mesh: Any) -> _core.HeldMesh:
 
 
 def cloud_of(body: Any) -> Floats | None:
-    """The points of an array of points, or of what has `points` or `vertices` and no faces; None
-    for a mesh."""
+    """The points of an array, or of an object with `points` or `vertices` and no faces; None for a
+    mesh."""
     if isinstance(body, np.ndarray) or isinstance(body,
                                                   (list, tuple)) and not _arrays.is_pair(body):
         return _arrays.points(body, "points")
@@ -291,7 +287,7 @@ def cloud_of(body: Any) -> Floats | None:
 
 
 def held_body(body: Any) -> _core.HeldMesh:
-    """The same for a mesh or a cloud."""
+    """A mesh or point cloud for the extension."""
     points = cloud_of(body)
     return held(body) if points is None else _core.HeldMesh(points)
 
@@ -306,17 +302,17 @@ def bodies(fixed: Any) -> list[_core.HeldMesh]:
 
 
 def points_of(body: Body) -> Floats:
-    """Those of a cloud, or the vertices of a mesh."""
+    """The points of a cloud, or the vertices of a mesh."""
     points = cloud_of(body)
     return as_mesh(body).vertices if points is None else points
 
 
 class _Formula:
-    """What operators have collected: an operation on two sides, each a mesh or such a thing."""
+    """A pending set operation on two sides, each a mesh or another pending operation."""
 
     __slots__ = ("sign", "left", "right", "size")
 
-    #: More operations than this are computed before others are added.
+    #: Formulas with more operations are evaluated before others are added.
     MOST = 4096
 
     def __init__(self, sign: str, left: Mesh, right: Mesh) -> None:
@@ -327,7 +323,7 @@ class _Formula:
                             if isinstance(side, _Formula))
 
     def _in_order(self) -> Iterator[Mesh | str]:
-        """Brackets, signs and meshes from left to right, however deep they are."""
+        """Parentheses, operators and meshes from left to right, without recursion."""
         rest: list[Mesh | _Formula | str] = [self]
         while rest:
             one = rest.pop()
@@ -341,7 +337,7 @@ class _Formula:
         return list({id(one): one for one in self._in_order() if isinstance(one, Mesh)}.values())
 
     def result(self) -> Any:
-        """What it comes to."""
+        """Evaluates the formula."""
         from ._booleans import boolean
 
         operands = self.operands()
@@ -373,16 +369,16 @@ def _operation(sign: str, left: Any, right: Any) -> Mesh:
 
 
 class MeshResult(Result):
-    """A result with a mesh; it stands wherever a mesh is asked for."""
+    """A result with a mesh. It can be passed wherever a mesh is expected."""
 
     mesh: Mesh
 
     @property
     def vertices(self) -> Floats:
-        """(V, 3) float64, of the mesh."""
+        """(V, 3) float64, the vertices of the mesh."""
         return self.mesh.vertices
 
     @property
     def faces(self) -> Ids:
-        """(F, 3) uint32, of the mesh."""
+        """(F, 3) uint32, the faces of the mesh."""
         return self.mesh.faces

@@ -1,4 +1,4 @@
-"""Nearest points, inside or outside, rays, deviations."""
+"""Nearest points, inside tests, rays, deviations."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ OUTSIDE = 0
 
 def located(mesh: MeshLike, points: ArrayLike,
             progress: Progress) -> tuple[NDArray[np.uint8], NDArray[np.int32]]:
-    """Raises NotSolidError where the mesh is open."""
+    """Where points are, and their winding numbers. Raises NotSolidError if the mesh is open."""
     try:
         return _core.locate_points(held(mesh), _arrays.points(points, "points"), progress=progress)
     except ValueError:
@@ -37,7 +37,7 @@ def located(mesh: MeshLike, points: ArrayLike,
 
 
 def distances(mesh: MeshLike, points: ArrayLike, progress: Progress) -> Floats:
-    """Positive inside."""
+    """Signed distances, positive inside."""
     cloud = _arrays.points(points, "points")
     if len(cloud) == 0:
         return np.empty(0)
@@ -51,11 +51,11 @@ def distances(mesh: MeshLike, points: ArrayLike, progress: Progress) -> Floats:
 
 
 class AllRayHits(NamedTuple):
-    """All faces that rays hit, in the order that trimesh's `intersects_location` has:
+    """All hits of rays, in the order of trimesh's `intersects_location`:
     `locations, index_ray, index_tri = raycast_all(...)`.
 
-    locations: (n, 3) the points hit, rounded.
-    index_ray: (n,) uint32 the ray, ascending.
+    locations: (n, 3) the points that are hit, rounded.
+    index_ray: (n,) uint32 the number of the ray, ascending.
     index_tri: (n,) uint32 the face.
     """
 
@@ -69,10 +69,10 @@ class AllRayHits(NamedTuple):
 
 def all_hits(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, t_min: float, t_max: float,
              progress: Progress) -> AllRayHits:
-    """With the points hit."""
+    """Implements `raycast_all`."""
     start, along = _arrays.points(origins, "origins"), _arrays.points(directions, "directions")
-    t, ray, face = _core.raycast_all(held(mesh), start, along, t_min, t_max,
-                                    progress=progress)
+    t, ray, face = _core.raycast_all(held(mesh), start, along, _arrays.number(t_min, "t_min"),
+                                     _arrays.number(t_max, "t_max"), progress=progress)
     return AllRayHits(start[ray] + t[:, None] * along[ray], ray, face)
 
 
@@ -118,8 +118,8 @@ def closest_point(mesh: MeshLike, points: ArrayLike, *, radius: float = np.inf,
     >>> closest.tolist(), distance.tolist()
     ([[0.5, 0.25, 1.0]], [2.0])
     """
-    return _core.closest_point(held(mesh), _arrays.points(points, "points"), radius,
-                               progress=progress)
+    return _core.closest_point(held(mesh), _arrays.points(points, "points"),
+                               _arrays.number(radius, "radius"), progress=progress)
 
 
 def contains(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> NDArray[np.bool_]:
@@ -235,7 +235,8 @@ def raycast(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min:
     ([2.0], [6])
     """
     return _core.raycast(held(mesh), _arrays.points(origins, "origins"),
-                         _arrays.points(directions, "directions"), t_min, t_max, progress=progress)
+                         _arrays.points(directions, "directions"), _arrays.number(t_min, "t_min"),
+                         _arrays.number(t_max, "t_max"), progress=progress)
 
 
 def raycast_all(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min: float = 0.0,
@@ -271,7 +272,8 @@ def raycast_any(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
     array([ True, False])
     """
     return _core.raycast_any(held(mesh), _arrays.points(origins, "origins"),
-                             _arrays.points(directions, "directions"), t_min, t_max,
+                             _arrays.points(directions, "directions"),
+                             _arrays.number(t_min, "t_min"), _arrays.number(t_max, "t_max"),
                              progress=progress).view(np.bool_)
 
 

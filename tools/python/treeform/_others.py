@@ -1,5 +1,5 @@
-"""Meshes of other libraries: trimesh, Open3D, PyVista, VTK, meshio. None of them has to be there
-unless it is asked for by name."""
+"""Conversion from and to meshes of other libraries: trimesh, Open3D, PyVista, VTK, meshio. A
+library is imported only when it is needed."""
 
 from __future__ import annotations
 
@@ -14,11 +14,10 @@ from ._arrays import Floats, Ids
 
 
 def arrays_of(mesh: Any) -> tuple[ArrayLike, ArrayLike]:
-    """Vertices and faces of whatever is taken for a mesh."""
+    """Vertices and faces of any object that is accepted as a mesh."""
     if isinstance(mesh, (tuple, list)):
         if len(mesh) != 2:
-            raise ValueError("mesh: a pair (vertices, faces) is needed, "
-                             f"not {len(mesh)} elements")
+            raise ValueError(f"mesh: expected (vertices, faces), not {len(mesh)} elements")
         return mesh[0], mesh[1]
     if hasattr(mesh, "vertices"):
         for name in ("faces", "triangles"):
@@ -36,14 +35,14 @@ def arrays_of(mesh: Any) -> tuple[ArrayLike, ArrayLike]:
     raise ValueError(f"mesh: {type(mesh).__name__} has no vertices and faces")
 
 
-#: By the names of meshio and the numbers of VTK.
+#: Kinds of cells, by their names in meshio and their numbers in VTK.
 _NO_FACES = ("vertex", "line", 1, 3)
 _TRIANGLES = ("triangle", 5)
 _QUADS = ("quad", 9)
 
 
 def _faces_of_cells(cells: Any) -> NDArray[Any]:
-    """Triangles, and two of each quad, in the order of `cells`."""
+    """Triangles, and two triangles for each quad, in the order of `cells`."""
     faces = [np.empty((0, 3), np.uint32)]
     for kind, corners in cells.items():
         if kind in _TRIANGLES:
@@ -51,20 +50,20 @@ def _faces_of_cells(cells: Any) -> NDArray[Any]:
         elif kind in _QUADS:
             faces.append(np.asarray(corners)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3))
         elif kind not in _NO_FACES and len(corners):
-            raise ValueError(f"mesh: {len(corners)} cells of the kind {kind!r}; only triangles and "
-                             "quads are taken")
+            raise ValueError(f"mesh: {len(corners)} cells of the kind {kind!r}, but only triangles "
+                             "and quads are supported")
     return np.concatenate([_arrays.faces(part) for part in faces])
 
 
 def _numbers_of(tensor: Any) -> NDArray[Any]:
-    """Of a tensor of Open3D, which may be in the memory of a graphics card."""
+    """The array of an Open3D tensor, which may be in the memory of a graphics card."""
     return np.asarray(tensor.cpu().numpy())
 
 
 def _arrays_of_vtk(mesh: Any) -> tuple[Floats, Ids]:
-    """Of a vtkPolyData."""
+    """Vertices and faces of a vtkPolyData."""
     if mesh.GetStrips() is not None and mesh.GetStrips().GetNumberOfCells():
-        raise ValueError("mesh: there are strips of triangles; vtkTriangleFilter makes triangles")
+        raise ValueError("mesh: triangle strips are not supported: use vtkTriangleFilter first")
     numbers = importlib.import_module("vtkmodules.util.numpy_support").vtk_to_numpy
     points = mesh.GetPoints()
     vertices = np.empty((0, 3)) if points is None else numbers(points.GetData())
@@ -76,8 +75,8 @@ def _arrays_of_vtk(mesh: Any) -> tuple[Floats, Ids]:
 
 
 def to_trimesh(mesh: Any) -> Any:
-    """A `trimesh.Trimesh` with copies of the arrays, as all that follow; the library has to be
-    installed. A cloud becomes a cloud there."""
+    """A `trimesh.Trimesh` with copies of the arrays; a cloud becomes a `trimesh.PointCloud`.
+    Requires trimesh to be installed."""
     vertices, faces = mesh
     trimesh = importlib.import_module("trimesh")
     if _is_cloud(vertices, faces):
@@ -86,7 +85,7 @@ def to_trimesh(mesh: Any) -> Any:
 
 
 def to_open3d(mesh: Any, *, tensor: bool = False) -> Any:
-    """An `open3d.geometry.TriangleMesh`; with `tensor`, one of `open3d.t.geometry`."""
+    """An `open3d.geometry.TriangleMesh` or PointCloud; with `tensor`, of `open3d.t.geometry`."""
     vertices, faces = mesh
     open3d = importlib.import_module("open3d")
     if tensor:

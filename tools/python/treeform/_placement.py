@@ -1,4 +1,4 @@
-"""Where a mesh goes: moved against others, laid on a bed, aligned, packed; and how two lie."""
+"""Placement of meshes: moving until contact, laying flat, aligning, packing, measuring."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ __all__ = ["Alignment", "Contacts", "Depth", "Impact", "LaidFlat", "Measure", "P
 
 
 def scale_of(scale: bool | tuple[float, float]) -> dict[str, Any]:
-    """Options of `align`: whether to scale, and the bounds."""
+    """The options of `align` for its argument `scale`."""
     if isinstance(scale, (bool, np.bool_)):
         return {"scale": bool(scale)}
     least, most = _arrays.pair(scale, "scale")
@@ -33,7 +33,7 @@ def scale_of(scale: bool | tuple[float, float]) -> dict[str, Any]:
 
 
 def extent_of(size: ArrayLike) -> Floats:
-    """(3,) of a plate without a height, too."""
+    """The size of a plate, (3,); the height is infinite if it is not given."""
     extent = _arrays.floats(size, "size")
     return np.append(extent, np.inf) if extent.shape == (2,) else extent
 

@@ -1,17 +1,17 @@
-"""Progress: a function of the share that is done, or a bar of tqdm."""
+"""Progress callbacks, and progress bars of tqdm."""
 
 from __future__ import annotations
 
 from typing import Any, Callable, Optional, Union
 
 
-#: Called now and then with the share of the work that is done, 0 to 1, in the thread that called.
-#: Where it returns False, the operation stops and raises Cancelled. A bar of tqdm will do as well.
+#: Called repeatedly with the completed share of the work, from 0 to 1, in the calling thread. If it
+#: returns False, the operation stops and raises Cancelled. A progress bar of tqdm also works.
 Progress = Optional[Union[Callable[[float], Any], Any]]
 
 
 def part(progress: Progress, index: int, count: int) -> Progress:
-    """`progress` for one of `count` jobs that are a piece of the work each."""
+    """`progress` for job `index` of `count` jobs, which are equal parts of the work."""
     if progress is None:
         return None
     call = of_bar(progress) if hasattr(progress, "update") else progress
@@ -19,7 +19,7 @@ def part(progress: Progress, index: int, count: int) -> Progress:
 
 
 def of_bar(bar: Any) -> Callable[[float], None]:
-    """A bar of tqdm as a function; jobs take it for what has `update`."""
+    """A progress bar as a callback; jobs call this for objects with `update`."""
     total = bar.total or 1
 
     def update(share: float) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 # made of uses:
 from dataclasses import dataclass
 
-from . import _core
+from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._errors import options
 from ._mesh import MeshLike, held
@@ -249,5 +249,5 @@ def find_features(mesh: MeshLike, kind: str = "plane", *, tolerance: float | Non
     [1.0, 1.0, 1.0, 1.0, 1.0, 1.0]
     """
     how = options(_core.FeatureOptions, locals())
-    return _core.find_features(held(mesh), kind, how, progress=progress)
+    return _core.find_features(held(mesh), _arrays.word(kind, "kind"), how, progress=progress)
 # end

@@ -1,4 +1,4 @@
-"""Meshes mended and rounded."""
+"""Repair and rounding of meshes."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ __all__ = ["ConvexHull", "MadeMesh", "RepairResult", "convex_hull", "find_roundi
 
 @dataclass(frozen=True, repr=False)
 class MadeMesh(MeshResult):
-    """A mesh that an operation has made, and what was checked about it.
+    """A mesh made by an operation, and what was verified about it.
 
     mesh: Faces are counter-clockwise from outside.
-    certificate: What was checked about the coordinates.
+    certificate: What was verified about the coordinates.
     """
 
     mesh: Mesh
@@ -37,11 +37,8 @@ STEPS = ("join", "orient", "fill", "resolve", "detach")
 
 
 def steps_of(steps: Iterable[str]) -> dict[str, bool]:
-    """Whether each step is taken."""
-    taken = _arrays.words(steps, "steps")
-    for step in taken:
-        if step not in STEPS:
-            raise ValueError(f"steps: \"{step}\" is none of {', '.join(STEPS)}")
+    """For each step, whether to perform it."""
+    taken = [_arrays.one_of(step, "steps", STEPS) for step in _arrays.several(steps, "steps")]
     return {step: step in taken for step in STEPS}
 
 
@@ -68,7 +65,7 @@ class ConvexHull(Result):
 # end
 
     def mesh(self, points: Body) -> Mesh:
-        """The hull as a closed mesh, of the points that it uses: `points` are those it is of."""
+        """The hull of `points` as a closed mesh, with only the vertices that it uses."""
         used, faces = np.unique(self.faces, return_inverse=True)
         return Mesh(points_of(points)[used], faces.reshape(-1, 3))
 
@@ -139,7 +136,7 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
     (Mesh(326 vertices, 648 faces), Certificate(ok), 0)
     """
     how = options(_core.ResolveOptions, locals())
-    return checked(_core.resolve_self_intersections(held(mesh), mode, how,
+    return checked(_core.resolve_self_intersections(held(mesh), _arrays.word(mode, "mode"), how,
                                                     progress=progress), check, of_one=True)
 
 
@@ -235,7 +232,8 @@ def rounded(points: ArrayLike, precision: str = "float32", *, progress: Progress
     >>> treeform.rounded([[0.1, 0.2, 0.3]]).tolist()
     [[0.10000000149011612, 0.20000000298023224, 0.30000001192092896]]
     """
-    return _core.rounded(_arrays.points(points, "points"), precision, progress=progress)
+    return _core.rounded(_arrays.points(points, "points"), _arrays.word(precision, "precision"),
+                         progress=progress)
 
 
 def find_rounding_defects(mesh: MeshLike, placed: ArrayLike, *,

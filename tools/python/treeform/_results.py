@@ -1,4 +1,4 @@
-"""How results look."""
+"""Base classes of results, and certificates."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ["Certificate"]
 
 
 def brief(value: Any) -> str:
-    """`value` in a few words: of arrays, the type and shape."""
+    """A short text for `value`; for arrays, their type and shape."""
     if isinstance(value, np.ndarray):
         if value.size <= 4 and value.ndim == 1:
             return repr(value.tolist())
@@ -33,7 +33,7 @@ def _is_nothing(value: Any) -> bool:
 
 
 class Result:
-    """A result whose fields cannot be changed; `repr` says what is in it."""
+    """A result with fields that cannot be changed, and a short `repr`."""
 
     def __repr__(self) -> str:
         fields = self.__dict__.items()
@@ -97,6 +97,6 @@ class Certificate(Result):
 
 
 def tuple_repr(self: Any) -> str:
-    """`repr` for results that are tuples."""
+    """`repr` of results that are named tuples."""
     fields = zip(self._fields, self)
     return f"{type(self).__name__}({', '.join(f'{name}={brief(v)}' for name, v in fields)})"

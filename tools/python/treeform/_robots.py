@@ -1,4 +1,4 @@
-"""Robots as URDF files describe them."""
+"""Robots from URDF files."""
 
 from __future__ import annotations
 
@@ -75,13 +75,13 @@ class Robot(Result):
 # end
 
     def poses(self, values: Mapping[str, ArrayLike] | None = None) -> Floats:
-        """(N, 4, 4): where each part is, from its own frame to that of the robot; (P, N, 4, 4)
-        where a value is an array (P,).
+        """(N, 4, 4) for each part, the transform from its own frame to the frame of the robot. If
+        the values of joints are arrays (P,), the poses are (P, N, 4, 4).
 
-        values: of joints by name, radians or meters. Others are at 0, or follow the joint that they
-        mimic. Limits are not looked at.
+        values: the positions of joints by name, in radians or meters. Other joints are at 0, or
+        follow the joint that they mimic. Limits are not checked.
 
-        Raises ValueError for a joint that is not there or fixed, or a value that is not finite.
+        Raises ValueError for an unknown or fixed joint, or a value that is not finite.
         """
         given = dict(values or {})
         columns = np.broadcast_arrays(*[_arrays.floats(v, name) for name, v in given.items()])
@@ -96,17 +96,23 @@ class Robot(Result):
         return made if shape else np.asarray(made[0])
 
 
+# made of headers:
+#   read_urdf
 def read_urdf(path: Path, *, package_folders: Iterable[Path] = (), visual: bool = False,
               progress: Progress = None) -> Robot:
-    """The robot in a URDF file, with its meshes. Joints are fixed, revolute, continuous or
-    prismatic. Boxes are exact; cylinders and spheres are triangles around them, up to 0.13 % of the
-    radius too far out, so that no clash is missed.
+    """Reads a robot from a URDF file, with its meshes. Joints are fixed, revolute, continuous or
+    prismatic. Boxes are exact. Cylinders and spheres become triangles around them, at most 0.13 %
+    of the radius too large, so that no collision is missed. Faces that are not finite are dropped,
+    and equal vertices merged.
 
-    package_folders: where packages are: `package://name/rest` is FOLDER/name/rest or FOLDER/rest;
-    else it is looked for in the file's folder and those above. visual: the meshes that are for
-    show, not those for collisions. Faces that are not finite are left out, equal corners joined.
+    path: the path of the file.
+    package_folders: where to look for packages: `package://name/rest` is FOLDER/name/rest or
+        FOLDER/rest, otherwise relative to the folder of the file or one above it.
+    visual: use the visual meshes instead of the collision meshes.
 
-    Raises FileError naming the path and the reason.
+    Raises FileError naming the path and the reason: not XML, no robot, an unsupported joint, a link
+    that is missing, has two parents or is its own ancestor, repeated names, invalid numbers, sizes
+    that are not positive, a missing mesh file.
 
     >>> import pathlib, tempfile, treeform
     >>> mesh = f'<mesh filename="{pathlib.Path("data/cube.stl").resolve()}"/>'
@@ -120,6 +126,6 @@ def read_urdf(path: Path, *, package_folders: Iterable[Path] = (), visual: bool 
     >>> treeform.check_poses(robot.parts, robot.poses({"j": [0.5, 2.0]})).in_collision(2).tolist()
     [True, False]
     """
-    folders = _arrays.several(package_folders, "package_folders")
-    return _core.read_urdf(path_of(path), [path_of(one) for one in folders], visual,
-                           progress=progress)
+    return _core.read_urdf(path_of(path), _arrays.paths(package_folders, "package_folders"),
+                           _arrays.flag(visual, "visual"), progress=progress)
+# end

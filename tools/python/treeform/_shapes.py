@@ -1,4 +1,4 @@
-"""Solids grown, shrunk, hollowed; surfaces made thick; fewer faces; thickness; boxes; isolines."""
+"""Offset, hollowed and thickened solids; simplification; wall thickness; boxes; isolines."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ __all__ = ["Isoline", "Isolines", "OffsetResult", "OrientedBox", "SimplifyResult
 
 
 def drains_of(drains: ArrayLike) -> Floats:
-    """(n, 4); none of an empty list."""
+    """Drain holes as an array (n, 4)."""
     return np.empty((0, 4)) if np.size(drains) == 0 else _arrays.rows(drains, 4, "drains")
 
 
@@ -46,16 +46,17 @@ class Isolines(Result):
 # end
 
     def points_of(self, line: int) -> Floats:
-        """(n, 3) the points of a line, by its number; a closed one does not repeat its first."""
+        """(n, 3) the points of a line; a closed line does not repeat its first point."""
         of = self.lines[line]
         return self.points[of.first_point:of.first_point + of.point_count]
 
     def write(self, path: Union[str, os.PathLike[str]], *, normal: ArrayLike = (0, 0, 1),
               format: str = "", unit: str = "", progress: Progress = None) -> None:
-        """Writes all lines as SVG (as seen from where `normal` points), DXF, OBJ or JSON, by the
-        extension or `format`; `unit` as for sections."""
+        """Writes all lines as SVG (seen against the direction of `normal`), DXF, OBJ or JSON,
+        according to `format` or the extension; `unit` as for `Section.write`."""
         _core.write_isolines(os.fspath(path), self.lines, self.points,
-                             _arrays.floats(normal, "normal"), format, unit, progress=progress)
+                             _arrays.vector(normal, "normal"), _arrays.word(format, "format"),
+                             _arrays.word(unit, "unit"), progress=progress)
 
 
 # made of headers:
@@ -126,7 +127,8 @@ def offset(mesh: MeshLike, distance: float, *, resolution: float | None = None,
     (True, True)
     """
     how = options(_core.OffsetOptions, locals())
-    return checked(_core.offset(held(mesh), distance, how, progress=progress), check, of_one=True)
+    return checked(_core.offset(held(mesh), _arrays.number(distance, "distance"), how,
+                                progress=progress), check, of_one=True)
 
 
 def hollow(mesh: MeshLike, wall: float, *, drains: ArrayLike = (), resolution: float | None = None,
@@ -163,7 +165,7 @@ def hollow(mesh: MeshLike, wall: float, *, drains: ArrayLike = (), resolution: f
     (True, True)
     """
     how = options(_core.OffsetOptions, locals())
-    return checked(_core.hollow(held(mesh), wall, drains_of(drains), how,
+    return checked(_core.hollow(held(mesh), _arrays.number(wall, "wall"), drains_of(drains), how,
                                 progress=progress), check, of_one=True)
 
 
@@ -203,7 +205,8 @@ def thicken(mesh: MeshLike, thickness: float, *, resolution: float | None = None
     (True, True)
     """
     how = options(_core.OffsetOptions, locals())
-    return checked(_core.thicken(held(mesh), thickness, how, progress=progress), check, of_one=True)
+    return checked(_core.thicken(held(mesh), _arrays.number(thickness, "thickness"), how,
+                                 progress=progress), check, of_one=True)
 
 
 def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision: str = "float64",
@@ -236,7 +239,8 @@ def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision:
     (True, True)
     """
     how = options(_core.OffsetOptions, locals())
-    return checked(_core.wrap(held(mesh), size, how, progress=progress), check, of_one=True)
+    return checked(_core.wrap(held(mesh), _arrays.number(size, "size"), how,
+                              progress=progress), check, of_one=True)
 
 
 @dataclass(frozen=True, repr=False)
@@ -314,7 +318,7 @@ def simplify(mesh: MeshLike, max_distance: float, *, face_groups: ArrayLike | No
     (True, True)
     """
     how = options(_core.SimplifyOptions, locals())
-    return checked(_core.simplify(held(mesh), max_distance,
+    return checked(_core.simplify(held(mesh), _arrays.number(max_distance, "max_distance"),
                                   _arrays.labels(face_groups, "face_groups"), how,
                                   progress=progress), check, of_one=True)
 
@@ -349,7 +353,7 @@ def wall_thickness(mesh: MeshLike, by: str = "ray", *, progress: Progress = None
     >>> treeform.wall_thickness(treeform.read("data/cube.stl")).least
     1.0
     """
-    return _core.wall_thickness(held(mesh), by, progress=progress)
+    return _core.wall_thickness(held(mesh), _arrays.word(by, "by"), progress=progress)
 
 
 @dataclass(frozen=True, repr=False)

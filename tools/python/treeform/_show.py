@@ -1,4 +1,4 @@
-"""Pictures of meshes, and pages to turn them on."""
+"""Pictures of meshes, and interactive views."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _Shown = Union[MeshLike, ArrayLike]
 
 
 class Picture(bytes):
-    """The bytes of a PNG; a notebook shows it."""
+    """The bytes of a PNG image. Notebooks display it."""
 
     def _repr_png_(self) -> bytes:
         return bytes(self)
@@ -37,8 +37,7 @@ class Picture(bytes):
 
 
 class View:
-    """Meshes as a page with a 3D view: a notebook shows it where it stands, `write` makes a
-    file."""
+    """An interactive 3D view of meshes. Notebooks display it; `write` saves it as an HTML page."""
 
     def __init__(self, meshes: Sequence[_core.HeldMesh], look: dict[str, Any]) -> None:
         self._meshes = list(meshes)
@@ -46,20 +45,20 @@ class View:
 
     @property
     def html(self) -> str:
-        """The page. It asks nothing of any network."""
+        """The HTML page. It needs no network."""
         return _core.page(self._meshes, self._look)
 
     def write(self, path: Path) -> None:
-        """Writes the page, for any browser. It appears whole or not at all."""
+        """Writes the page, for any browser. On an error, no incomplete file remains."""
         _put(path, self.html.encode())
 
     def _repr_html_(self) -> str:
-        # Nothing in the frame reaches the notebook, nor the other way round.
+        # The frame and the notebook cannot access each other.
         return ('<iframe sandbox="allow-scripts" style="width: 100%; height: 560px; border: 0" '
                 f'srcdoc="{html.escape(self.html)}"></iframe>')
 
     def _repr_png_(self) -> bytes:
-        """For where there are no scripts."""
+        """For viewers that do not run scripts."""
         return _core.picture(self._meshes, self._look, ["iso"], 800, 600)
 
     def __repr__(self) -> str:
@@ -71,21 +70,22 @@ def plot(*meshes: _Shown, path: Path | None = None, view: str | Sequence[str] = 
          colors: Sequence[str] = (), marked: ArrayLike = (), values: ArrayLike | None = None,
          limits: tuple[float, float] | None = None, label: str = "value", title: str = "",
          y_is_up: bool = False) -> Picture:
-    """Meshes and clouds as a PNG, drawn without a display, a graphics card or a browser.
+    """A picture of meshes and clouds as a PNG. It needs no display, graphics card or browser.
 
-    path: where the PNG goes as well. An existing file is replaced; it appears whole or not at all.
-    view: iso, top, bottom, front, back, left or right; several stand side by side; all: iso, top,
-    front and right. All are parallel.
-    size: pixels, across and down.
+    path: also write the PNG to this file, replacing an existing one.
+    view: 'iso', 'top', 'bottom', 'front', 'back', 'left' or 'right'; or a list of these, side by
+    side; or 'all': iso, top, front and right. All are parallel projections.
+    size: width and height in pixels.
     names, colors: one for each mesh; colors are "#rrggbb".
-    marked: numbers of faces of the first mesh, which become red and are seen through what hides
-    them. Of any shape: pairs of faces will do.
-    values: (V,) a value for each vertex of the first mesh, colored from `limits[0]` to `limits[1]`,
-    else from the lowest to the highest; zero is white where it lies between. NaN: no value.
-    y_is_up: y instead of z.
+    marked: numbers of faces of the first mesh, as an array of any shape, such as pairs. These faces
+    are red, and visible through the faces in front of them.
+    values: (V,) a value for each vertex of the first mesh, shown by colors; NaN: no value.
+    limits: the lowest and highest value of the colors; default: those of `values`. If 0 is between
+    them, it is white.
+    y_is_up: the y axis points up, instead of the z axis.
 
-    Faces with a coordinate that is not finite are left out. The same bytes for any number of
-    threads.
+    Faces with a coordinate that is not finite are not drawn. The result does not depend on the
+    number of threads.
 
     >>> import treeform
     >>> m = treeform.read("data/two_spheres.stl")
@@ -107,9 +107,9 @@ def show(*meshes: _Shown, names: Sequence[str] = (), colors: Sequence[str] = (),
          marked: ArrayLike = (), values: ArrayLike | None = None,
          limits: tuple[float, float] | None = None, label: str = "value", title: str = "",
          y_is_up: bool = False) -> View:
-    """Meshes and clouds to be turned, cut and clicked in a notebook or, written to a file, in any
-    browser. The arguments are those of `plot`. More than 200,000 faces that are not marked are
-    thinned out.
+    """An interactive view of meshes and clouds, in a notebook or, written to a file, in any
+    browser: they can be rotated, cut by a plane, and clicked. The arguments are those of `plot`. Of
+    more than 200,000 faces that are not marked, only some are shown.
 
     >>> import treeform
     >>> treeform.show(treeform.read("data/cube.stl"))
@@ -119,7 +119,7 @@ def show(*meshes: _Shown, names: Sequence[str] = (), colors: Sequence[str] = (),
 
 
 def _put(path: Path, data: bytes) -> None:
-    """Writes a file whole, or leaves what is there."""
+    """Writes a file. On an error, an existing file is not changed."""
     to = os.path.realpath(path)
     if os.path.exists(to) and not os.path.isfile(to):  # a pipe or a device
         with open(to, "wb") as special:
@@ -139,11 +139,10 @@ def _put(path: Path, data: bytes) -> None:
 def _views(view: str | Sequence[str]) -> list[str]:
     views: list[str] = []
     for name in [view] if isinstance(view, str) else view:
-        if name != "all" and name not in _core.VIEWS:
-            raise ValueError(f"view: {name!r} is none of {', '.join(_core.VIEWS)}, all")
+        _arrays.one_of(name, "view", [*_core.VIEWS, "all"])
         views += ["iso", "top", "front", "right"] if name == "all" else [name]
     if not 1 <= len(views) <= 16:
-        raise ValueError(f"view: 1 to 16 are needed, not {len(views)}")
+        raise ValueError(f"view: expected 1 to 16 views, not {len(views)}")
     return views
 
 
@@ -151,14 +150,14 @@ def _look_of(meshes: Sequence[Any], names: Sequence[str], colors: Sequence[str],
              values: ArrayLike | None, limits: tuple[float, float] | None, label: str, title: str,
              y_is_up: bool) -> tuple[list[_core.HeldMesh], dict[str, Any]]:
     if not meshes:
-        raise ValueError("meshes: one at least is needed")
+        raise ValueError("meshes: expected at least one")
     held = [held_body(mesh) for mesh in meshes]
     for name, given in (("names", names), ("colors", colors)):
         if len(given) not in (0, len(held)):
             raise ValueError(f"{name}: {len(given)} of {len(held)} meshes")
     for color in colors:
         if not re.fullmatch("#[0-9a-fA-F]{6}", color):
-            raise ValueError(f"colors: {color!r} is no '#rrggbb'")
+            raise ValueError(f"colors: {color!r} is not of the form '#rrggbb'")
     known = None
     if values is not None:
         known, count = _arrays.floats(values, "values"), len(held[0].vertices)

@@ -1,4 +1,4 @@
-"""Work that many processes do in a folder that they share: step by step, or with a communicator."""
+"""Work that several processes share in a folder: step by step, or with a communicator."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ class Communicator(Protocol):
     @property
     def size(self) -> int: ...
 
-    def allgather(self, sent: Any, /) -> list[Any]:
-        """What each of them tells, in the order of the ranks."""
+    def allgather(self, told: Any, /) -> list[Any]:
+        """The messages of all processes, in the order of their ranks."""
         ...
 
 
@@ -33,7 +33,8 @@ _Made = TypeVar("_Made")
 
 
 class _Members:
-    """A communicator whose ranks learn at the next collective call that one has failed."""
+    """A communicator that reports the failure of a rank to all others at their next collective
+    call."""
 
     def __init__(self, communicator: Communicator) -> None:
         self.rank, self.size = communicator.rank, communicator.size
@@ -53,7 +54,7 @@ class _Members:
         return [bytes_of for bytes_of, _ in received]
 
     def begin(self) -> None:
-        """This one is at work, and may send."""
+        """Called before work that may exchange messages."""
         self._ended.clear()
 
     def end(self) -> None:
@@ -68,7 +69,7 @@ class _Members:
 
 def in_communicator(communicator: Communicator | None,
                     work: Callable[[_Members | None], _Made]) -> _Made:
-    """`work(members)`: what it returns, once all have come so far; where one fails, all do."""
+    """What `work(members)` returns, once all ranks have finished. If one fails, all fail."""
     if communicator is None:
         return work(None)
     if not all(hasattr(communicator, name) for name in ("rank", "size", "allgather")):
@@ -90,32 +91,32 @@ _Work = TypeVar("_Work", bound="_core.SearchInSteps | _core.WeldInSteps")
 
 
 class InSteps(Generic[_Work]):
-    """Has a hold on the folder until it is closed; pickled as its arguments."""
+    """Work in steps in a folder, which is locked until `close`. Pickled as its arguments."""
 
     def __init__(self, work: _Work, arguments: dict[str, Any]) -> None:
-        """arguments: those that it was made with, and other local names."""
+        """arguments: those of the constructor, and other local names."""
         self._work = work
         self._made_of = {name: value for name, value in arguments.items()
                          if name not in ("self", "__class__", "how", "work", "progress")}
 
     def scatter(self, *, progress: Progress = None) -> int:
-        """Fills the tiles, unless that is done. Returns how many there are."""
+        """Distributes the input to tiles, unless this is done. Returns the number of tiles."""
         return self._work.scatter(progress=progress)
 
     def _do_tile(self, tile: int, progress: Progress) -> None:
-        self._work.do_tile(_arrays.number(tile, "tile", 0), progress=progress)
+        self._work.do_tile(_arrays.whole(tile, "tile"), progress=progress)
 
     @property
     def tiles(self) -> int:
-        """The number of tiles, once they are there."""
+        """The number of tiles, after `scatter`."""
         return self._work.tiles()
 
     def remove_folder(self) -> None:
-        """Removes the folder of the tiles."""
+        """Removes the folder with the tiles."""
         self._work.remove_folder()
 
     def close(self) -> None:
-        """Lets go of the folder."""
+        """Unlocks the folder."""
         self._work.close()
 
     def __enter__(self) -> Self:

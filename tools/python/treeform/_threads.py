@@ -1,4 +1,4 @@
-"""How many cores are used."""
+"""The number of threads that operations use."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ __all__ = ["thread_count", "threads"]
 
 
 class threads:
-    """As long as it is entered, operations of the whole process use at most so many threads; 0 is
-    all. Answers do not depend on it.
+    """A context in which operations use at most this many threads; 0: one for each core. It affects
+    the whole process. Results do not depend on it.
 
     >>> import treeform
     >>> with treeform.threads(1):
@@ -20,7 +20,7 @@ class threads:
     """
 
     def __init__(self, most: int) -> None:
-        self._scope = _core.Threads(_arrays.number(most, "most", 0))
+        self._scope = _core.Threads(_arrays.whole(most, "most"))
 
     def __enter__(self) -> threads:
         self._scope.enter()
@@ -32,7 +32,7 @@ class threads:
 
 
 def thread_count() -> int:
-    """Number of threads that an operation may use now.
+    """The number of threads that operations use at present.
 
     >>> import treeform
     >>> treeform.thread_count() >= 1

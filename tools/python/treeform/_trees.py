@@ -1,4 +1,4 @@
-"""Trees over points and boxes, in the plane and in space."""
+"""Search trees for points and boxes, in 2D and 3D."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["BoxTree", "Neighbors", "PointTree"]
 
 Numbers = NDArray[np.int64]
 
-_MOST = 2 ** 62  # more neighbors than there is memory for
+_MOST = 2 ** 62  # more neighbors than fit into memory
 
 
 def _table(values: ArrayLike, name: str) -> Floats:
@@ -29,12 +29,12 @@ def _table(values: ArrayLike, name: str) -> Floats:
 
 
 class Neighbors(NamedTuple):
-    """Lists of neighbors of many queries, in one array each: those of query q are
+    """Lists of neighbors for many queries, concatenated: the neighbors of query q are
     `ids[begin[q]:begin[q + 1]]`.
 
-    begin: (q + 1,)
-    ids: (n,)
-    distances: (n,) not squared.
+    begin: (q + 1,) where the list of each query begins.
+    ids: (n,) numbers of points.
+    distances: (n,) their distances, not squared.
     """
 
     begin: Numbers
@@ -46,14 +46,14 @@ class Neighbors(NamedTuple):
 
 
 def _queries(x: ArrayLike, width: int) -> tuple[Floats, tuple[int, ...]]:
-    """(q, width), and the shape that the answers have."""
+    """Queries as an array (q, width), and the shape of the results."""
     array = _arrays.floats(x, "x")
     _arrays.shaped(array, array.ndim > 0 and array.shape[-1] == width, "x", f"(..., {width})")
     return np.ascontiguousarray(array.reshape(-1, width)), array.shape[:-1]
 
 
 def _shaped(d: Floats, i: Numbers, shape: tuple[int, ...]) -> tuple[Any, Any]:
-    """Distances and numbers in this shape; of one neighbor of one query, as numbers."""
+    """Distances and numbers in this shape; for one neighbor of one query, as scalars."""
     return (d.reshape(shape), i.reshape(shape)) if shape else (float(d[0]), int(i[0]))
 
 
@@ -65,14 +65,15 @@ def _count(k: Any) -> int:
 
 def _only_2(p: float) -> None:
     if p != 2:
-        raise ValueError(f"p: {p} is not 2, the only one there is")
+        raise ValueError(f"p: only 2 is supported, not {p}")
 
 
 class PointTree:
-    """A tree over points (n, 2) or (n, 3), with the names of SciPy's cKDTree.
+    """A search tree for points (n, 2) or (n, 3), with the interface of SciPy's cKDTree.
 
-    Distances are Euclidean, computed in float64. Points may be equal. Equally near points come in
-    the order of their numbers. Queries run on all cores, and may be asked by several threads.
+    Distances are Euclidean, computed in float64. Points may coincide. Points at the same distance
+    are
+    returned in the order of their numbers. Queries use all cores, and are thread-safe.
 
     >>> import treeform
     >>> tree = treeform.PointTree([[0, 0, 0], [1, 0, 0], [0, 2, 0]])
@@ -90,7 +91,7 @@ class PointTree:
 
     @property
     def data(self) -> Floats:
-        """(n, m) a copy of the points, not to be written to."""
+        """(n, m) a read-only copy of the points."""
         return self._data
 
     def __reduce__(self) -> tuple[type[PointTree], tuple[Floats]]:
@@ -103,7 +104,7 @@ class PointTree:
 
     @property
     def m(self) -> int:
-        """2 or 3."""
+        """Number of dimensions, 2 or 3."""
         return int(self._data.shape[1])
 
     def __len__(self) -> int:
@@ -112,14 +113,15 @@ class PointTree:
     def query(self, x: ArrayLike, k: Any = 1, eps: float = 0.0, p: float = 2.0,
               distance_upper_bound: float = np.inf, workers: int = -1, *,
               progress: Progress = None) -> tuple[Any, Any]:
-        """The k nearest points of each query: distances and numbers, nearest first.
+        """The k nearest points of each query: their distances and numbers, nearest first.
 
-        x: (..., m). k: a number, or a list of which nearest ones are wanted, from 1.
-        distance_upper_bound: only points nearer than this.
-        eps and p are those of SciPy: answers are always those of eps 0, and p has to be 2. All
-        cores are used, whatever `workers` says (`treeform.threads`).
+        x: (..., m) the queries. k: a number, or a list of ranks: 1 is the nearest point.
+        distance_upper_bound: return only points nearer than this.
+        eps, p and workers are those of SciPy: results are exact whatever `eps` is, only p = 2 is
+        supported, and `treeform.threads` limits the number of threads.
 
-        Returns d, i of shape (...) for k = 1, else (..., k); infinite and n where there are fewer.
+        Returns d, i of shape (...) for k = 1, else (..., k). If there are fewer than k points, the
+        rest is infinite in d, and n in i.
 
         >>> import treeform
         >>> tree = treeform.PointTree([[0, 0], [1, 0], [0, 2]])
@@ -153,10 +155,10 @@ class PointTree:
                          workers: int = -1, return_sorted: bool | None = None,
                          return_length: bool = False, *, progress: Progress = None) -> Any:
         """The numbers of all points within `r` of each query, inclusive, ascending: a list, or an
-        array of lists for many queries, each with its own `r` if that is an array; with
-        `return_length`, how many they are.
+        array of lists for many queries. `r` may be an array with a radius for each query. With
+        `return_length`, only the lengths of the lists.
 
-        `query_ball` has the same in arrays, and much faster.
+        `query_ball` returns the same as arrays, and is much faster.
 
         >>> import treeform
         >>> tree = treeform.PointTree([[0, 0], [1, 0], [0, 2]])
@@ -184,7 +186,7 @@ class PointTree:
         return made.reshape(shape)
 
     def query_ball(self, x: ArrayLike, r: float, *, progress: Progress = None) -> Neighbors:
-        """All points within `r` of each query, inclusive, nearest first, in arrays.
+        """All points within `r` of each query, inclusive, nearest first, as arrays.
 
         >>> import treeform
         >>> tree = treeform.PointTree([[0, 0], [1, 0], [0, 2]])
@@ -192,21 +194,21 @@ class PointTree:
         [0, 1]
         """
         queries, _ = _queries(x, self.m)
-        return Neighbors(*self._cloud.query_ball(queries, r, False, progress=progress))
+        return Neighbors(*self._cloud.query_ball(queries, _arrays.number(r, "r"), False,
+                                                progress=progress))
 
     def query_pairs(self, r: float, p: float = 2.0, eps: float = 0.0, output_type: str = "set", *,
                     progress: Progress = None) -> Any:
-        """The pairs of points at most `r` apart, the lower number first: a set of tuples, or with
-        output_type='ndarray' an array (n, 2), ascending.
+        """The pairs of points at most `r` apart, the lower number first: a set of tuples, or, with
+        output_type='ndarray', an ascending array (n, 2).
 
         >>> import treeform
         >>> treeform.PointTree([[0, 0], [1, 0], [0, 2]]).query_pairs(1)
         {(0, 1)}
         """
         _only_2(p)
-        if output_type not in ("set", "ndarray"):
-            raise ValueError(f"output_type: {output_type!r} is neither 'set' nor 'ndarray'")
-        pairs = self._cloud.query_pairs(r, progress=progress)
+        _arrays.one_of(output_type, "output_type", ("set", "ndarray"))
+        pairs = self._cloud.query_pairs(_arrays.number(r, "r"), progress=progress)
         return pairs if output_type == "ndarray" else set(map(tuple, pairs.tolist()))
 
     def __repr__(self) -> str:
@@ -214,8 +216,8 @@ class PointTree:
 
 
 class BoxTree:
-    """A tree over axis-aligned boxes, from mins (n, 2) or (n, 3) to maxs. Closed: touching counts.
-    Exact on the coordinates as given.
+    """A search tree for axis-aligned boxes with the lower corners `mins` (n, 2) or (n, 3) and the
+    upper corners `maxs`. Boxes that touch overlap. Exact for the given coordinates.
 
     >>> import treeform
     >>> tree = treeform.BoxTree([[0, 0], [2, 0], [1, 1]], [[1, 1], [3, 1], [2, 2]])
@@ -241,7 +243,7 @@ class BoxTree:
 
     def pairs(self, other: BoxTree | None = None, *, progress: Progress = None) -> Numbers:
         """(n, 2) the pairs of boxes that overlap, ascending, the lower number first; with `other`,
-        of a box of this tree and one of that.
+        pairs of a box of this tree and a box of the other one.
 
         >>> import treeform
         >>> a = treeform.BoxTree([[0, 0, 0]], [[1, 1, 1]])
@@ -251,12 +253,13 @@ class BoxTree:
         if other is None:
             return self._boxes.pairs(progress=progress)
         if other._dimensions != self._dimensions:
-            raise ValueError("other: a tree of other dimensions")
+            raise ValueError("other: the tree has a different number of dimensions")
         return self._boxes.pairs_with(other._boxes, progress=progress)
 
     def query(self, min: ArrayLike, max: ArrayLike, *, progress: Progress = None) -> Any:
-        """The boxes that overlap the one from `min` (m,) to `max`: (n,) ascending. For many boxes
-        (q, m): (begin, ids), those of box i are `ids[begin[i]:begin[i + 1]]`.
+        """(n,) the numbers of the boxes that overlap the box from `min` (m,) to `max`, ascending.
+        For many boxes (q, m), a pair (begin, ids): those for box i are `ids[begin[i]:begin[i +
+        1]]`.
 
         >>> import treeform
         >>> tree = treeform.BoxTree([[0, 0], [2, 0], [1, 1]], [[1, 1], [3, 1], [2, 2]])
@@ -275,14 +278,15 @@ class BoxTree:
 
     def nearest(self, x: ArrayLike, k: int = 1, *, radius: float = np.inf,
                 progress: Progress = None) -> tuple[Any, Any]:
-        """The k boxes nearest to each query (..., m), as `PointTree.query` gives points: distances,
-        0 inside a box, and numbers.
+        """The k boxes nearest to each query (..., m): distances, which are 0 inside a box, and
+        numbers, as `PointTree.query` returns them for points.
 
         >>> import treeform
         >>> treeform.BoxTree([[0, 0], [2, 0]], [[1, 1], [3, 1]]).nearest([1.25, 0.5])
         (0.25, 0)
         """
         queries, shape = _queries(x, self._dimensions)
+        radius = _arrays.number(radius, "radius")
         d, i = self._boxes.nearest(queries, _count(k), radius, progress=progress)
         return _shaped(d, i, shape if k == 1 else (*shape, k))
 

@@ -1,4 +1,4 @@
-"""Points that are near each other become one: in meshes, clouds, and files larger than memory."""
+"""Merging of nearby points: in meshes, clouds, and files larger than memory."""
 
 from __future__ import annotations
 
@@ -45,39 +45,40 @@ class WeldResult(MeshResult):
 
     @property
     def points(self) -> Floats:
-        """(m, 3) the points that are left."""
+        """(m, 3) the points of the result."""
         return self.mesh.vertices
 
 
 def inputs_of(files: Path | Iterable[Path], columns: Columns | None,
               mixed: bool) -> _core.CloudInputs:
-    """Files to weld, as one."""
-    return options(_core.CloudInputs, {"columns": columns, "mixed": mixed},
-                   paths=_arrays.paths(files, "files"))
+    """Input files, treated as one."""
+    paths = _arrays.paths(files, "files")
+    if not paths:
+        raise ValueError("files: there are none")
+    return options(_core.CloudInputs, locals())
 
 
 def streamed(inputs: _core.CloudInputs, how: _core.WeldStreamOptions, out: Path, removed: Path,
              label: str, withhold: bool, communicator: Communicator | None,
              progress: Progress) -> WeldStreamResult:
-    """`weld_stream`, alone or together."""
+    """Implements `weld_stream`."""
     return in_communicator(communicator, lambda all: _core.weld_stream(
         inputs, how, path_of(out), path_of(removed), _arrays.word(label, "label"), withhold, all,
         progress=progress))
 
 
 class SharedWeld(InSteps[_core.WeldInSteps]):
-    """`weld_stream` step by step, for many processes, of one machine or of several that see the
-    folder: those of Dask, of Slurm, of `multiprocessing`.
+    """`weld_stream` in steps, for many processes on one machine or on several that share a folder,
+    such as those of Dask, Slurm or `multiprocessing`.
 
-    All make it with the same arguments. One calls `scatter`; then each calls `weld_tile` for its
-    share of the tiles; and when all have ended, one calls `finish` and `remove_folder`. A tile that
-    is finished is not welded again. Arguments are those of `weld_stream`; empty `folder`: the first
-    input's name and ".tiles".
+    All processes create it with the same arguments, those of `weld_stream`. One process calls
+    `scatter`; then each calls `weld_tile` for some of the tiles; when all are done, one calls
+    `finish` and `remove_folder`. Tiles that are finished are not welded again. If `folder` is
+    empty, it is the name of the first input with ".tiles".
 
-    It has a hold on the folder until `close`, the end of a `with`, or its own end; `finish` needs
-    all others to have let go of it. A copy for another process (pickle) is made anew from its
-    arguments. A step before its turn raises FileError, a tile that is not there IndexError. After
-    Cancelled, make it anew.
+    The folder is locked until `close`, the end of a `with` block, or the end of the object;
+    `finish` requires that all others have unlocked it. Pickling stores only the arguments. Steps in
+    the wrong order raise FileError, invalid tiles IndexError. After Cancelled, create a new object.
 
     >>> import os, tempfile, treeform
     >>> with tempfile.TemporaryDirectory() as home:
@@ -111,13 +112,13 @@ class SharedWeld(InSteps[_core.WeldInSteps]):
         super().__init__(work, locals())
 
     def weld_tile(self, tile: int, *, progress: Progress = None) -> None:
-        """Welds a tile, from 0, unless that is done."""
+        """Welds a tile, numbered from 0, unless this is done."""
         self._do_tile(tile, progress)
 
     def finish(self, out: Path, *, removed: Path = "", label: str = "", withhold: bool = False,
                progress: Progress = None) -> WeldStreamResult:
-        """Welds what lies along the borders of tiles, when all are welded, and writes the outputs,
-        each whole or not at all. Once."""
+        """Welds across the borders of tiles, after all tiles have been welded, and writes the
+        outputs. On an error, no incomplete file remains. Can be called once."""
         return self._work.finish(path_of(out), path_of(removed), _arrays.word(label, "label"),
                                  withhold, progress=progress)
 
@@ -213,7 +214,8 @@ def count_nearly_equal(points: ArrayLike, distance: float, *, progress: Progress
     >>> treeform.count_nearly_equal([[0, 0, 0], [0, 0, 0], [0, 0, 0.5]], 1.0)
     1
     """
-    return _core.count_nearly_equal(_arrays.points(points, "points"), distance, progress=progress)
+    return _core.count_nearly_equal(_arrays.points(points, "points"),
+                                    _arrays.number(distance, "distance"), progress=progress)
 
 
 @dataclass(frozen=True, repr=False)
