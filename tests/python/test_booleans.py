@@ -40,12 +40,12 @@ def test_a_cloud_is_no_solid():
     assert not points.is_solid and tf.Mesh([], []).is_solid
     for verb in (lambda: tf.union(CUBE, points), lambda: tf.clip(SHEET, points),
                  lambda: tf.intersection([CUBE, (CUBE.vertices, [])])):
-        with pytest.raises(ValueError, match="operand 1: 8 points without a face"):
+        with pytest.raises(ValueError, match="operand 1: 8 points without faces"):
             verb()
     with pytest.raises(ValueError, match="b: 8 points"):
         tf.boolean("a - b", a=CUBE, b=points)
     for verb in (lambda: tf.check_solid(points), lambda: CUBE | points, lambda: points - CUBE):
-        with pytest.raises(ValueError, match="8 points without a face"):
+        with pytest.raises(ValueError, match="8 points without faces"):
             verb()
 
 

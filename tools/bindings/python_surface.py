@@ -215,7 +215,7 @@ RESULTS = [
            docs={"format": "'stl-binary', 'ply-ascii', 'obj', ...",
                  "precision": "Precision of the written coordinates: 'float32' or 'float64'."},
            custom={"warnings": [Attribute("warnings", "list[str]", "Warnings for the user.",
-                                          "texts_of(from.warnings)")]}),
+                                          "list_of(from.warnings, &tf::io_warning::text)")]}),
     # _robots
     Result("urdf_joint", "Joint", "_robots", "NamedTuple", context="robot",
            leave="origin axis mimics mimic_line", doc="A joint, which connects two links.",

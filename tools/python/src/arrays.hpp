@@ -15,6 +15,15 @@ using ids_array = array_of<std::uint32_t>;    ///< [N]
 /// Anything that NumPy can convert to an array.
 using array_like = py::object;
 
+/// `of(value)` for each value, where `of` is a function or a member.
+template <class Values, class Of>
+auto list_of(Values&& values, const Of& of) {
+    std::vector<std::decay_t<decltype(std::invoke(of, *std::begin(values)))>> all;
+    all.reserve(std::size(values));
+    for (auto&& one : values) all.push_back(std::invoke(of, one));
+    return all;
+}
+
 /// The rows of `array`, each a Row of equal numbers T.
 template <class Row, class T>
 std::span<const Row> rows_of(const array_of<T>& array) {
@@ -30,10 +39,9 @@ inline tf::points_view points_of(const points_array& array) { return rows_of<tf:
 /// The rows of an array (n, 4), as a point and a number each.
 inline std::vector<std::pair<tf::point3, double>> points_and_numbers(
     const array_of<double>& array) {
-    std::vector<std::pair<tf::point3, double>> all;
-    for (const auto& [x, y, z, number] : rows_of<std::array<double, 4>>(array))
-        all.push_back({{x, y, z}, number});
-    return all;
+    return list_of(rows_of<std::array<double, 4>>(array), [](const auto& row) {
+        return std::pair(tf::point3{row[0], row[1], row[2]}, row[3]);
+    });
 }
 
 inline std::array<double, 3> numbers(const tf::point3& p) { return {p.x, p.y, p.z}; }
@@ -105,10 +113,7 @@ auto cell_of(const Row& row, const Of& of) {
 /// An array of `of(row)` for each row, where `of` is a function or a member.
 template <class Rows, class Of>
 auto column(const Rows& rows, const Of& of) {
-    std::vector<decltype(cell_of(*std::begin(rows), of))> values;
-    values.reserve(std::size(rows));
-    for (const auto& row : rows) values.push_back(cell_of(row, of));
-    return as_array(std::move(values));
+    return as_array(list_of(rows, [&](const auto& row) { return cell_of(row, of); }));
 }
 
 /// The number of entries of a table.

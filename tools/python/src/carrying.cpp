@@ -82,9 +82,9 @@ carrying::carrying(const held_meshes& operands) {
         file.mesh = {{points.begin(), points.end()}, {faces.begin(), faces.end()}};
         require_rows(file, files_.size() - 1);
     }
-    std::vector<tf::carry_source> sources;
-    for (const tf::mesh_file& file : files_) sources.push_back({&file, {}});
-    sources_ = std::move(sources);
+    sources_ = list_of(files_, [](const tf::mesh_file& file) {
+        return tf::carry_source{&file, {}};
+    });
 }
 
 tf::simplify_result carrying::simplify(const tf::mesh_ref& mesh, double max_distance,

@@ -164,8 +164,8 @@ py::object value_of(std::optional<T>&& value) {
 /// Selects the overloads of `object` in `made/results.cpp`, by argument-dependent lookup.
 struct of_result {};
 
-/// A value or result in Python; `context` is what a result also needs, such as the attributes of the
-/// operands or the moving mesh.
+/// A value or result in Python. `context` is what a result also needs, such as the attributes of
+/// the operands.
 template <class T, class... Context>
 py::object as_python(T&& value, const Context&... context) {
     if constexpr (requires { object(of_result{}, std::forward<T>(value), context...); })

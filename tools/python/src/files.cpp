@@ -5,13 +5,13 @@ namespace binding {
 
 namespace {
 
-/// `Mesh` of the package.
+/// A `Mesh` of the package.
 py::object mesh_of(tf::mesh_file&& file) {
     tf::mesh mesh = std::exchange(file.mesh, {});
     return mesh_object(std::move(mesh), py::none(), py::cast(file_data(std::move(file))));
 }
 
-/// What `take` has read.
+/// A `Mesh` of the file that `take` reads.
 template <class Take>
 py::object read_by(bool join, const Take& take) {
     tf::mesh_file file = run([&](const tf::progress_callback&) {
@@ -33,7 +33,7 @@ py::object read(const std::filesystem::path& path, const std::string& format, bo
     return read_by(join, [&] { return tf::read(path, format, options); });
 }
 
-/// `name` stands for the file in errors, and its extension counts.
+/// `name` is the file name in errors; its extension may tell the format.
 py::object read_bytes(const py::bytes& bytes, const std::string& name, const std::string& format,
                       bool join, const tf::read_options& options) {
     const auto content = static_cast<std::string_view>(bytes);
@@ -43,10 +43,8 @@ py::object read_bytes(const py::bytes& bytes, const std::string& name, const std
 
 /// Meshes as the parts of one file.
 py::object scene(const held_meshes& meshes, const std::vector<std::string>& names) {
-    std::vector<tf::mesh_file> files;
-    std::vector<const tf::mesh_file*> members;
-    for (const held_mesh* one : meshes) files.push_back(file_of(*one));
-    for (const tf::mesh_file& one : files) members.push_back(&one);
+    const auto files = list_of(meshes, [](const held_mesh* one) { return file_of(*one); });
+    const auto members = list_of(files, [](const tf::mesh_file& one) { return &one; });
     return mesh_of(
         run([&](const tf::progress_callback&) { return tf::scene_of(members, names, names); }));
 }
@@ -92,7 +90,7 @@ void set_column(file_data& data, const std::string& element, const std::string& 
     const py::array values = py::module_::import("numpy").attr("asarray")(given);
     if (values.ndim() != 1)
         throw std::invalid_argument(name +
-                                    ": one value for each row, in an array of one dimension");
+                                    ": expected a one-dimensional array, a value for each row");
     const auto rows = static_cast<std::size_t>(values.size());
     tf::element& to = data.own().attributes.find_or_add(element, rows);
     if (to.rows != rows)
@@ -108,7 +106,8 @@ void set_column(file_data& data, const std::string& element, const std::string& 
             scalar, [&]<class T>(T) { return py::dtype::of<T>().is(values.dtype()); });
         if (fits) return tf::with_type(scalar, add);
     }
-    throw std::invalid_argument(name + ": numbers of 8 to 64 bits, or floats of 32 or 64");
+    throw std::invalid_argument(name +
+                                ": expected integers of 8 to 64 bits, or floats of 32 or 64");
 }
 
 py::dict corners(const file_data& data) {
@@ -128,23 +127,19 @@ py::object stored_face(const file_data& data) {
 }
 
 std::vector<std::tuple<std::string, std::string>> warnings_in(const file_data& data) {
-    std::vector<std::tuple<std::string, std::string>> all;
-    for (const tf::io_warning& one : data.file().warnings) all.emplace_back(one.code, one.text);
-    return all;
+    return list_of(data.file().warnings,
+                   [](const tf::io_warning& one) { return std::tuple(one.code, one.text); });
 }
 
 std::vector<std::string> names_of_rows(const file_data& data) {
-    std::vector<std::string> all;
-    for (const tf::element& one : data.file().attributes.elements) all.push_back(one.name);
-    return all;
+    return list_of(data.file().attributes.elements, &tf::element::name);
 }
 
 std::vector<std::tuple<std::string, std::string, std::string, std::size_t>> parts_in(
     const file_data& data) {
-    std::vector<std::tuple<std::string, std::string, std::string, std::size_t>> all;
-    for (const tf::part& one : data.file().attributes.parts)
-        all.emplace_back(one.object, one.group, one.material, one.first_face);
-    return all;
+    return list_of(data.file().attributes.parts, [](const tf::part& one) {
+        return std::tuple(one.object, one.group, one.material, std::size_t{one.first_face});
+    });
 }
 
 std::string text_of(const file_data& data) {

@@ -1,15 +1,15 @@
 #pragma once
 /// \file
-/// A mesh or cloud in the arrays of Python, as operations take it.
+/// A mesh or cloud in arrays of Python.
 
 #include "arrays.hpp"
 
 namespace binding {
 
-/// Refers to arrays, and keeps them alive.
+/// Keeps the arrays alive.
 class held_mesh {
   public:
-    /// `keep`: for many queries, so that indexes are kept (`prepared_mesh`).
+    /// `keep`: indexes are kept for later queries (`prepared_mesh`).
     held_mesh(points_array points, faces_array faces, bool keep)
         : points_(std::move(points)),
           faces_(std::move(faces)),
@@ -34,7 +34,13 @@ class held_mesh {
     [[nodiscard]] bool keep() const { return keep_; }
     [[nodiscard]] std::size_t size() const { return view_.points.size() + view_.faces.size(); }
 
-    /// As verbs take it: the prepared mesh, or the view where no further query will come.
+    /// A prepared mesh of its own, without indexes.
+    [[nodiscard]] tf::prepared_mesh borrowed() const {
+        return prepared_.is_cloud() ? tf::prepared_mesh::borrow_cloud(view_.points)
+                                    : tf::prepared_mesh::borrow(view_);
+    }
+
+    /// The prepared mesh, or the view if there will be no further queries.
     [[nodiscard]] tf::mesh_ref ref() const {
         if (keep_ || prepared_.is_cloud()) return prepared_;
         return view_;
@@ -52,25 +58,10 @@ class held_mesh {
 using held_meshes = std::vector<const held_mesh*>;
 
 [[nodiscard]] inline tf::mesh_refs refs_of(const held_meshes& meshes) {
-    std::vector<tf::mesh_ref> refs;
-    for (const held_mesh* one : meshes) refs.push_back(one->ref());
-    return refs;
+    return list_of(meshes, &held_mesh::ref);
 }
-
-[[nodiscard]] inline std::vector<tf::mesh_view> views_of(const held_meshes& meshes) {
-    std::vector<tf::mesh_view> views;
-    for (const held_mesh* one : meshes) views.push_back(one->view());
-    return views;
-}
-
-/// All of them anew, without what has been indexed: for operations on many that take them in a row.
-[[nodiscard]] inline std::vector<tf::prepared_mesh> borrowed(const held_meshes& meshes) {
-    std::vector<tf::prepared_mesh> all;
-    for (const held_mesh* one : meshes)
-        all.push_back(one->prepared().is_cloud()
-                          ? tf::prepared_mesh::borrow_cloud(one->view().points)
-                          : tf::prepared_mesh::borrow(one->view()));
-    return all;
+[[nodiscard]] inline auto borrowed(const held_meshes& meshes) {
+    return list_of(meshes, &held_mesh::borrowed);
 }
 
 }  // namespace binding

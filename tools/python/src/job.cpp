@@ -10,14 +10,14 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr milliseconds between_looks{15};
-constexpr milliseconds to_notice{50};  ///< after that, nobody waits for a job that is to stop
+constexpr milliseconds to_notice{50};  ///< how long to wait for a job that was asked to stop
 constexpr std::size_t little = 4096;
 
-/// Threads that are out of the interpreter and want to come back, or soon will be.
+/// Threads that have released the interpreter's lock and will want it back, or soon will.
 std::atomic<int> outside{0};
-/// Jobs that write.
+/// Jobs that write files.
 std::atomic<int> writing{0};
-/// The thread that ends the process, from then on.
+/// The thread that ends the process, once it does.
 std::atomic<std::thread::id> ender{};
 
 bool process_ends() {
@@ -25,8 +25,8 @@ bool process_ends() {
     return one != std::thread::id() && one != std::this_thread::get_id();
 }
 
-/// At the end of the process, the interpreter ends a thread that wants its lock by unwinding it,
-/// which C++ does not survive. So such a thread does not come back.
+/// Takes the interpreter's lock back. At the end of the process, the interpreter would end the
+/// thread by unwinding its stack, which aborts in C++; so the thread sleeps forever instead.
 void come_back(PyThreadState* state) {
     if (process_ends()) {
         --outside;
@@ -36,7 +36,7 @@ void come_back(PyThreadState* state) {
     --outside;
 }
 
-/// As long as it lives, this thread does not have the interpreter's lock.
+/// Releases the interpreter's lock of this thread during its lifetime.
 class without_interpreter {
   public:
     without_interpreter() { leave(); }
@@ -62,7 +62,7 @@ class without_interpreter {
 };
 thread_local without_interpreter* without_interpreter::innermost = nullptr;
 
-/// A call, and what becomes of it. Python's objects in it are touched with the interpreter's lock.
+/// A call and its result. Its Python objects are only used with the interpreter's lock.
 struct job {
     py::object function;
     py::object arguments;
@@ -73,12 +73,12 @@ struct job {
     std::atomic<bool> stop{false};
 
     std::mutex mutex;
-    bool committed = false;  ///< it can no longer be called back
+    bool committed = false;  ///< it can no longer be stopped
     std::condition_variable ended_now;
     bool ended = false;
     bool writes = false;
 
-    /// Where nobody has taken the result: with the interpreter's lock, or not at all.
+    /// A result that was not taken is freed with the interpreter's lock, or leaked at the end.
     ~job() {
         if (!function && !result && !failure) return;
         ++outside;
@@ -93,7 +93,7 @@ struct job {
         --outside;
     }
 
-    /// Asks it to stop; false where it is too late for that.
+    /// Asks it to stop; false if it is too late.
     bool call_back() {
         const std::lock_guard lock(mutex);
         stop = !committed;
@@ -114,7 +114,7 @@ thread_local job* current = nullptr;
 
 class helper;
 
-/// The helpers that have nothing to do.
+/// The idle helpers, and the running jobs.
 class helpers {
   public:
     helper& take();
@@ -140,7 +140,7 @@ class helpers {
     std::vector<std::weak_ptr<job>> jobs_;
 };
 
-/// Those of this process: a fork has none of the threads of its parent.
+/// The helpers of this process; a fork has none of the threads of its parent.
 std::atomic<helpers*> all_helpers = [] {
     pthread_atfork(nullptr, nullptr, [] {
         all_helpers = new helpers;
@@ -150,7 +150,7 @@ std::atomic<helpers*> all_helpers = [] {
     return new helpers;
 }();
 
-/// A thread that waits for jobs. It is never joined: at the end of the process it sleeps.
+/// A thread that waits for jobs. It is never joined.
 class helper {
   public:
     helper() {
@@ -195,7 +195,7 @@ class helper {
         return PyEval_SaveThread();
     }
 
-    /// A job that is to stop may have no one to take its result: it goes now, with the lock.
+    /// The result of a stopped job may not be taken: it is freed here, with the lock.
     static void call(job& mine) {
         try {
             mine.result = mine.function(*py::reinterpret_borrow<py::args>(mine.arguments));
@@ -222,7 +222,7 @@ helper& helpers::take() {
     return one;
 }
 
-/// What the thread that called does while the job runs.
+/// What the calling thread does while the job runs.
 class watch {
   public:
     watch(std::shared_ptr<job> mine, const py::object& progress)
@@ -248,7 +248,7 @@ class watch {
         return job_->has_ended_within(time);
     }
 
-    /// Looks for signals and says how far it is.
+    /// Handles signals and reports progress.
     void look(double share) {
         try {
             if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -260,7 +260,7 @@ class watch {
         }
     }
 
-    /// Waits a little for a job that is to stop; then it ends alone.
+    /// Waits shortly for a job that was asked to stop; after that, it ends in the background.
     [[noreturn]] void leave() {
         (void)has_ended_within(to_notice);
         std::rethrow_exception(why_);
@@ -271,7 +271,7 @@ class watch {
     std::exception_ptr why_;
 };
 
-/// How much there is to do: numbers in arrays, elements of meshes, of trees that are asked.
+/// The size of the arguments: numbers in arrays, elements of meshes and trees.
 std::size_t elements_of(py::handle argument) {
     if (py::isinstance<py::array>(argument))
         return static_cast<std::size_t>(py::reinterpret_borrow<py::array>(argument).size());
@@ -308,7 +308,7 @@ void make_job(const py::object& scope, const char* name, job_kind kind) {
             progress = py::module_::import("treeform._progress").attr("of_bar")(progress);
         return run_job(function, arguments, progress, kind);
     };
-    const auto doc = function.attr("__doc__").cast<std::string>();  // has the arguments
+    const auto doc = function.attr("__doc__").cast<std::string>();  // lists the arguments
     if (py::isinstance<py::module_>(scope))
         scope.attr(name) = py::cpp_function(job_of, py::name(name), py::scope(scope), doc.c_str());
     else
@@ -367,8 +367,7 @@ int end() {
 
 void leave_jobs_at_the_end() {
 #ifdef __GLIBC__
-    // What is registered before, and what libraries have that are older than this, is left out
-    // then.
+    // This skips exit handlers that were registered earlier, and destructors of static objects.
     (void)::on_exit(
         [](int status, void*) {
             if (outside == 0) return;

@@ -1,27 +1,26 @@
 #pragma once
 /// \file
-/// Runs what takes long on a helper thread, while the thread that called it lets Python's other
-/// threads run, looks for signals (Ctrl-C) and reports progress.
+/// Runs long calls on a helper thread. Meanwhile, the calling thread lets other Python threads run,
+/// handles signals (Ctrl-C) and reports progress.
 
 #include "base.hpp"
 
 namespace binding {
 
-/// Few elements: done at once. `writes`: long work, too, that leaves a file of its own behind where
-/// it is not ended in its turn.
+/// `by_elements`: run on the calling thread if there are few elements. `writes`: long work that
+/// would leave an incomplete file if the process ended.
 enum class job_kind : std::uint8_t { by_elements, long_work, writes };
 
 /// Makes the function or method `name` of `scope` a job. It then also takes `progress`: None, or a
-/// function that is called with the share of the work that is done.
+/// function that is called with the completed share of the work.
 ///
-/// A job runs on a helper thread, unless its arguments are few elements and it is `by_elements`:
-/// handing it over would take longer. It is asked to stop when `progress` returns False or raises,
-/// or when a signal's handler raises, as that of Ctrl-C does; a result that is there is returned
-/// all the same where `progress` returns False. The caller then gets what was raised: at once, even
-/// where the job takes some time to notice.
+/// A job runs on a helper thread, except if it is `by_elements` and has few elements, for which the
+/// thread would cost more than the work. It is asked to stop if `progress` returns False or raises,
+/// or if a signal handler raises, as for Ctrl-C. The caller gets the exception at once, even if the
+/// job takes longer to stop. If the job has completed, a False of `progress` is ignored.
 void make_job(const py::object& scope, const char* name, job_kind kind = job_kind::by_elements);
 
-/// The same of several.
+/// The same for several names.
 void make_jobs(const py::object& scope, std::initializer_list<const char*> names,
                job_kind kind = job_kind::by_elements);
 
@@ -33,24 +32,24 @@ void add_job(py::module_& module, const char* name, Function* function,
     make_job(module, name, kind);
 }
 
-/// The job that runs on this thread: `progress_callback` for it; empty where there is none.
+/// The progress callback of the job that runs on this thread; empty if there is none.
 treeform::progress_callback report_of_job();
 
-/// For jobs, before what cannot be taken back: false where the job is to stop. After that,
-/// `progress` no longer stops it.
+/// To be called by a job before an action that cannot be undone. False: the job has to stop.
+/// Otherwise, it can no longer be stopped.
 bool commit_job();
 
-/// Whether the job that runs on this thread is to stop; null where there is none.
+/// Whether the job that runs on this thread has to stop; null if there is none.
 const std::atomic<bool>* stop_of_job();
 
-/// Does `body` without the interpreter's lock.
+/// Calls `body` without the interpreter's lock.
 void without_lock(const std::function<void()>& body);
 
-/// Does `body` with the interpreter's lock, within work that goes on without it.
+/// Calls `body` with the interpreter's lock, from work that runs without it.
 void with_lock(const std::function<void()>& body);
 
-/// What `body(progress_callback)` returns. It runs without the interpreter's lock and must not
-/// touch Python.
+/// What `body(progress_callback)` returns. `body` runs without the interpreter's lock, and must not
+/// use Python.
 template <class Body>
 auto run(Body&& body) {
     using result = std::invoke_result_t<Body&, const treeform::progress_callback&>;
@@ -59,11 +58,11 @@ auto run(Body&& body) {
     return std::move(*made);
 }
 
-/// `body(begin, end)` for pieces of `count` elements, without the interpreter's lock, for work that
-/// cannot be asked to stop: `tools::in_pieces`.
+/// Calls `body(begin, end)` for pieces of `count` elements, without the interpreter's lock, so that
+/// work without a callback can be stopped: `tools::in_pieces`.
 void run_pieces(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body);
 
-/// What `find(begin, end)` returns for such pieces, one after the other.
+/// The concatenated results of `find(begin, end)` for such pieces.
 template <class Find>
 auto in_pieces(std::size_t count, const Find& find) {
     decltype(find(count, count)) all;
@@ -75,18 +74,19 @@ auto in_pieces(std::size_t count, const Find& find) {
     return all;
 }
 
-/// For jobs: makes objects that take long to make, as `build(type, arguments...)`.
+/// `type(arguments...)`, as a job for objects that take long to construct.
 py::object build(const py::object& type, const py::args& arguments);
 
-/// Ends all jobs, for this thread to end the process. From then on no other thread gets the
-/// interpreter's lock. Again until no job writes, and for a while as long as there are others.
+/// Stops all jobs, so that this thread can end the process. From then on, no other thread gets the
+/// interpreter's lock. Returns what jobs still do; to be repeated until they have ended, or for
+/// some time.
 enum class still : int { nothing, works, writes };
 int end();
 
-/// Where jobs still work when the process ends, it ends without what they may use being freed.
+/// If jobs still run when the process ends, the memory that they use is not freed.
 void leave_jobs_at_the_end();
 
-/// `progress` has returned False.
+/// `progress` returned False.
 class cancelled {};
 
 }  // namespace binding

@@ -15,31 +15,21 @@ py::array ends_of(const std::vector<std::array<tf::point3, 2>>& edges) {
     return ends.reshape({-1, 2, 3});
 }
 
-py::list regions_of(tf::part_clash& from) {
-    py::list regions;
-    for (tf::contact_region& region : from.regions)
-        regions.append(py::make_tuple(value_of(region.box), region.face_pairs,
-                                      as_array(std::move(region.faces_a)),
-                                      as_array(std::move(region.faces_b))));
-    return regions;
+std::vector<py::tuple> regions_of(tf::part_clash& from) {
+    return list_of(from.regions, [](tf::contact_region& region) {
+        return py::make_tuple(value_of(region.box), region.face_pairs,
+                              as_array(std::move(region.faces_a)),
+                              as_array(std::move(region.faces_b)));
+    });
 }
 
 robot_data::robot_data(const tf::urdf_robot& robot, const std::vector<tf::urdf_mesh>& parts)
-    : content(robot) {
-    for (const tf::urdf_mesh& part : parts) links.push_back(part.link);
-}
+    : content(robot), links(list_of(parts, &tf::urdf_mesh::link)) {}
 
-py::list meshes_of(std::vector<tf::urdf_mesh>&& parts) {
-    py::list made;
-    for (tf::urdf_mesh& one : parts)
-        made.append(mesh_object(std::move(one.shape), py::none(), py::none()));
-    return made;
-}
-
-py::list texts_of(const std::vector<tf::io_warning>& warnings) {
-    py::list texts;
-    for (const tf::io_warning& one : warnings) texts.append(one.text);
-    return texts;
+std::vector<py::object> meshes_of(std::vector<tf::urdf_mesh>&& parts) {
+    return list_of(parts, [](tf::urdf_mesh& one) {
+        return mesh_object(std::move(one.shape), py::none(), py::none());
+    });
 }
 
 py::array faces_in_file(const tf::usable_mesh& part) {
@@ -55,12 +45,12 @@ py::object with_attributes(const file_data* data, tf::attributes&& attributes) {
     return py::cast(std::move(kept));
 }
 
-py::list warnings_of(const tf::weld_stream_result& from) {
-    py::list warnings = texts_of(from.survey.warnings);
+std::vector<std::string> warnings_of(const tf::weld_stream_result& from) {
+    std::vector<std::string> texts = list_of(from.survey.warnings, &tf::io_warning::text);
     for (const auto* const written : {&from.welded, &from.removed})
         if (*written)
-            for (const py::handle text : texts_of((*written)->warnings)) warnings.append(text);
-    return warnings;
+            for (const tf::io_warning& one : (*written)->warnings) texts.push_back(one.text);
+    return texts;
 }
 
 py::object parent_of(const tf::section_result& whole, const tf::section_loop& loop) {
@@ -85,15 +75,13 @@ py::object object(of_result, tf::cut_result&& from, const carrying& attributes) 
 }
 
 py::object object(of_result, tf::curve_network&& from) {
-    py::list paths;
-    for (tf::curve_path& one : from.paths)
-        paths.append(py::make_tuple(as_array(std::move(one.points)), one.closed));
-    return py::make_tuple(
-        column(from.points,
-               [](const tf::curve_point& p) {
-                   return std::array<double, 3>{p.position.x, p.position.y, p.position.z};
-               }),
-        paths);
+    const auto paths = list_of(from.paths, [](tf::curve_path& one) {
+        return py::make_tuple(as_array(std::move(one.points)), one.closed);
+    });
+    const auto numbers_of = [](const tf::curve_point& p) {
+        return std::array<double, 3>{p.position.x, p.position.y, p.position.z};
+    };
+    return py::make_tuple(column(from.points, numbers_of), paths);
 }
 
 py::object object(of_result, tf::rounding_effects&& from) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Parts of results that look other than in C++.
+/// Parts of results that differ from those of C++.
 
 #include "made/made.hpp"
 
@@ -8,26 +8,24 @@ namespace binding {
 
 py::object volumes_of(const tf::boolean_result& from);
 py::array ends_of(const std::vector<std::array<tf::point3, 2>>& edges);
-py::list regions_of(tf::part_clash& from);
-/// Of values of points, those of a loop.
+std::vector<py::tuple> regions_of(tf::part_clash& from);
+/// The values of the points of a loop, from those of all points.
 template <class T>
 py::array part_of(const std::vector<T>& all, const tf::section_loop& loop) {
     const auto begin = all.begin() + static_cast<std::ptrdiff_t>(loop.first_point);
     return as_array(std::vector(begin, begin + static_cast<std::ptrdiff_t>(loop.point_count)));
 }
-/// The loop around one, by its number in the layer.
+/// The number, in its layer, of the loop that encloses `loop`.
 py::object parent_of(const tf::section_result& whole, const tf::section_loop& loop);
 struct robot_data {
     robot_data(const tf::urdf_robot& robot, const std::vector<tf::urdf_mesh>& parts);
 
     tf::urdf_robot content{};
-    std::vector<std::uint32_t> links{};  ///< of parts
+    std::vector<std::uint32_t> links{};  ///< the link of each part
 };
-py::list meshes_of(std::vector<tf::urdf_mesh>&& parts);
-/// What is said in warnings.
-py::list texts_of(const std::vector<tf::io_warning>& warnings);
+std::vector<py::object> meshes_of(std::vector<tf::urdf_mesh>&& parts);
 py::array faces_in_file(const tf::usable_mesh& part);
-/// What a welded mesh has, of what it had; None without.
+/// The attributes of a welded mesh; None if the input has none.
 py::object with_attributes(const file_data* data, tf::attributes&& attributes);
 
 /// The rays of two arrays.
@@ -53,7 +51,9 @@ class rays {
     double t_min_, t_max_;
 };
 
-/// `t` of a hit of ray `i` of a piece. It may be infinite by the length of the direction alone.
+/// `t` of a hit of ray `i` of a piece.
+///
+/// \throws std::invalid_argument if it is infinite, since the direction is too short
 inline double finite(double t, std::size_t i) {
     if (std::isfinite(t)) return t;
     throw std::invalid_argument("directions: that of ray " + std::to_string(i) +
@@ -66,35 +66,33 @@ inline std::vector<std::optional<tf::mesh_hit>> finite(
     return hits;
 }
 
-/// Where points are, and the winding numbers.
+/// The locations of points, and their winding numbers.
 py::object object(of_result, std::vector<tf::point_location>&& from);
 
-/// A cloud is no solid, not even the empty one.
+/// \throws std::invalid_argument for a point cloud
 inline void require_faces(const held_mesh& mesh, const std::string& name) {
     const auto [points, faces] = mesh.view();
     if (!points.empty() && faces.empty())
         throw std::invalid_argument(name + ": " + std::to_string(points.size()) +
-                                    " points without a face are no solid");
+                                    " points without faces are not a solid");
 }
 
 void require_faces(const held_meshes& meshes, const std::vector<std::string>& names);
-/// What is made of so many operands: by name, or by a formula in letters or names.
+/// The expression for `count` operands: an operation by name, or a formula with letters or `names`.
 tf::boolean_expression expression_of(const std::string& operation, const std::string& formula,
                                      const std::vector<std::string>& names, std::size_t count);
 
 std::vector<tf::face_pair> pairs_of(const ids_array& pairs, const array_of<std::uint8_t>& kinds);
-/// The regions, and that of each pair.
-/// Points, and paths by their numbers.
+/// Points, and paths of point numbers.
 py::object object(of_result, tf::curve_network&& from);
 
-/// The pieces, the certificate of all, and whether the mesh was resolved.
+/// The pieces, with the certificate and whether self-intersections were resolved.
 py::object object(of_result, tf::cut_result&& from, const carrying& attributes);
-/// Each with its part.
 py::list packed_parts(std::vector<tf::packed_part>&& from, const held_meshes& parts);
-/// The counts, as a pair.
+/// The two counts.
 py::object object(of_result, tf::rounding_effects&& from);
 
-/// `of(pose, clash)` of all clashes, pose after pose.
+/// An array of `of(pose, clash)` for all clashes, pose after pose.
 template <class Of>
 auto column_of_poses(const tf::pose_result& from, const Of& of) {
     std::vector<decltype(of(0U, tf::pose_clash{}))> values;
@@ -103,6 +101,6 @@ auto column_of_poses(const tf::pose_result& from, const Of& of) {
     return column(values, [](const auto& value) { return value; });
 }
 
-py::list warnings_of(const tf::weld_stream_result& from);
+std::vector<std::string> warnings_of(const tf::weld_stream_result& from);
 
 }  // namespace binding

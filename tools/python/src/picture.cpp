@@ -106,16 +106,15 @@ shown_meshes show(const held_meshes& meshes, const look& how) {
 }
 
 look look_of(const py::dict& asked) {
-    look how{.names = asked["names"].cast<std::vector<std::string>>(),
-             .colors = asked["colors"].cast<std::vector<std::string>>(),
-             .title = asked["title"].cast<std::string>(),
-             .verdict = asked["verdict"].cast<std::string>(),
-             .y_is_up = asked["y_is_up"].cast<bool>(),
-             .marked = asked["marked"].cast<ids_array>(),
-             .values = asked["values"].cast<std::optional<array_of<double>>>(),
-             .limits = asked["limits"].cast<std::array<double, 2>>(),
-             .label = asked["label"].cast<std::string>()};
-    return how;
+    return {.names = asked["names"].cast<std::vector<std::string>>(),
+            .colors = asked["colors"].cast<std::vector<std::string>>(),
+            .title = asked["title"].cast<std::string>(),
+            .verdict = asked["verdict"].cast<std::string>(),
+            .y_is_up = asked["y_is_up"].cast<bool>(),
+            .marked = asked["marked"].cast<ids_array>(),
+            .values = asked["values"].cast<std::optional<array_of<double>>>(),
+            .limits = asked["limits"].cast<std::array<double, 2>>(),
+            .label = asked["label"].cast<std::string>()};
 }
 
 std::vector<std::string> colors_of(std::size_t count) {
@@ -133,7 +132,7 @@ py::bytes picture(const held_meshes& meshes, const py::dict& asked,
                   const std::vector<std::string>& views, std::size_t width, std::size_t height) {
     const look how = look_of(asked);
     tools::picture_options options{.width = width, .height = height, .views = {}};
-    for (const std::string& name : views) options.views.push_back(view_of(name));
+    options.views = list_of(views, view_of);
     return run([&](const tf::progress_callback&) {
         const shown_meshes all = show(meshes, how);
         return tools::png(tools::draw(all.scene, options));

@@ -1,13 +1,13 @@
 #pragma once
 /// \file
-/// Work in a folder that is done step by step, as a job each.
+/// Work in steps in a folder, each step a job.
 
 #include "bindings.hpp"
 
 namespace binding {
 
-/// The communicator of (rank, size, exchange) as Python has it, or one that is alone for None. Its
-/// copies may go without the interpreter's lock as long as the first one stays.
+/// The communicator for a Python object with rank, size and exchange; for None, one of a single
+/// process. Copies can be destroyed without the interpreter's lock as long as the first one lives.
 inline treeform::communicator communicator_of(const py::object& communicator) {
     treeform::communicator made;
     if (communicator.is_none()) return made;
@@ -22,8 +22,8 @@ inline treeform::communicator communicator_of(const py::object& communicator) {
     return made;
 }
 
-/// Tells a communicator that this process is at work, and when no more, however that ends: a call
-/// that was interrupted may have been left by then.
+/// Tells a communicator when this process begins to work, and when it ends, even if the caller of
+/// an interrupted job no longer waits.
 class at_work {
   public:
     explicit at_work(const py::object& communicator) : all_(communicator) {
@@ -43,10 +43,10 @@ class at_work {
     const py::object& all_;
 };
 
-/// What reports the progress of the step that is done now.
+/// Reports the progress of the current step.
 class step_progress {
   public:
-    /// As options of the library take it.
+    /// The callback for options of the library.
     bool operator()(std::string_view, double share) const { return !report_ || report_(share); }
 
     void begin(treeform::progress_callback report) { report_ = std::move(report); }
@@ -55,12 +55,12 @@ class step_progress {
     treeform::progress_callback report_;
 };
 
-/// A `Work` that Python's threads share: one step after the other. Also a step that nobody waits
-/// for any more ends before the next one begins.
+/// A `Work` for several Python threads: one step at a time. An interrupted step, too, ends before
+/// the next one begins.
 template <class Work>
 class work_in_steps {
   public:
-    /// `make(progress)` makes the work; its options refer to `progress`.
+    /// `make(progress)` creates the work, with options that refer to `progress`.
     template <class Make>
     explicit work_in_steps(Make&& make) : work_(make(progress_)) {}
 
@@ -71,13 +71,13 @@ class work_in_steps {
     auto step(Body&& body) {
         return run([&](const treeform::progress_callback& report) {
             const std::lock_guard one_at_a_time(mutex_);
-            if (!work_) throw std::invalid_argument("closed: it has let go of the folder");
+            if (!work_) throw std::invalid_argument("the folder has been closed");
             progress_.begin(report);
             return body(*work_);
         });
     }
 
-    /// Lets others have the folder.
+    /// Unlocks the folder for others.
     void close() {
         without_lock([&] {
             const std::lock_guard one_at_a_time(mutex_);
@@ -91,25 +91,26 @@ class work_in_steps {
     std::optional<Work> work_;
 };
 
-/// A method of `Work` as a step; a status is not looked at, for the job says what went wrong.
+/// A method of `Work` as a step. A status is ignored, since the job reports the error.
 template <class Work, class Of, class Result, class... Arguments>
 auto step_of(Result (Of::*method)(Arguments...)) {
     return [method](work_in_steps<Work>& all, const std::remove_cvref_t<Arguments>&... given) {
-        if constexpr (std::is_void_v<Result>)
-            all.step([&](Work& one) {
-                (one.*method)(given...);
-                return true;
-            });
-        else if constexpr (std::is_same_v<Result, tf::status>)
-            all.step([&](Work& one) { return (one.*method)(given...); });
+        const auto body = [&](Work& one) {
+            if constexpr (!std::is_void_v<Result>)
+                return (one.*method)(given...);
+            else
+                return (one.*method)(given...), true;
+        };
+        if constexpr (std::is_void_v<Result> || std::is_same_v<Result, tf::status>)
+            static_cast<void>(all.step(body));
         else if constexpr (requires(Result made) { object(of_result{}, std::move(made)); })
-            return as_python(all.step([&](Work& one) { return (one.*method)(given...); }));
+            return as_python(all.step(body));
         else
-            return all.step([&](Work& one) { return (one.*method)(given...); });
+            return all.step(body);
     };
 }
 
-/// The class of a `Work`: steps that all have, and `finish`.
+/// The class for a `Work`, with the common steps and `finish`.
 template <class Work, class Finish>
 auto add_steps(py::module_& module, const char* name, const Finish& finish) {
     py::class_<work_in_steps<Work>> made(module, name);

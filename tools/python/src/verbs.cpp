@@ -57,11 +57,14 @@ void write_isolines(const std::filesystem::path& path, const py::list& lines,
                     const array_of<double>& points, const std::array<double, 3>& normal,
                     const std::string& format, const std::string& unit) {
     tf::isolines_result all;
-    for (const py::handle line : lines)
-        all.lines.push_back(
-            {line.attr("level").cast<double>(), line.attr("first_point").cast<std::size_t>(),
-             line.attr("point_count").cast<std::size_t>(), line.attr("closed").cast<bool>(),
-             line.attr("oriented").cast<bool>(), line.attr("length").cast<double>()});
+    all.lines = list_of(lines, [](py::handle line) {
+        return tf::isoline{line.attr("level").cast<double>(),
+                           line.attr("first_point").cast<std::size_t>(),
+                           line.attr("point_count").cast<std::size_t>(),
+                           line.attr("closed").cast<bool>(),
+                           line.attr("oriented").cast<bool>(),
+                           line.attr("length").cast<double>()};
+    });
     const std::span<const tf::point3> given = rows_of<tf::point3>(points);
     all.points.assign(given.begin(), given.end());
     const tf::oriented_plane seen = plane_of({}, normal);
@@ -78,7 +81,7 @@ py::object transformed(const held_mesh& mesh, const array_of<double>& matrix) {
 
 py::object concatenate(const held_meshes& meshes) {
     const carrying attributes(meshes);
-    const std::vector<tf::mesh_view> views = views_of(meshes);
+    const std::vector<tf::mesh_view> views = list_of(meshes, &held_mesh::view);
     tf::mesh made = run([&](const tf::progress_callback&) { return tf::concatenate(views); });
     std::vector<tf::operand_element> faces, vertices;
     for (std::uint32_t i = 0; i < views.size(); ++i) {

@@ -290,7 +290,7 @@ py::object object(of_result, tf::write_result&& from) {
     made["format"] = as_python(std::move(from.format));
     made["precision"] = as_python(std::move(from.written_as));
     made["max_displacement"] = as_python(std::move(from.max_displacement));
-    made["warnings"] = texts_of(from.warnings);
+    made["warnings"] = list_of(from.warnings, &tf::io_warning::text);
     return object_of("treeform._files", "Written", made);
 }
 
