@@ -227,7 +227,8 @@ class FunctionWriter:
         returns = one.made or re.sub(r"Optional\[(.+)\]$", r"\1 | None", one.returns)
         if one.missing:
             returns = returns.removesuffix(" | None")
-        text = call_text(f"def {one.name}(", signature, f") -> {returns}:") + "\n"
+        text = f"class {one.name}(InSteps[_core.{one.steps}]):\n" if one.steps else \
+            call_text(f"def {one.name}(", signature, f") -> {returns}:") + "\n"
         said, raises, cost = self._paragraphs(one, names)
         lines: list[str] = []
         for before, part in zip([":", *said], said):
@@ -246,6 +247,9 @@ class FunctionWriter:
         if not example:
             raise ValueError(f"{one.name}: an example is missing in its docstring")
         text += "\n".join(lines) + "\n\n" + example + '    """\n'
+        if one.steps:
+            end = ") -> None:\n        super().__init__(locals())\n"
+            return text + "\n" + call_text("    def __init__(", ["self", *signature], end)
         if how:
             text += f"    how = options(_core.{how}, locals(){one.given and ', ' + one.given})\n"
         front, back = one.value.split("{}")
@@ -271,7 +275,7 @@ class FunctionWriter:
         return " ".join(filter(None, [values and values + ".", text]))
 
     def function(self, one: Function, before: str) -> str:
-        """Of a block, `before`; its example is that which there is."""
-        found = re.search(rf'^def {one.name}\(.*?^    """.*?^(    >>> .*?)^    """', before,
-                          re.M | re.S)
+        """The function for a block, with the example that it has in the block `before`."""
+        head = rf'^(?:def|class) {one.name}\(.*?^    """'
+        found = re.search(head + r'.*?^(    >>> .*?)^    """', before, re.M | re.S)
         return self.text(one, found[1] if found else "")

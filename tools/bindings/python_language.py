@@ -94,6 +94,7 @@ class Function:
     also: str = ""  #: beside it
     docs: dict[str, str] = field(default_factory=dict)  #: of arguments
     progress: bool = True  #: whether it takes `progress`
+    steps: str = ""  #: a class that does its work in steps, of this class of the extension
 
     @property
     def name(self) -> str:

@@ -38,6 +38,25 @@ _WELD = {
                 "`keep` 'first'. Empty: in the order of their numbers.",
     "highest_first": "visit the points in descending order of `order_by`.",
     "across": "properties that `keep_seams` ignores."}
+_WELD_STREAM = _WELD | {
+    "files": "one or several files of points, read as one cloud; or one file of a "
+             "mesh.",
+    "tolerance": "as for `weld`.",
+    "keep_degenerate": "keep faces that have the same vertex more than once.",
+    "as_las": "if `out` is a LAS file: round the coordinates, and means of "
+              "coordinates, to the resolution of that file before they are compared.",
+    "memory": "memory limit of the process, in bytes; 0: three quarters of the "
+              "memory of the machine.",
+    "columns": "as for `read`.",
+    "mixed": "allow LAS files with different coordinate reference systems or time "
+             "types. The output has those of the first file."}
+_SEARCH = {"kinds": "as for `self_intersections`.",
+           "vertices": "None: 'by_coordinates' for STL, otherwise 'by_index'."}
+_IN_STEPS = ("`{}` in steps, for many processes on one machine or on several that share a folder, "
+             "such as those of Dask, Slurm or `multiprocessing`.\n\nAll processes create it with "
+             "the same arguments. One process calls `scatter`; then each calls `{}` for some of "
+             "the tiles; when all are done, one calls `finish` and `remove_folder`. Tiles that are "
+             "finished are not {} again.")
 _FIXED = "a fixed body, or a list of them."
 
 #: A set operation by its name.
@@ -302,12 +321,21 @@ FUNCTIONS = [
              "communicator: Communicator = None) -> FilePairs",
              body="in_communicator(communicator, lambda all: _core.self_intersections_of_file(\n"
                   "        path_of(path), how, all, progress=progress))",
-             docs={"kinds": "as for `self_intersections`.",
-                   "vertices": "None: 'by_coordinates' for STL, otherwise 'by_index'.",
+             docs=_SEARCH | {
                    "folder": "the folder for temporary tiles; empty: a folder next to the input. "
                              "If a run was interrupted, the same call resumes it.",
                    "communicator": "processes that share the work, as for `weld_stream`. Rank 0 "
                                    "gets the result, all others an empty one."}),
+    Function("StreamSearch(path: Path, options: stream_search_options) -> None",
+             steps="SearchInSteps",
+             doc=_IN_STEPS.format("self_intersections_of_file", "search_tile", "searched"),
+             also="The folder is locked until `close`, the end of a `with` block, or the end of "
+                  "the object. Pickling stores only the arguments. Steps in the wrong order raise "
+                  "FileError, invalid tiles IndexError.",
+             docs=_SEARCH | {
+                 "path": "the path of the file.",
+                 "folder": "the folder for the tiles; empty: the name of the input with "
+                           "\".search-tiles\"."}),
     # _files
     Function("read(path: Path | IO[bytes], format: str = \"\", *, join: bool = True, "
              "options: read_options) -> Mesh", body="read_from(path, format, join, how, progress)",
@@ -384,15 +412,7 @@ FUNCTIONS = [
              words={"inputs": "files", "welded": "out"},
              also="The outputs are the same, byte for byte, as those of `weld` for the whole "
                   "input.",
-             docs=_WELD | {
-                 "files": "one or several files of points, read as one cloud; or one file of a "
-                          "mesh.",
-                 "tolerance": "as for `weld`.",
-                 "keep_degenerate": "keep faces that have the same vertex more than once.",
-                 "as_las": "if `out` is a LAS file: round the coordinates, and means of "
-                           "coordinates, to the resolution of that file before they are compared.",
-                 "memory": "memory limit of the process, in bytes; 0: three quarters of the "
-                           "memory of the machine.",
+             docs=_WELD_STREAM | {
                  "folder": "the folder for temporary tiles; empty: a folder next to the first "
                            "input. If a run was interrupted, the same call resumes it.",
                  "removed": "a file for the dropped points.",
@@ -400,14 +420,21 @@ FUNCTIONS = [
                           " name.",
                  "withhold": "write all points, and set the LAS flag \"withheld\" for those "
                              "dropped.",
-                 "columns": "as for `read`.",
-                 "mixed": "allow LAS files with different coordinate reference systems or time "
-                          "types. The output has those of the first file.",
                  "communicator": "processes that share the work, in a folder that all can access:"
                                  " an object with `rank`, `size` and `allgather`, such as "
                                  "`mpi4py.MPI.COMM_WORLD`. All processes make the same call. If "
                                  "one fails or is interrupted, all others raise an error at their"
                                  " next collective call."}),
+    Function("StreamWeld(files: Path | Iterable[Path], options: weld_stream_options(tolerance), "
+             "columns: Columns = None, mixed: bool = False) -> None", steps="WeldInSteps",
+             doc=_IN_STEPS.format("weld_stream", "weld_tile", "welded"),
+             also="The folder is locked until `close`, the end of a `with` block, or the end of "
+                  "the object; `finish` requires that all others have unlocked it. Pickling stores "
+                  "only the arguments. Steps in the wrong order raise FileError, invalid tiles "
+                  "IndexError. After Cancelled, create a new object.",
+             docs=_WELD_STREAM | {
+                 "folder": "the folder for the tiles; empty: the name of the first input with "
+                           "\".tiles\"."}),
     # _nearness
     Function("closest_point(mesh: Mesh, points: Points, *, radius: float = np.inf)"
              " -> ClosestPoints", "tf::closest_point(mesh.prepared(), $points.subspan(begin, end - "

@@ -63,7 +63,7 @@ class Writer:
                  states: dict[str, str], functions: list[Function]) -> None:
         self.states = states
         self.language, self.options, self.counters = language, options, counters
-        self.functions = [one for one in functions if not one.body]
+        self.functions = [one for one in functions if not one.body and not one.steps]
         self.package = FunctionWriter(language, options)
         self.by_name = {one.name: one for one in functions}
         self.classes = {one.name: one for one in reversed(language.results.values())}

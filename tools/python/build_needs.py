@@ -1,5 +1,4 @@
-"""Whether everything is there that building takes: said before anything is compiled, with what to
-do."""
+"""Checks that everything needed for building is installed, and otherwise says what to install."""
 
 import importlib.util
 import os
@@ -12,18 +11,18 @@ import sys
 import sysconfig
 
 CMAKE = (3, 25)
-# Debian's package of each header; Eigen's folder is not among those that a compiler looks in.
+# Debian packages and their headers; Eigen is not in the default include path.
 HEADERS = {"libtbb-dev": "<tbb/parallel_for.h>", "libhwy-dev": "<hwy/highway.h>",
            "libeigen3-dev": "<Eigen/Dense>) || __has_include(<eigen3/Eigen/Dense>",
            "libassimp-dev": "<assimp/Importer.hpp>", "nlohmann-json3-dev": "<nlohmann/json.hpp>",
            "libpugixml-dev": "<pugixml.hpp>", "libminizip-dev": "<minizip/unzip.h>",
            "zlib1g-dev": "<zlib.h>"}
-# headers may be where CMake is told
+# With one of these, headers may be elsewhere.
 ELSEWHERE = ("CMAKE_ARGS", "CMAKE_PREFIX_PATH", "CONDA_PREFIX")
 
 
 def compiler_and_headers():
-    """Packages that are missing, by what the preprocessor finds."""
+    """Missing packages, as the preprocessor finds them."""
     named = shlex.split(os.environ.get("CXX", ""))
     compiler = named or [name for name in ("c++", "g++", "clang++") if shutil.which(name)][:1]
     if not compiler or not shutil.which(compiler[0]):
@@ -48,7 +47,7 @@ def programs():
 
 
 def of_python():
-    """What this Python lacks."""
+    """Missing modules of this Python."""
     import setuptools
     modules = ["pybind11"]
     if int(setuptools.__version__.split(".")[0]) < 70:
@@ -56,20 +55,19 @@ def of_python():
     lacks = [name for name in modules if importlib.util.find_spec(name) is None]
     if not (pathlib.Path(sysconfig.get_path("include")) / "Python.h").is_file():
         lacks.append("Python.h")
-    # pip fetches NumPy, unless it is told not to; then it is missed later.
+    # pip usually installs NumPy; if the others are missing, it may not.
     if lacks and importlib.util.find_spec("numpy") is None:
         lacks.append("numpy")
     return lacks
 
 
 def check(folder):
-    """Ends the program where something is missing to build what is in `folder`."""
+    """Exits with a message if something is missing for building `folder`."""
     packages, lacks = [*programs(), *compiler_and_headers()], of_python()
     if not packages and not lacks:
         return
-    of_debian = {"pybind11": "python3-pybind11", "wheel": "python3-wheel",
-                 "Python.h": "python3-dev",
-                 "numpy": "python3-numpy"}
+    of_debian = {"pybind11": "python3-pybind11", "wheel": "python3-wheel", "numpy": "python3-numpy",
+                 "Python.h": "python3-dev"}
     said = ["treeform cannot be built yet."]
     if lacks:
         said.append(f"{sys.executable} lacks: {', '.join(lacks)}.")
@@ -80,12 +78,12 @@ def check(folder):
     said += ["On Debian 12, as root:",
              f"    apt-get install {' '.join(n.split()[0] for n in names)}"]
     if lacks:
-        said += ["With Debian's Python, which has them then, in an environment of its own:",
+        said += ["Then, with Debian's Python, in a virtual environment:",
                  "    /usr/bin/python3 -m venv --system-site-packages venv",
                  f"    venv/bin/pip install --no-index --no-build-isolation {folder}",
-                 "or for everybody:",
+                 "or for all users:",
                  "    /usr/bin/python3 -m pip install --break-system-packages --no-index "
                  f"--no-build-isolation {folder}",
-                 "Another Python, where a package index is reached, fetches what it lacks itself:",
+                 "Another Python with access to a package index installs what it needs:",
                  f"    {sys.executable} -m pip install {folder}"]
     sys.exit("\n".join(said))

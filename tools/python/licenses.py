@@ -1,5 +1,5 @@
-"""The licenses of what is put beside the extension and of what is compiled into it, as Debian has
-them."""
+"""Collects the licenses of the libraries that are copied next to the extension or compiled into
+it, from Debian's packages."""
 
 import importlib.metadata
 import pathlib
@@ -7,22 +7,19 @@ import re
 import shutil
 import subprocess
 
-# Of these, headers are compiled into the extension.
+# Libraries whose headers are compiled into the extension.
 COMPILED_IN = {"eigen": "/usr/include/eigen3/Eigen/Dense", "highway": "/usr/include/hwy/highway.h",
                "nlohmann-json": "/usr/include/nlohmann/json.hpp"}
 COMMON = re.compile(r"/usr/share/common-licenses/([\w.-]*\w)")
 
 
 def copyright_of(path):
-    """Where the package that `path` is of says under what license it is; None if no package has
-    it."""
-    path = pathlib.Path(path)
-    real = path.resolve()
-    # Of a folder that is a link to another one, packages may name either.
-    names = {str(path), str(real), *(str(p).removeprefix("/usr") for p in (path, real))}
-    if not shutil.which("dpkg-query"):
-        return None
-    for name in sorted(names):
+    """The copyright file of the Debian package that contains `path`, or None."""
+    # If a folder is a symbolic link, packages may list either path.
+    paths = {str(path), str(pathlib.Path(path).resolve())}
+    for name in sorted(paths | {one.removeprefix("/usr") for one in paths}):
+        if not shutil.which("dpkg-query"):
+            return None
         done = subprocess.run(["dpkg-query", "-S", name], capture_output=True, text=True)
         if done.returncode == 0:
             package = re.split("[:,]", done.stdout)[0]
@@ -32,7 +29,7 @@ def copyright_of(path):
 
 
 def of_distribution(name):
-    """The license that a package of a Python index brings; None if there is none."""
+    """The license file of an installed Python package, or None."""
     try:
         files = importlib.metadata.files(name) or []
     except importlib.metadata.PackageNotFoundError:
@@ -41,8 +38,8 @@ def of_distribution(name):
 
 
 def collect(libraries, folder):
-    """Writes the license of each of `libraries`, paths by name, as NAME.txt into `folder`; with
-    those that are compiled in, and texts that are only named in them. Says which are not found."""
+    """Writes the license of each of `libraries` (paths by name) and of those compiled in to
+    NAME.txt in `folder`, with the common licenses that they refer to. Prints those not found."""
     folder.mkdir(parents=True, exist_ok=True)
     found = {name: copyright_of(path) for name, path in (libraries | COMPILED_IN).items()}
     import pybind11
@@ -50,7 +47,7 @@ def collect(libraries, folder):
     named = set()
     for name, path in found.items():
         if path is None:
-            print(f"no license found of {name}: add it to {folder}")
+            print(f"no license found for {name}: add it to {folder}")
             continue
         shutil.copy(path, folder / f"{name}.txt")
         named |= set(COMMON.findall(pathlib.Path(path).read_text(errors="replace")))

@@ -1,10 +1,10 @@
-"""Builds the extension by CMake, from the tree around this folder or from the sources that a source
-distribution carries in native/; puts the libraries that it needs beside it, where patchelf is
-there, with their licenses.
+"""Builds the extension with CMake, from the source tree that contains this folder, or from the copy
+in native/ of a source distribution. With patchelf, the libraries that it needs are copied next to
+it, with their licenses.
 
-Where the tree has been built (build/release, by tools/quickstart.sh or tests/run.sh), only the
-extension is compiled. Options for CMake: the environment variable CMAKE_ARGS, such as
--DTREEFORM_WITH_ASSIMP=OFF; with any, everything is compiled."""
+If the tree has been built in build/release (by tools/quickstart.sh or tests/run.sh), only the
+extension is compiled. The environment variable CMAKE_ARGS has options for CMake, such as
+-DTREEFORM_WITH_ASSIMP=OFF; with options, everything is compiled."""
 
 import os
 import pathlib
@@ -26,18 +26,16 @@ HERE = pathlib.Path(__file__).resolve().parent
 TREE = HERE.parents[1] if (HERE.parents[1] / "libmesh").is_dir() else HERE / "native"
 CARRIED = ["CMakeLists.txt", "LICENSE", "libtree", "libmesh", "tools/bindings", "tools/picture",
            "tools/python/CMakeLists.txt", "tools/python/find_python.cmake", "tools/python/src"]
-# What every system has that runs Python, as other wheels expect it, too.
+# Libraries that every Linux system has, as other wheels assume.
 OF_SYSTEM = re.compile(r"(linux-vdso|ld-linux.*|lib(c|m|dl|rt|pthread|util|stdc\+\+|gcc_s))\.so")
-# What a compiler of a room of the library takes, at most.
-BYTES_A_JOB = 3 << 30
-# On one core, of a machine of 2023.
-MINUTES_OF_ALL, MINUTES_OF_EXTENSION = 6, 1
+BYTES_A_JOB = 3 << 30  # memory of a compiler, at most
+MINUTES_OF_ALL, MINUTES_OF_EXTENSION = 6, 1  # on one core, on a machine of 2023
 
 
 def version():
     text = (TREE / "libtree/include/treeform/tree/version.hpp").read_text()
     return ".".join(re.findall(r"^#define TREEFORM_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)$", text,
-                               re.MULTILINE))
+    re.M))
 
 
 # ---- the extension ----
@@ -49,48 +47,38 @@ def jobs():
     return max(1, min(len(os.sched_getaffinity(0)), memory // BYTES_A_JOB))
 
 
-def say(text):
-    """To the terminal, too, where pip keeps what is printed to itself."""
+def announce(what, minutes):
+    """Tells what is built, also on the terminal if pip hides the output."""
+    cores = jobs()
+    most = -(-minutes // cores)
+    text = (f"treeform: building {what}: about {most} minute{'s'[:most > 1]} on {cores} "
+            f"core{'s'[:cores > 1]}; pip install -v shows the progress")
     print(text, flush=True)
     if not os.isatty(1):
         try:
-            with open("/dev/tty", "w") as terminal:
-                terminal.write(f"\n{text}\n")
-        except OSError:  # there is none
+            pathlib.Path("/dev/tty").write_text(f"\n{text}\n")
+        except OSError:  # there is no terminal
             pass
 
 
-def say_how_long(what, minutes):
-    cores = jobs()
-    most = -(-minutes // cores)
-    say(f"treeform: building {what}: some {most} minute{'s'[:most > 1]} on {cores} "
-        f"core{'s'[:cores > 1]}; pip install -v shows the progress")
-
-
 def cache_of(build):
-    """What CMake was told of a folder, by name."""
+    """The CMake variables of a build folder."""
     path = build / "CMakeCache.txt"
     text = path.read_text(errors="replace") if path.is_file() else ""
-    return dict(re.findall(r"^(\w+):\w+=(.*)$", text, re.MULTILINE))
-
-
-def is_on(value):
-    return value.upper() in ("ON", "TRUE", "YES", "1")
+    return dict(re.findall(r"^(\w+):\w+=(.*)$", text, re.M))
 
 
 def built_tree():
-    """The folder of the tree where the libraries are, as they are wanted here; None if there is
-    none."""
+    """The build folder of the tree, if it has suitable libraries, or None."""
     build = TREE / "build/release"
     told = cache_of(build)
     asked_for = any(os.environ.get(name) for name in ("CMAKE_ARGS", "CXX", "CXXFLAGS", "LDFLAGS"))
     here = all(os.path.realpath(told.get(name, "/")) == str(folder) for name, folder in
                (("CMAKE_HOME_DIRECTORY", TREE), ("CMAKE_CACHEFILE_DIR", build)))
     fits = (here and told.get("CMAKE_BUILD_TYPE") == "Release" and not told.get("TREEFORM_SANITIZE")
-            and not any(is_on(told.get(name, "")) for name in
-                        ("BUILD_SHARED_LIBS", "TREEFORM_PLAIN_THREADS")))
-    made = all((build / name).is_file() for name in
-               ("libtree/libtreeform_tree.a", "libmesh/libtreeform_mesh.a"))
+            and not any(told.get(name, "").upper() in ("ON", "TRUE", "YES", "1")
+                        for name in ("BUILD_SHARED_LIBS", "TREEFORM_PLAIN_THREADS")))
+    made = all((build / f"lib{name}/libtreeform_{name}.a").is_file() for name in ("tree", "mesh"))
     return build if fits and made and not asked_for and os.access(build, os.W_OK) else None
 
 
@@ -106,12 +94,12 @@ def compile_extension(build):
 
 
 def build_in_tree(build):
-    """What else the folder was told stays as it was: others build there, too."""
+    """Builds in a folder that others use as well, and restores its CMake variables."""
     cache = build / "CMakeCache.txt"
     before = cache.read_bytes()
-    say_how_long(f"the extension alone, with the libraries of {build}", MINUTES_OF_EXTENSION)
+    announce(f"the extension alone, with the libraries of {build}", MINUTES_OF_EXTENSION)
     try:
-        # What was found for another Python is looked for again.
+        # Forget what was found for another Python.
         configure(build, "-U", "*Python*", "-U", "pybind11*")
         compile_extension(build)
     finally:
@@ -120,7 +108,7 @@ def build_in_tree(build):
 
 
 def build_all(build):
-    say_how_long("treeform", MINUTES_OF_ALL)
+    announce("treeform", MINUTES_OF_ALL)
     build.mkdir(parents=True, exist_ok=True)
     generator = ["-G", "Ninja"] if shutil.which("ninja") else []
     configure(build, *generator, "-DCMAKE_BUILD_TYPE=Release",
@@ -129,20 +117,20 @@ def build_all(build):
     compile_extension(build)
 
 
-# ---- what goes with it ----
+# ---- libraries and licenses ----
 
 def needed_by(library):
-    """Paths of the libraries that `library` loads, those of the system left out."""
+    """Names and paths of the libraries that `library` loads, except those of the system."""
     lines = subprocess.run(["ldd", str(library)], capture_output=True, text=True, check=True).stdout
-    for name, path in re.findall(r"^\s*(\S+) => (/\S+)", lines, re.MULTILINE):
+    for name, path in re.findall(r"^\s*(\S+) => (/\S+)", lines, re.M):
         if not OF_SYSTEM.match(name):
             yield name, pathlib.Path(path)
 
 
 def bundle(extension):
-    """Puts what `extension` needs into _libs/ beside it."""
+    """Copies the libraries that `extension` needs into _libs/ next to it."""
     if not shutil.which("patchelf"):
-        print("no patchelf: the libraries that the extension needs are not put beside it")
+        print("patchelf not found: the libraries of the extension are not copied next to it")
         return
     folder = extension.parent / "_libs"
     shutil.rmtree(folder, ignore_errors=True)
@@ -163,7 +151,7 @@ class BuildByCMake(build_ext):
         if build := built_tree():
             build_in_tree(build)
         else:
-            # Beside the builds of the tree, so that a compiler cache finds its objects.
+            # Next to the other builds of the tree, so that a compiler cache finds the objects.
             build = pathlib.Path(self.build_temp).resolve() if TREE.parent == HERE else \
                 TREE / "build" / f"python-{sys.implementation.cache_tag}"
             build_all(build)
@@ -186,7 +174,7 @@ class CarryTree(sdist):
 
 if not {"sdist", "egg_info"} & set(sys.argv):
     build_needs.check(HERE)
-if TREE.parent != HERE:  # which setuptools looks for here
+if TREE.parent != HERE:  # setuptools expects it here
     shutil.copy(TREE / "LICENSE", HERE / "LICENSE")
 setup(version=version(), ext_modules=[Extension("treeform._core", sources=[])],
       cmdclass={"build_ext": BuildByCMake, "sdist": CarryTree})

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 # made of uses:
 from dataclasses import dataclass
-from typing import Iterable
+from typing import Any, Iterable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -83,18 +83,27 @@ class FilePairs(FacePairs):
         return self.face_in_file[self.pairs]
 
 
+# made of headers:
+#   SharedSearch
 class SharedSearch(InSteps[_core.SearchInSteps]):
     """`self_intersections_of_file` in steps, for many processes on one machine or on several that
     share a folder, such as those of Dask, Slurm or `multiprocessing`.
 
-    All processes create it with the same arguments, those of `self_intersections_of_file`. One
-    process calls `scatter`; then each calls `search_tile` for some of the tiles; when all are done,
-    one calls `finish` and `remove_folder`. Tiles that are finished are not searched again. If
-    `folder` is empty, it is the name of the input with ".search-tiles".
+    All processes create it with the same arguments. One process calls `scatter`; then each calls
+    `search_tile` for some of the tiles; when all are done, one calls `finish` and `remove_folder`.
+    Tiles that are finished are not searched again.
 
     The folder is locked until `close`, the end of a `with` block, or the end of the object.
     Pickling stores only the arguments. Steps in the wrong order raise FileError, invalid tiles
     IndexError.
+
+    path: the path of the file.
+    vertices: None: 'by_coordinates' for STL, otherwise 'by_index'.
+    kinds: as for `self_intersections`.
+    format: Of the input, as for `read`.
+    memory: Limit in bytes; 0: three quarters of the machine's memory.
+    folder: the folder for the tiles; empty: the name of the input with ".search-tiles".
+    faces_per_tile: Approximate limit; 0: as the memory allows.
 
     >>> import tempfile, treeform
     >>> with tempfile.TemporaryDirectory() as home:
@@ -111,12 +120,16 @@ class SharedSearch(InSteps[_core.SearchInSteps]):
     (True, 78)
     """
 
-    def __init__(self, path: Path, *, kinds: Iterable[str] | None = None,
-                 vertices: str | None = None, format: str = "", memory: int = 0, folder: Path = "",
-                 faces_per_tile: int = 0, progress: Progress = None) -> None:
-        kinds = None if kinds is None else _arrays.words(kinds, "kinds")
-        how = options(_core.StreamSearchOptions, locals())
-        super().__init__(_core.search_of(path_of(path), how, progress=progress), locals())
+    def __init__(self, path: Path, *, vertices: str | None = None,
+                 kinds: Iterable[str] | None = None, format: str = "", memory: int = 0,
+                 folder: Path = "", faces_per_tile: int = 0,
+                 progress: Progress = None) -> None:
+        super().__init__(locals())
+# end
+
+    def _begin(self, given: dict[str, Any], progress: Progress) -> _core.SearchInSteps:
+        how = options(_core.StreamSearchOptions, given)
+        return _core.search_of(path_of(given["path"]), how, progress=progress)
 
     @property
     def unfinished(self) -> list[int]:

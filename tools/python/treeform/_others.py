@@ -74,74 +74,67 @@ def _arrays_of_vtk(mesh: Any) -> tuple[Floats, Ids]:
     return vertices, _arrays.triangles_of(corners, begin[:-1], np.diff(begin), "faces")
 
 
+def _copies(mesh: Any) -> tuple[Floats, Any]:
+    """Copies of vertices and faces, the latter as int64; None instead of faces for a cloud."""
+    vertices, faces = mesh
+    is_cloud = len(faces) == 0 and len(vertices) != 0
+    return vertices.copy(), None if is_cloud else faces.astype(np.int64)
+
+
 def to_trimesh(mesh: Any) -> Any:
     """A `trimesh.Trimesh` with copies of the arrays; a cloud becomes a `trimesh.PointCloud`.
     Requires trimesh to be installed."""
-    vertices, faces = mesh
+    vertices, faces = _copies(mesh)
     trimesh = importlib.import_module("trimesh")
-    if _is_cloud(vertices, faces):
-        return trimesh.PointCloud(vertices.copy())
-    return trimesh.Trimesh(vertices=vertices.copy(), faces=faces.astype(np.int64), process=False)
+    if faces is None:
+        return trimesh.PointCloud(vertices)
+    return trimesh.Trimesh(vertices=vertices, faces=faces, process=False)
 
 
 def to_open3d(mesh: Any, *, tensor: bool = False) -> Any:
     """An `open3d.geometry.TriangleMesh` or PointCloud; with `tensor`, of `open3d.t.geometry`."""
-    vertices, faces = mesh
+    vertices, faces = _copies(mesh)
     open3d = importlib.import_module("open3d")
     if tensor:
-        points = open3d.core.Tensor(vertices.copy())
-        if _is_cloud(vertices, faces):
-            return open3d.t.geometry.PointCloud(points)
-        return open3d.t.geometry.TriangleMesh(points, open3d.core.Tensor(faces.astype(np.int64)))
-    points = open3d.utility.Vector3dVector(vertices.copy())
-    if _is_cloud(vertices, faces):
-        return open3d.geometry.PointCloud(points)
-    return open3d.geometry.TriangleMesh(points,
-                                        open3d.utility.Vector3iVector(faces.astype(np.int32)))
+        geometry, points = open3d.t.geometry, open3d.core.Tensor(vertices)
+        corners = None if faces is None else open3d.core.Tensor(faces)
+    else:
+        geometry, points = open3d.geometry, open3d.utility.Vector3dVector(vertices)
+        corners = None if faces is None else open3d.utility.Vector3iVector(faces.astype(np.int32))
+    return geometry.PointCloud(points) if faces is None else geometry.TriangleMesh(points, corners)
 
 
 def to_pyvista(mesh: Any) -> Any:
     """A `pyvista.PolyData`."""
-    vertices, faces = mesh
+    vertices, faces = _copies(mesh)
     pyvista = importlib.import_module("pyvista")
-    if _is_cloud(vertices, faces):
-        return pyvista.PolyData(vertices.copy())
-    flat = np.insert(faces.astype(np.int64), 0, 3, axis=1).ravel()
-    return pyvista.PolyData(vertices.copy(), flat)
+    if faces is None:
+        return pyvista.PolyData(vertices)
+    return pyvista.PolyData(vertices, np.insert(faces, 0, 3, axis=1).ravel())
 
 
 def to_vtk(mesh: Any) -> Any:
     """A `vtkPolyData`."""
-    vertices, faces = mesh
+    vertices, faces = _copies(mesh)
     core = importlib.import_module("vtkmodules.vtkCommonCore")
     model = importlib.import_module("vtkmodules.vtkCommonDataModel")
     support = importlib.import_module("vtkmodules.util.numpy_support")
     points = core.vtkPoints()
-    points.SetData(support.numpy_to_vtk(vertices.copy(), deep=True))
-    is_cloud = _is_cloud(vertices, faces)
-    corners = np.arange(len(vertices))[:, None] if is_cloud else faces
+    points.SetData(support.numpy_to_vtk(vertices, deep=True))
+    corners = np.arange(len(vertices))[:, None] if faces is None else faces
     begin = np.arange(len(corners) + 1, dtype=np.int64) * corners.shape[1]
     cells = model.vtkCellArray()
     cells.SetData(support.numpy_to_vtkIdTypeArray(begin, deep=True),
-                  support.numpy_to_vtkIdTypeArray(corners.astype(np.int64).ravel(), deep=True))
+                  support.numpy_to_vtkIdTypeArray(corners.ravel(), deep=True))
     made = model.vtkPolyData()
     made.SetPoints(points)
-    if is_cloud:
-        made.SetVerts(cells)
-    else:
-        made.SetPolys(cells)
+    (made.SetVerts if faces is None else made.SetPolys)(cells)
     return made
 
 
 def to_meshio(mesh: Any) -> Any:
     """A `meshio.Mesh`."""
-    vertices, faces = mesh
-    if _is_cloud(vertices, faces):
-        cells = [("vertex", np.arange(len(vertices))[:, None])]
-    else:
-        cells = [("triangle", faces.astype(np.int64))]
-    return importlib.import_module("meshio").Mesh(vertices.copy(), cells)
-
-
-def _is_cloud(vertices: Floats, faces: Ids) -> bool:
-    return len(faces) == 0 and len(vertices) != 0
+    vertices, faces = _copies(mesh)
+    cells = [("vertex", np.arange(len(vertices))[:, None]) if faces is None else
+             ("triangle", faces)]
+    return importlib.import_module("meshio").Mesh(vertices, cells)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from functools import partial
-from typing import TYPE_CHECKING, Any, Callable, Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Callable, Generic, Iterable, Mapping, Protocol, TypeVar
 
 from . import _arrays
 from ._errors import Cancelled, Error
@@ -90,14 +90,23 @@ def in_communicator(communicator: Communicator | None,
 _Work = TypeVar("_Work", bound="_core.SearchInSteps | _core.WeldInSteps")
 
 
+def _list_of(value: Any) -> Any:
+    """A list for an iterable, which may not be picklable."""
+    is_one = isinstance(value, (str, Mapping)) or not isinstance(value, Iterable)
+    return value if is_one else list(value)
+
+
 class InSteps(Generic[_Work]):
     """Work in steps in a folder, which is locked until `close`. Pickled as its arguments."""
 
-    def __init__(self, work: _Work, arguments: dict[str, Any]) -> None:
-        """arguments: those of the constructor, and other local names."""
-        self._work = work
-        self._made_of = {name: value for name, value in arguments.items()
-                         if name not in ("self", "__class__", "how", "work", "progress")}
+    def __init__(self, arguments: dict[str, Any]) -> None:
+        """arguments: the local names of the constructor."""
+        self._made_of = {name: _list_of(value) for name, value in arguments.items()
+                         if name not in ("self", "__class__", "progress")}
+        self._work = self._begin(self._made_of, arguments["progress"])
+
+    def _begin(self, given: dict[str, Any], progress: Progress) -> _Work:
+        raise NotImplementedError
 
     def scatter(self, *, progress: Progress = None) -> int:
         """Distributes the input to tiles, unless this is done. Returns the number of tiles."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 # made of uses:
-import os
 from dataclasses import dataclass
 from typing import Any, Iterable, Mapping
 
@@ -67,18 +66,46 @@ def streamed(inputs: _core.CloudInputs, how: _core.WeldStreamOptions, out: Path,
         progress=progress))
 
 
+# made of headers:
+#   SharedWeld
 class SharedWeld(InSteps[_core.WeldInSteps]):
     """`weld_stream` in steps, for many processes on one machine or on several that share a folder,
     such as those of Dask, Slurm or `multiprocessing`.
 
-    All processes create it with the same arguments, those of `weld_stream`. One process calls
-    `scatter`; then each calls `weld_tile` for some of the tiles; when all are done, one calls
-    `finish` and `remove_folder`. Tiles that are finished are not welded again. If `folder` is
-    empty, it is the name of the first input with ".tiles".
+    All processes create it with the same arguments. One process calls `scatter`; then each calls
+    `weld_tile` for some of the tiles; when all are done, one calls `finish` and `remove_folder`.
+    Tiles that are finished are not welded again.
 
     The folder is locked until `close`, the end of a `with` block, or the end of the object;
     `finish` requires that all others have unlocked it. Pickling stores only the arguments. Steps in
     the wrong order raise FileError, invalid tiles IndexError. After Cancelled, create a new object.
+
+    files: one or several files of points, read as one cloud; or one file of a mesh.
+    tolerance: as for `weld`.
+    relative: `tolerance` is a share of the diagonal of the cloud's box.
+    chain: merge all points that are connected by a chain of points, each within the tolerance of
+        the next. By default, a point is dropped if it is within the tolerance of an earlier point
+        that is kept.
+    same: vertex properties that must agree for points to be merged, each with the largest
+        difference allowed.
+    keep: which point of a group is kept: 'first', 'last', 'mean', or the one with the 'lowest' or
+        'highest' value of `keep_by`.
+    keep_by: a vertex property.
+    order_by: a vertex property: visit the points in ascending order of its values. Requires `keep`
+        'first'. Empty: in the order of their numbers.
+    highest_first: visit the points in descending order of `order_by`.
+    keep_seams: merge only points with equal normals, texture coordinates and colors, except for
+        those in `across`.
+    across: properties that `keep_seams` ignores.
+    keep_degenerate: keep faces that have the same vertex more than once.
+    as_las: if `out` is a LAS file: round the coordinates, and means of coordinates, to the
+        resolution of that file before they are compared.
+    memory: memory limit of the process, in bytes; 0: three quarters of the memory of the machine.
+    folder: the folder for the tiles; empty: the name of the first input with ".tiles".
+    points_per_tile: At most about this many; 0: as the memory allows.
+    columns: as for `read`.
+    mixed: allow LAS files with different coordinate reference systems or time types. The output has
+        those of the first file.
 
     >>> import os, tempfile, treeform
     >>> with tempfile.TemporaryDirectory() as home:
@@ -98,18 +125,19 @@ class SharedWeld(InSteps[_core.WeldInSteps]):
     """
 
     def __init__(self, files: Path | Iterable[Path], tolerance: float = 0.0, *,
-                 relative: bool = False, chain: bool = False, keep: str = "first",
-                 keep_by: str = "", order_by: str = "", highest_first: bool = False,
-                 same: Mapping[str, float] | None = None, keep_seams: bool = False,
-                 across: Iterable[str] = (),
-                 keep_degenerate: bool = False, as_las: bool = False, memory: int = 0,
-                 folder: Path = "", points_per_tile: int = 0, columns: Columns | None = None,
-                 mixed: bool = False, progress: Progress = None) -> None:
-        files = files if isinstance(files, (str, os.PathLike)) else _arrays.several(files, "files")
-        across = _arrays.several(across, "across")
-        how = options(_core.WeldStreamOptions, locals())
-        work = _core.weld_of(inputs_of(files, columns, mixed), how, progress=progress)
-        super().__init__(work, locals())
+                 relative: bool = False, chain: bool = False,
+                 same: Mapping[str, float] | None = None, keep: str = "first", keep_by: str = "",
+                 order_by: str = "", highest_first: bool = False, keep_seams: bool = False,
+                 across: Iterable[str] = (), keep_degenerate: bool = False, as_las: bool = False,
+                 memory: int = 0, folder: Path = "", points_per_tile: int = 0,
+                 columns: Columns | None = None, mixed: bool = False,
+                 progress: Progress = None) -> None:
+        super().__init__(locals())
+# end
+
+    def _begin(self, given: dict[str, Any], progress: Progress) -> _core.WeldInSteps:
+        inputs = inputs_of(given["files"], given["columns"], given["mixed"])
+        return _core.weld_of(inputs, options(_core.WeldStreamOptions, given), progress=progress)
 
     def weld_tile(self, tile: int, *, progress: Progress = None) -> None:
         """Welds a tile, numbered from 0, unless this is done."""
