@@ -137,7 +137,7 @@ def test_where_one_is_interrupted_nobody_waits(tmp_path, cloud, error):
     ready = (tmp_path / "thin.ply").exists()  # before the others heard of that
     for other in (first, third):
         assert ready or other == ("Error", "process 1: interrupted")
-    assert second == (("Cancelled", "progress has returned False") if error is None
+    assert second == (("Cancelled", "progress returned False") if error is None
                       else ("RuntimeError", "stopped by hand"))
     if ready:
         tf.weld_stream(cloud, tmp_path / "whole.ply", 0.1)

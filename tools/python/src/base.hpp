@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the sources here include of others: they are compiled as one.
+/// The headers that all sources here include.
 
 #include <treeform/treeform.hpp>
 

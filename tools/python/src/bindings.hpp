@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What each source adds to the module.
+/// The functions by which each source adds to the module.
 
 #include "job.hpp"
 #include "parts.hpp"

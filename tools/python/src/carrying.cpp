@@ -3,7 +3,7 @@
 namespace binding {
 namespace {
 
-/// Names of parts are carried where there is a single operand.
+/// Names of parts are carried over only from a single operand.
 bool has_values(const tf::attributes& all, bool single) {
     return (single && !all.parts.empty()) || !all.corners.texture_of_corner.empty() ||
            !all.corners.normal_of_corner.empty() ||

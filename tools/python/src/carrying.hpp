@@ -1,26 +1,26 @@
 #pragma once
 /// \file
-/// Gives results what their operands have besides points and faces.
+/// Carries attributes over from operands to results.
 
 #include "file_data.hpp"
 #include "held_mesh.hpp"
 
 namespace binding {
 
-/// \throws std::invalid_argument where attributes are not those of the mesh
+/// \throws std::invalid_argument if the attributes do not fit the mesh
 void require_rows(const tf::mesh_file& file, std::size_t operand);
 
-/// The mesh with all that it has, as a file has it.
+/// The mesh with its attributes, as for a file.
 tf::mesh_file file_of(const held_mesh& mesh);
 
-/// The operands of an operation, with their attributes as they are now.
+/// The operands of an operation, with their current attributes.
 class carrying {
   public:
-    /// \throws std::invalid_argument where attributes are not those of the mesh that has them
+    /// \throws std::invalid_argument if attributes do not fit their mesh
     explicit carrying(const held_meshes& operands);
 
-    /// Has options merge no faces of different values, nor any where vertices have values, unless
-    /// `simplify` is asked for. They refer to this.
+    /// Sets options so that faces with different values are not merged, nor any faces if vertices
+    /// have values, unless `simplify` is set. The options refer to this object.
     template <class Options>
     void keep_apart(Options& options) {
         if constexpr (std::is_same_v<Options, tf::boolean_options>) {
@@ -31,12 +31,12 @@ class carrying {
         }
     }
 
-    /// `tf::simplify` of a single operand, with what is carried kept at borders and seams.
+    /// `tf::simplify` of a single operand, which preserves borders and seams of its attributes.
     [[nodiscard]] tf::simplify_result simplify(const tf::mesh_ref& mesh, double max_distance,
                                                std::span<const std::uint32_t> face_groups,
                                                tf::simplify_options options) const;
 
-    /// The attributes of what was made of the operands; None where these have none.
+    /// The attributes of a result of the operands; None if these have no attributes.
     [[nodiscard]] py::object to(const tf::mesh& made,
                                 std::span<const tf::operand_element> face_source,
                                 std::span<const tf::operand_element> vertex_source,
@@ -54,11 +54,11 @@ class carrying {
     std::vector<tf::mesh_file> files_;
     std::vector<std::uint32_t> groups_;
     tf::carry_sources sources_{
-        std::vector<tf::carry_source>{}};  ///< empty: there is nothing to carry
+        std::vector<tf::carry_source>{}};  ///< empty if no operand has attributes
 };
 
-/// The faces of a body that `by` moves, turned over where it mirrors, and a copy of what the body
-/// has, with normals turned likewise; None where it has nothing.
+/// The faces of a body transformed by `by`, flipped if it mirrors, and a copy of its attributes
+/// with transformed normals, or None.
 py::tuple turned_over(const held_mesh& body, const tf::transform<3>& by);
 
 }  // namespace binding

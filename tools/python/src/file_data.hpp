@@ -1,16 +1,16 @@
 #pragma once
 /// \file
-/// What a mesh has besides points and faces.
+/// The attributes of a mesh.
 
 #include "base.hpp"
 
 namespace binding {
 
-/// Pairs of names as Python has them: the new one, and that in the file.
+/// Pairs of a new name and the name in the file.
 using name_pairs = std::vector<std::pair<std::string, std::string>>;
 
-/// All that a file has besides points and faces: a `mesh_file` without its mesh. Copies share it
-/// until one of them is changed: a copy made with the interpreter's lock stays as it is without it.
+/// Everything in a file besides points and faces: a `mesh_file` without its mesh. Copies share it
+/// until one of them is changed, so a copy can be used without the interpreter's lock.
 class file_data {
   public:
     file_data() : file_(std::make_shared<treeform::mesh_file>()) {}
@@ -18,10 +18,10 @@ class file_data {
         : file_(std::make_shared<treeform::mesh_file>(std::move(file))) {}
 
     [[nodiscard]] const treeform::mesh_file& file() const { return *file_; }
-    /// To be changed.
+    /// For changes.
     [[nodiscard]] treeform::mesh_file& own() {
         if (file_.use_count() != 1) file_ = std::make_shared<treeform::mesh_file>(*file_);
-        std::atomic_thread_fence(std::memory_order_acquire);  // behind who has read it last
+        std::atomic_thread_fence(std::memory_order_acquire);  // after the last reader
         return *file_;
     }
 

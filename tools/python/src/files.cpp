@@ -153,36 +153,36 @@ std::string text_of(const file_data& data) {
 void add_columns(py::class_<file_data>& made) {
     made.def_property_readonly(
             "vertex", [](const file_data& d) -> py::dict { return columns(d, "vertex"); },
-            "A copy of each column of vertices, (V,).")
+            "Copies of the columns of vertices, (V,).")
         .def_property_readonly(
             "face", [](const file_data& d) -> py::dict { return columns(d, "face"); },
-            "A copy of each column of faces as stored in the file.")
+            "Copies of the columns of faces, as stored in the file.")
         .def("columns", &columns, py::arg("element"),
-             "A copy of each column of `element`; lists as (begin, values).")
+             "Copies of the columns of `element`; lists are (begin, values).")
         .def(
             "set_vertex",
             [](file_data& d, const std::string& name, const array_like& values) {
                 set_column(d, "vertex", name, values);
             },
             py::arg("name"), py::arg("values"),
-            "Sets a column of vertices, (V,), in the type of `values`.")
+            "Sets a column of vertices, (V,), with the type of `values`.")
         .def(
             "set_face",
             [](file_data& d, const std::string& name, const array_like& values) {
                 set_column(d, "face", name, values);
             },
             py::arg("name"), py::arg("values"),
-            "Sets a column of faces, (F,), in the type of `values`.");
+            "Sets a column of faces, (F,), with the type of `values`.");
 }
 
 void add_attributes(py::module_& module) {
     py::class_<file_data> made(module, "Attributes",
-                               R"(All that a file has besides points and faces.
+                               R"(Everything in a file besides points and faces.
 
 Columns of numbers for vertices and faces (colors, normals, qualities), names of parts, texture
-coordinates and normals of corners, comments, and the format that the file had. `write` puts back
-what the format of the output can hold. What operations make of a mesh has its columns, corners and
-parts, too; lists and other kinds of rows are left out.
+coordinates and normals of corners, comments, and the format of the file. `write` stores what the
+format of the output supports. Operations carry columns, corners and parts over to their results,
+but not lists and other elements.
 
 >>> import numpy as np
 >>> import treeform
@@ -197,32 +197,31 @@ parts, too; lists and other kinds of rows are left out.
         .def("__repr__", &text_of)
         .def_property_readonly(
             "format", [](const file_data& d) -> std::string { return d.file().format; },
-            "Of the file that was read: 'stl-binary', 'ply-ascii', 'obj', ...; else empty.")
+            "Format of the file: 'stl-binary', 'ply-ascii', 'obj', ...; empty without a file.")
         .def_property_readonly(
             "precision",
             [](const file_data& d) -> std::string { return word_of(d.file().stored_as); },
-            "Of the coordinates in the file: 'float32' or 'float64'.")
-        .def_property_readonly("warnings", &warnings_in,
-                               "What a person should know of the file: (code, text).")
+            "Precision of the coordinates in the file: 'float32' or 'float64'.")
+        .def_property_readonly("warnings", &warnings_in, "Warnings about the file: (code, text).")
         .def_property_readonly(
             "comments",
             [](const file_data& d) -> std::vector<std::string> {
                 return d.file().attributes.comments;
             },
-            "Lines of comment of a PLY.")
+            "Comment lines of a PLY file.")
         .def_property_readonly("elements", &names_of_rows,
-                               "Kinds of rows that the file has: 'vertex', 'face', ...")
+                               "Names of the elements of the file: 'vertex', 'face', ...")
         .def_property_readonly("parts", &parts_in,
-                               "Names in the file: (object, group, material, first face).")
-        .def_property_readonly(
-            "corners", &corners,
-            "Values of corners: `texture` (n, 3), `texture_of_corner` (F, 3) "
-            "numbers in it, and the same for `normals`; 4294967295 where a corner "
-            "has none.")  // -> dict[str, NDArray[Any]]
+                               "Parts of the file: (object, group, material, first face).")
+        .def_property_readonly("corners", &corners,
+                               "Values of the corners of faces: `texture` (n, 3) and "
+                               "`texture_of_corner` (F, 3), "
+                               "which has numbers of rows of `texture`, or 4294967295; likewise "
+                               "`normals`.")  // -> dict[str, NDArray[Any]]
         .def_property_readonly(
             "stored_face", &stored_face,
-            "(F,) the file's face that each triangle is a part of; None where all "
-            "are triangles.");  // -> Optional[Ids]
+            "(F,) the number in the file of the face that contains each triangle; None if all "
+            "faces are triangles.");  // -> Optional[Ids]
     add_columns(made);
 }
 

@@ -16,7 +16,7 @@ class held_mesh {
           keep_(keep),
           view_{points_of(points_), rows_of<tf::face>(faces_)},
           prepared_(tf::prepared_mesh::borrow(view_)) {}
-    /// A cloud.
+    /// A point cloud.
     explicit held_mesh(points_array points)
         : points_(std::move(points)),
           faces_(std::vector<py::ssize_t>{0, 3}),

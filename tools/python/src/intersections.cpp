@@ -8,12 +8,13 @@ constexpr auto& kind_words = words_of<tf::pair_kind>::all;
 std::vector<tf::face_pair> pairs_of(const ids_array& pairs, const array_of<std::uint8_t>& kinds) {
     const auto numbers = rows_of<std::array<std::uint32_t, 2>>(pairs);
     const auto kind = rows_of<std::uint8_t>(kinds);
-    if (kind.size() != numbers.size()) throw std::invalid_argument("kinds: one for each pair");
+    if (kind.size() != numbers.size())
+        throw std::invalid_argument("kinds: expected one for each pair");
     std::vector<tf::face_pair> all;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         if (kind[i] >= kind_words.size())
             throw std::invalid_argument("kinds: " + std::to_string(kind[i]) + " at " +
-                                        std::to_string(i) + " is none");
+                                        std::to_string(i) + " is not a kind");
         all.push_back({numbers[i][0], numbers[i][1], static_cast<tf::pair_kind>(kind[i])});
     }
     return all;

@@ -7,16 +7,16 @@ py::object of_errors(const char* name) {
     return py::module_::import("treeform._errors").attr(name);
 }
 
-/// Raises the exception of that name of the package.
+/// Raises the exception of the package with this name.
 void raise(const char* name, const char* text) { PyErr_SetString(of_errors(name).ptr(), text); }
 
-/// Raises FileError, or what says more, where the system has given a reason.
+/// Raises FileError, which is also a Python exception for `reason` if the system reported one.
 void raise_file_error(const std::string& text, std::error_code reason, const std::string& path) {
     const py::object error = of_errors("file_error")(text, reason.value(), path);
     PyErr_SetObject(py::type::of(error).ptr(), error.ptr());
 }
 
-/// A message without what only callers of C++ know: the function's name in front, options.
+/// A message of C++ in words of Python, without the name of the function in front.
 std::string in_python(std::string message) {
     if (message.starts_with("treeform:")) message.erase(0, message.find(": ") + 2);
     for (const auto& [there, here] : {std::pair{"precision::float32", "precision='float32'"},
@@ -26,12 +26,12 @@ std::string in_python(std::string message) {
     return message;
 }
 
-/// What pybind11 does not know, or says in words of C++; it makes MemoryError of std::bad_alloc.
+/// Translates exceptions. pybind11 itself translates std::bad_alloc to MemoryError.
 void translate(std::exception_ptr thrown) {
     try {
         std::rethrow_exception(thrown);
     } catch (const cancelled&) {
-        raise("Cancelled", "progress has returned False");
+        raise("Cancelled", "progress returned False");
     } catch (const std::invalid_argument& error) {
         PyErr_SetString(PyExc_ValueError, in_python(error.what()).c_str());
     } catch (const std::out_of_range& error) {
@@ -42,11 +42,11 @@ void translate(std::exception_ptr thrown) {
         raise_file_error(error.what(), error.code(), error.path1().string());
     } catch (const std::system_error& error) {
         if (error.code() != std::errc::resource_unavailable_try_again) throw;
-        PyErr_SetString(PyExc_MemoryError, "no memory for a thread");
+        PyErr_SetString(PyExc_MemoryError, "not enough memory for a thread");
     }
 }
 
-/// As long as it is entered, loops use at most so many threads.
+/// Limits the number of threads of loops while it is entered.
 class threads {
   public:
     explicit threads(unsigned most) : most_(most) {}

@@ -7,9 +7,9 @@
 namespace binding {
 namespace {
 
-constexpr std::size_t most_colors = 200;  // meshes beyond share the last
+constexpr std::size_t most_colors = 200;  // further meshes share the last one
 
-/// How meshes are to look; of the first one, some faces and values of vertices.
+/// How to draw meshes, with marked faces and vertex values of the first one.
 struct look {
     std::vector<std::string> names;
     std::vector<std::string> colors;  ///< "#rrggbb", one for each mesh
@@ -22,10 +22,10 @@ struct look {
     std::string label;
 };
 
-/// A scene of meshes; it refers to their points and to `faces`.
+/// A scene of meshes, which refers to their points and to `faces`.
 struct shown_meshes {
     tools::scene scene{};
-    std::vector<std::vector<tf::face>> faces{};  ///< whose coordinates are finite
+    std::vector<std::vector<tf::face>> faces{};  ///< with finite coordinates
 };
 
 std::vector<std::uint8_t> marks_of(const look& how, std::size_t count, std::uint8_t marked_kind) {

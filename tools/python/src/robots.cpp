@@ -19,11 +19,11 @@ py::object read_urdf(const std::filesystem::path& path,
     return object(of_result{}, std::move(made), parts);
 }
 
-/// [P][N][4][4] where the parts are, for values [P][J] of the joints of these names.
+/// [P][N][4][4] the transforms of the parts, for values [P][J] of the joints with these names.
 py::array_t<double> poses(const robot_data& of, const std::vector<std::string>& joints,
                           const array_of<double>& values) {
     if (values.ndim() != 2 || static_cast<std::size_t>(values.shape(1)) != joints.size())
-        throw std::invalid_argument("treeform: not a value for each joint");
+        throw std::invalid_argument("treeform: expected a value for each joint");
     const auto count = static_cast<std::size_t>(values.shape(0));
     py::array_t<double> made({count, of.links.size(), std::size_t{4}, std::size_t{4}});
     double* to = made.mutable_data();

@@ -1,13 +1,13 @@
 #pragma once
 /// \file
-/// Values as bytes and back, for Python's pickle and copy.
+/// Converts values to bytes and back, for pickle and copy.
 
 #include "made/states.hpp"
 
 namespace binding {
 
-/// Takes the fields of values one after the other as bytes, or gives them what it was made of;
-/// `made/states.hpp` has those of structs.
+/// Stores the fields of values as bytes one after the other, or restores them from bytes.
+/// `made/states.hpp` lists the fields of structs.
 class state {
   public:
     state() = default;
@@ -44,7 +44,7 @@ class state {
     }
 
   private:
-    /// As many elements, of so many bytes at least, as are told.
+    /// Stores the number of elements, or resizes `values` to it; an element takes `width` bytes.
     template <class Values>
     void make_room(Values& values, std::size_t width) {
         std::size_t size = values.size();
@@ -68,7 +68,7 @@ class state {
     std::string_view rest_;
 };
 
-/// What `py::class_<T>::def` takes to make T picklable; `part_of(value)` is all of it.
+/// For `py::class_<T>::def`: makes T picklable, where `part_of(value)` is its content.
 template <class T, class PartOf>
 auto pickled(const PartOf& part_of) {
     return py::pickle(

@@ -4,7 +4,7 @@
 namespace binding {
 namespace {
 
-/// The share of all steps that is done.
+/// The completed share of all steps.
 double whole_share(std::string_view step, double share) {
     constexpr std::array<std::string_view, 5> steps{"survey", "scatter", "weld", "borders",
                                                     "write"};

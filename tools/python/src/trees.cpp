@@ -6,8 +6,8 @@ namespace {
 
 using id = std::int64_t;  ///< as NumPy numbers elements
 
-/// [Q][k] distances and numbers, nearest first, of what `find(begin, end)` finds for queries;
-/// infinite and `none` where there are fewer.
+/// [Q][k] distances and numbers, nearest first, of what `find(begin, end)` finds for queries. If
+/// there are fewer than k, the rest is infinite and `none`.
 template <class Find, class DistanceOf>
 py::tuple nearest_of(std::size_t queries, std::size_t k, std::size_t none, const Find& find,
                      const DistanceOf& distance_of) {
@@ -27,7 +27,7 @@ py::array as_pairs(const std::vector<tf::id_pair>& pairs) {
     });
 }
 
-/// Points to search near, for the array that they are of.
+/// A search tree for the points of an array.
 template <std::size_t D>
 class cloud {
   public:
@@ -40,7 +40,7 @@ class cloud {
 
     [[nodiscard]] std::size_t size() const { return search_.size(); }
 
-    /// The nearest points. Nearer than `bound` if that is finite, as SciPy has it.
+    /// The nearest points that are nearer than `bound`, as in SciPy.
     py::tuple query(const array_of<double>& queries, std::size_t k, double bound) const {
         const auto all = rows_of<point>(queries);
         return nearest_of(
@@ -54,8 +54,8 @@ class cloud {
             });
     }
 
-    /// All points within `radius` of each query: where its list begins, numbers, distances; nearest
-    /// first, or by number.
+    /// All points within `radius` of each query, nearest first or by number: where the list of each
+    /// query begins, numbers, distances.
     py::tuple query_ball(const array_of<double>& queries, double radius, bool by_number) const {
         const auto all = rows_of<point>(queries);
         std::vector<id> begins{0}, ids;
@@ -89,7 +89,7 @@ class cloud {
     tf::point_search<D> search_;
 };
 
-/// Lists of Python of the numbers between two begins.
+/// Python lists of the numbers between consecutive begins.
 py::list lists(const array_of<id>& begins, const array_of<id>& ids) {
     const auto begin = rows_of<id>(begins);
     const auto all = rows_of<id>(ids);
@@ -105,7 +105,7 @@ py::list lists(const array_of<id>& begins, const array_of<id>& ids) {
     return made;
 }
 
-/// The boxes of two arrays, with a tree over them; the arrays may go.
+/// A search tree for the boxes of two arrays, which are copied.
 template <std::size_t D>
 class boxes {
   public:
@@ -119,7 +119,7 @@ class boxes {
 
     [[nodiscard]] std::size_t size() const { return all_.boxes.size(); }
 
-    /// [n][D] the lows and the highs.
+    /// [n][D] the lower and the upper corners.
     [[nodiscard]] py::tuple bounds() const {
         return py::make_tuple(column(all_.boxes, &box::min), column(all_.boxes, &box::max));
     }
@@ -129,14 +129,14 @@ class boxes {
         return pairs_by(
             *this, [&](const auto& overlap) { return tf::search_self_all(all_.tree, overlap); });
     }
-    /// The pairs of a box of this and a box of the other that overlap, ascending.
+    /// The pairs of a box of this tree and a box of the other that overlap, ascending.
     py::array pairs_with(const boxes& other) const {
         return pairs_by(other, [&](const auto& overlap) {
             return tf::search_all(all_.tree, other.all_.tree, overlap);
         });
     }
 
-    /// The boxes that overlap each query: where its list begins, and numbers, ascending.
+    /// The boxes that overlap each query, ascending: where the list of each query begins, numbers.
     py::tuple query(const array_of<double>& mins, const array_of<double>& maxs) const {
         const std::vector<box> queries = boxes_of(mins, maxs);
         for (std::size_t q = 0; q < queries.size(); ++q)
@@ -164,7 +164,7 @@ class boxes {
     }
 
   private:
-    /// What `search` finds with a test that says no once the job is to stop.
+    /// What `search` finds with a test that is false once the job has to stop.
     template <class Search>
     py::array pairs_by(const boxes& other, const Search& search) const {
         return as_pairs(run([&](const tf::progress_callback&) {
@@ -179,7 +179,7 @@ class boxes {
     static std::vector<box> boxes_of(const array_of<double>& mins, const array_of<double>& maxs) {
         const auto low = rows_of<point>(mins), high = rows_of<point>(maxs);
         if (low.size() != high.size())
-            throw std::invalid_argument("treeform: as many lows as highs are needed");
+            throw std::invalid_argument("treeform: different numbers of lower and upper corners");
         return tools::boxes_of<D>(low, high);
     }
 

@@ -1,4 +1,4 @@
-// Verbs that are more than a call of C++: `tools/bindings` makes the others.
+// Functions that are more than a single C++ call.
 #include "bindings.hpp"
 
 namespace binding {
@@ -23,7 +23,7 @@ namespace {
 
 // ---- booleans ----
 
-/// The objects of a mesh, in order, each with what it has; none where they cannot be told apart.
+/// The objects in a mesh, in order, with their attributes; empty if there is only one.
 py::list objects_of(const held_mesh& mesh) {
     py::list objects;
     if (mesh.data().is_none()) return objects;
@@ -109,7 +109,7 @@ py::object join_equal_points(const held_mesh& mesh) {
 
 // ---- weld ----
 
-/// Attributes of polygons have a row for each polygon, as a file has them.
+/// Attributes of faces have a row for each polygon, as in a file.
 tf::weld_result weld_file(tf::mesh_file& file, const tf::weld_options& options) {
     file.indexed = true;
     require_rows(file, 0);
@@ -161,7 +161,7 @@ py::tuple raycast_all(const held_mesh& mesh, const points_array& origins,
 
 // ---- assembly ----
 
-/// [P] where both meshes are: one of the two may be for all.
+/// [P] the positions of both meshes; one of the two may be the same for all.
 std::vector<tf::mesh_positions> positions_of(const array_of<double>& move_a,
                                              const array_of<double>& move_b) {
     const auto a = transforms_of(move_a), b = transforms_of(move_b);
@@ -174,7 +174,7 @@ std::vector<tf::mesh_positions> positions_of(const array_of<double>& move_a,
     return all;
 }
 
-/// The positions of a piece.
+/// A piece of the positions.
 std::span<const tf::mesh_positions> some_of(const std::vector<tf::mesh_positions>& all,
                                             std::size_t begin, std::size_t end) {
     return std::span(all).subspan(begin, end - begin);

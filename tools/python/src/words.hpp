@@ -1,16 +1,16 @@
 #pragma once
 /// \file
-/// Words for enumerators, and other small arguments.
+/// Enumerators as strings, and other small arguments.
 
 #include "arrays.hpp"
 
 namespace binding {
 
-/// The words of an enumeration, in the order of its values from 0.
+/// The names of enumerators, in the order of their values from 0.
 template <std::size_t N>
 using words = std::array<const char*, N>;
 
-/// The words of an enumeration: its enumerators, in `made/words.hpp`.
+/// The names of the enumerators of an enumeration, in `made/words.hpp`.
 template <class Enum>
 struct words_of;
 template <class Enum>
@@ -18,9 +18,9 @@ concept has_words = requires {
     words_of<Enum>::all;
 };
 
-/// The enumerator of `word`.
+/// The enumerator with the name `word`.
 ///
-/// \throws std::invalid_argument naming the words there are
+/// \throws std::invalid_argument naming the valid words
 template <class Enum, std::size_t N>
 Enum choice(const char* argument, const words<N>& all, std::string_view word) {
     std::string there;
@@ -37,13 +37,13 @@ const char* word_of(Enum value) {
     return words_of<Enum>::all[static_cast<std::size_t>(value)];
 }
 
-/// A point of the three numbers of an array.
+/// The three numbers of an array as a point.
 inline tf::point3 point_of(const array_of<double>& numbers) {
-    if (numbers.size() != 3) throw std::invalid_argument("treeform: not three numbers");
+    if (numbers.size() != 3) throw std::invalid_argument("treeform: expected three numbers");
     return {numbers.data()[0], numbers.data()[1], numbers.data()[2]};
 }
 
-/// The map of a matrix [4][4]; its last row has been looked at.
+/// The transform for a matrix [4][4], whose last row has been checked.
 inline tf::transform<3> transform_of(const double* matrix) {
     tf::transform<3> map;
     for (std::size_t k = 0; k < 3; ++k)
@@ -51,18 +51,19 @@ inline tf::transform<3> transform_of(const double* matrix) {
     return map;
 }
 inline tf::transform<3> transform_of(const array_of<double>& matrix) {
-    if (matrix.size() != 16) throw std::invalid_argument("treeform: a matrix has 4 rows of 4");
+    if (matrix.size() != 16)
+        throw std::invalid_argument("treeform: expected a matrix of shape (4, 4)");
     return transform_of(matrix.data());
 }
 
-/// The maps of matrices [n][4][4].
+/// The transforms for matrices [n][4][4].
 inline std::vector<tf::transform<3>> transforms_of(const array_of<double>& matrices) {
     std::vector<tf::transform<3>> all(static_cast<std::size_t>(matrices.size()) / 16);
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = transform_of(matrices.data() + i * 16);
     return all;
 }
 
-/// The matrix [4][4] of a map.
+/// The matrix [4][4] of a transform.
 inline py::array_t<double> as_array(const tf::transform<3>& map) {
     py::array_t<double> made({4, 4});
     double* to = made.mutable_data();

@@ -65,56 +65,58 @@ RELATIONS: list[str]
 VIEWS: list[str]
 
 class Attributes:
-    """All that a file has besides points and faces.
+    """Everything in a file besides points and faces.
 
     Columns of numbers for vertices and faces (colors, normals, qualities), names of parts, texture
-    coordinates and normals of corners, comments, and the format that the file had. `write` puts
-    back what the format of the output can hold. What operations make of a mesh has its columns,
-    corners and parts, too; lists and other kinds of rows are left out.
+    coordinates and normals of corners, comments, and the format of the file. `write` stores what
+    the format of the output supports. Operations carry columns, corners and parts over to their
+    results, but not lists and other elements.
     """
 
     def __init__(self) -> None: ...
     @property
     def format(self) -> str:
-        """Of the file that was read: 'stl-binary', 'ply-ascii', 'obj', ...; else empty."""
+        """Format of the file: 'stl-binary', 'ply-ascii', 'obj', ...; empty without a file."""
     @property
     def precision(self) -> str:
-        """Of the coordinates in the file: 'float32' or 'float64'."""
+        """Precision of the coordinates in the file: 'float32' or 'float64'."""
     @property
     def warnings(self) -> list[tuple[str, str]]:
-        """What a person should know of the file: (code, text)."""
+        """Warnings about the file: (code, text)."""
     @property
     def comments(self) -> list[str]:
-        """Lines of comment of a PLY."""
+        """Comment lines of a PLY file."""
     @property
     def elements(self) -> list[str]:
-        """Kinds of rows that the file has: 'vertex', 'face', ..."""
+        """Names of the elements of the file: 'vertex', 'face', ..."""
     @property
     def parts(self) -> list[tuple[str, str, str, int]]:
-        """Names in the file: (object, group, material, first face)."""
+        """Parts of the file: (object, group, material, first face)."""
     @property
     def corners(self) -> dict[str, NDArray[Any]]:
-        """Values of corners: `texture` (n, 3), `texture_of_corner` (F, 3) numbers in it, and the
-        same for `normals`; 4294967295 where a corner has none.
+        """Values of the corners of faces: `texture` (n, 3) and `texture_of_corner` (F, 3), which
+        has numbers of rows of `texture`, or 4294967295; likewise `normals`.
         """
     @property
     def stored_face(self) -> Optional[Ids]:
-        """(F,) the file's face that each triangle is a part of; None where all are triangles."""
+        """(F,) the number in the file of the face that contains each triangle; None if all faces
+        are triangles.
+        """
     @property
     def vertex(self) -> dict[str, Any]:
-        """A copy of each column of vertices, (V,)."""
+        """Copies of the columns of vertices, (V,)."""
     @property
     def face(self) -> dict[str, Any]:
-        """A copy of each column of faces as stored in the file."""
+        """Copies of the columns of faces, as stored in the file."""
     def columns(self,
                 element: str) -> dict[str, Any]:
-        """A copy of each column of `element`; lists as (begin, values)."""
+        """Copies of the columns of `element`; lists are (begin, values)."""
     def set_vertex(self, name: str,
                    values: ArrayLike) -> None:
-        """Sets a column of vertices, (V,), in the type of `values`."""
+        """Sets a column of vertices, (V,), with the type of `values`."""
     def set_face(self, name: str,
                  values: ArrayLike) -> None:
-        """Sets a column of faces, (F,), in the type of `values`."""
+        """Sets a column of faces, (F,), with the type of `values`."""
 
 class SearchInSteps:
     def scatter(self, progress: Watched = ...) -> int: ...
