@@ -309,11 +309,10 @@ void make_job(const py::object& scope, const char* name, job_kind kind) {
         return run_job(function, arguments, progress, kind);
     };
     const auto doc = function.attr("__doc__").cast<std::string>();  // lists the arguments
-    if (py::isinstance<py::module_>(scope))
-        scope.attr(name) = py::cpp_function(job_of, py::name(name), py::scope(scope), doc.c_str());
-    else
-        scope.attr(name) =
-            py::cpp_function(job_of, py::name(name), py::is_method(scope), doc.c_str());
+    const auto add = [&](const auto& place) {
+        scope.attr(name) = py::cpp_function(job_of, py::name(name), place, doc.c_str());
+    };
+    py::isinstance<py::module_>(scope) ? add(py::scope(scope)) : add(py::is_method(scope));
 }
 
 void make_jobs(const py::object& scope, std::initializer_list<const char*> names, job_kind kind) {

@@ -32,10 +32,7 @@ py::array_t<double> poses(const robot_data& of, const std::vector<std::string>& 
         for (std::size_t j = 0; j < joints.size(); ++j)
             given[joints[j]] = values.data()[p * joints.size() + j];
         const auto places = of.content.link_transforms(given);
-        for (const std::uint32_t link : of.links) {
-            for (const auto& row : places[link].rows) to = std::copy(row.begin(), row.end(), to);
-            for (const double entry : {0.0, 0.0, 0.0, 1.0}) *to++ = entry;
-        }
+        for (const std::uint32_t link : of.links) to = put(places[link], to);
     }
     return made;
 }

@@ -63,13 +63,16 @@ inline std::vector<tf::transform<3>> transforms_of(const array_of<double>& matri
     return all;
 }
 
+/// Writes the matrix [4][4] of a transform to `to`, and returns the position behind it.
+inline double* put(const tf::transform<3>& map, double* to) {
+    for (const auto& row : map.rows) to = std::ranges::copy(row, to).out;
+    return std::ranges::copy(std::array{0.0, 0.0, 0.0, 1.0}, to).out;
+}
+
 /// The matrix [4][4] of a transform.
 inline py::array_t<double> as_array(const tf::transform<3>& map) {
     py::array_t<double> made({4, 4});
-    double* to = made.mutable_data();
-    for (const auto& row : map.rows)
-        for (const double entry : row) *to++ = entry;
-    for (const double entry : {0.0, 0.0, 0.0, 1.0}) *to++ = entry;
+    put(map, made.mutable_data());
     return made;
 }
 

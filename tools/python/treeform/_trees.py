@@ -45,27 +45,21 @@ class Neighbors(NamedTuple):
         return tuple_repr(self)
 
 
-def _queries(x: ArrayLike, width: int) -> tuple[Floats, tuple[int, ...]]:
-    """Queries as an array (q, width), and the shape of the results."""
-    array = _arrays.floats(x, "x")
-    _arrays.shaped(array, array.ndim > 0 and array.shape[-1] == width, "x", f"(..., {width})")
-    return np.ascontiguousarray(array.reshape(-1, width)), array.shape[:-1]
-
-
 def _shaped(d: Floats, i: Numbers, shape: tuple[int, ...]) -> tuple[Any, Any]:
     """Distances and numbers in this shape; for one neighbor of one query, as scalars."""
     return (d.reshape(shape), i.reshape(shape)) if shape else (float(d[0]), int(i[0]))
 
 
 def _count(k: Any) -> int:
-    if k < 1:
-        raise ValueError("k: less than 1")
-    return min(int(k), _MOST)
+    return min(int(_arrays.expect(k >= 1, k, "k", "at least 1")), _MOST)
 
 
-def _only_2(p: float) -> None:
-    if p != 2:
-        raise ValueError(f"p: only 2 is supported, not {p}")
+def _queries(x: ArrayLike, width: int, p: float = 2.0) -> tuple[Floats, tuple[int, ...]]:
+    """Queries as an array (q, width), and the shape of the results. p: of the norm."""
+    _arrays.expect(p == 2, p, "p", "2, the only one supported")
+    array = _arrays.floats(x, "x")
+    _arrays.shaped(array, array.ndim > 0 and array.shape[-1] == width, "x", f"(..., {width})")
+    return np.ascontiguousarray(array.reshape(-1, width)), array.shape[:-1]
 
 
 class PointTree:
@@ -130,17 +124,15 @@ class PointTree:
                [1., 3.]]), array([[0, 1],
                [2, 0]]))
         """
-        _only_2(p)
-        queries, shape = _queries(x, self.m)
+        queries, shape = _queries(x, self.m, p)
         wanted = None
         if not isinstance(k, (int, np.integer)):
             wanted = np.asarray(k, np.intp)
-            if wanted.ndim != 1 or len(wanted) == 0:
-                raise ValueError("k: a number, or a list of numbers from 1")
-            _count(wanted.min())
+            _arrays.expect(wanted.ndim == 1 and wanted.min(initial=2) >= 1 and wanted.size > 0, k,
+                           "k", "a number, or a list of numbers from 1")
         count = k if wanted is None else int(wanted.max())
-        if not distance_upper_bound >= 0:
-            raise ValueError(f"distance_upper_bound: {distance_upper_bound} is negative or NaN")
+        _arrays.expect(distance_upper_bound >= 0, distance_upper_bound, "distance_upper_bound",
+                       "a number that is not negative or NaN")
         d, i = self._cloud.query(queries, _count(count), distance_upper_bound,
                                  progress=progress)
         if wanted is not None:
@@ -165,8 +157,7 @@ class PointTree:
         >>> tree.query_ball_point([0, 0], 1)
         [0, 1]
         """
-        _only_2(p)
-        queries, shape = _queries(x, self.m)
+        queries, shape = _queries(x, self.m, p)
         radii = np.broadcast_to(_arrays.floats(r, "r"), shape).ravel()
         lists: list[Any] = [[]] * len(queries)
         different = np.unique(radii)
@@ -206,7 +197,7 @@ class PointTree:
         >>> treeform.PointTree([[0, 0], [1, 0], [0, 2]]).query_pairs(1)
         {(0, 1)}
         """
-        _only_2(p)
+        _arrays.expect(p == 2, p, "p", "2, the only one supported")
         _arrays.one_of(output_type, "output_type", ("set", "ndarray"))
         pairs = self._cloud.query_pairs(_arrays.number(r, "r"), progress=progress)
         return pairs if output_type == "ndarray" else set(map(tuple, pairs.tolist()))
