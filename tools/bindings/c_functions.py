@@ -1,5 +1,4 @@
-"""Functions of the library in C: a function of C++ says what they take, what they give out, and
-what is said about them."""
+"""The functions of the C library: parameters, outputs and docstrings, from the C++ functions."""
 
 from __future__ import annotations
 
@@ -8,8 +7,8 @@ import re
 from c_language import NUMBERS, Language, List
 from functions import Function
 
-#: Types of parameters: what C takes, and how a call gets it. `{n}` is the name, `{c}` that of the
-#: count. What is of one name only has it behind the type.
+#: Types of parameters: the declaration in C, and the argument of the call. `{n}` is the name, `{c}`
+#: the name of the count.
 PARAMETERS = {
     "const mesh_ref&": ("const treeform_mesh* {n}", 'glue::ref({n}, "{n}")'),
     "mesh_view": ("const treeform_mesh* {n}", "glue::view({n})"),
@@ -41,13 +40,13 @@ PARAMETERS = {
     "bool": ("int32_t {n}", "{n} != 0"),
 }
 
-#: What stands behind a handle of C.
-HANDLES = {"mesh_file": "file", "urdf_robot": "robot", "shared_search": "shared_search",
+#: The C++ types of the handles of C.
+HANDLES = {"mesh_file": "file", "urdf_robot": "robot", "shared_search": "search",
            "shared_weld": "shared_weld", "point_reader": "point_reader",
            "point_writer": "point_writer", "point_tree": "point_tree", "box_tree": "box_tree",
            "thread_scope": "thread_limit"}
 
-#: Results that `glue::give` makes others of.
+#: Results that `glue::give` converts.
 RESULTS = {"mesh": "treeform_made_mesh", "made_mesh": "treeform_made_mesh"}
 
 
@@ -58,8 +57,8 @@ class Functions:
         self.lists = {one.of: one.c for one in lists}
 
     def find(self, entry: str) -> tuple[str, Function]:
-        """The name in C and the function of "repair()", "intersections=mesh_intersections()" or, by
-        the first parameter, "weld(file)"."""
+        """The name in C, and the C++ function, for "repair()", "intersections=mesh_intersections()"
+        or "weld(file)", where `file` is the first parameter."""
         name, first = re.fullmatch(r"([\w=]+)\((\w*)\)", entry).groups()
         c, _, cpp = name.partition("=")
         for one in self.functions.get(cpp or c, []):
@@ -100,7 +99,7 @@ class Functions:
         raise KeyError(type)
 
     def parameters(self, function: Function) -> tuple[list[str], list[str]]:
-        """Those of C, and the arguments of the call."""
+        """The parameters in C, and the arguments of the call."""
         declared: list[str] = []
         arguments: list[str] = []
         several = sum(type.startswith(("span<", "const mesh_refs&"))
@@ -119,7 +118,7 @@ class Functions:
         return declared, arguments
 
     def result(self, function: Function) -> tuple[str, str]:
-        """The last parameter of C, and how it gets `{}`, the value."""
+        """The output parameter in C, and the code that sets it to the value `{}`."""
         type = function.returns
         optional = re.fullmatch(r"optional<(.+)>", type)
         inside = optional[1] if optional else type

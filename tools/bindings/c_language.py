@@ -1,4 +1,4 @@
-"""The library in C: structs of the C headers, how they are filled and read, and functions."""
+"""The structs of the C library: their members, and the code that fills and reads them."""
 
 from __future__ import annotations
 
@@ -7,20 +7,20 @@ from dataclasses import dataclass, field
 
 from headers import Enum, Field, Struct
 
-#: Numbers that are the same in C.
+#: Number types in C.
 NUMBERS = {"double": "double", "uint8_t": "uint8_t", "uint32_t": "uint32_t", "unsigned": "uint32_t",
            "uint64_t": "uint64_t", "size_t": "uint64_t", "int": "int32_t", "int32_t": "int32_t"}
 
 
 @dataclass
 class Member:
-    """A member of a C struct. In code, `from` is the struct of C++, `to` that of C, `o` options."""
+    """A member of a C struct. In code, `from` is the C++ struct, `to` the C struct, `o` options."""
 
     decl: str  #: "double at[3]"
     doc: str = ""
-    fill: str = ""  #: C++ to C
-    read: str = ""  #: C to C++, of options
-    default: str = ""  #: of options
+    fill: str = ""  #: code from C++ to C
+    read: str = ""  #: code from C to C++, for options
+    default: str = ""  #: for options
 
     @property
     def name(self) -> str:
@@ -29,15 +29,15 @@ class Member:
 
 @dataclass
 class Bound:
-    """A struct of C++ in C."""
+    """A C++ struct in C."""
 
     cpp: str
-    c: str = ""  #: "treeform_" is put in front; "": as in C++
+    c: str = ""  #: name without "treeform_"; "": as in C++
     kind: str = ""  #: "options", "result" (has an owner), "part" (of others), "same" (bit for bit)
-    names: dict[str, str] = field(default_factory=dict)  #: that differ from those of C++
-    counts: dict[str, str] = field(default_factory=dict)  #: of lists, where it is not "thing_count"
-    leave: str = ""  #: fields that C does not have
-    custom: dict[str, list[Member]] = field(default_factory=dict)  #: by hand; "+": more of them
+    names: dict[str, str] = field(default_factory=dict)  #: names that differ from C++
+    counts: dict[str, str] = field(default_factory=dict)  #: of lists, if not "..._count"
+    leave: str = ""  #: fields that are not in C
+    custom: dict[str, list[Member]] = field(default_factory=dict)  #: by hand; "+": additional members
 
     def __post_init__(self) -> None:
         self.c = "treeform_" + (self.c or self.cpp)
@@ -52,7 +52,7 @@ def singular(name: str) -> str:
 
 
 class Language:
-    """Knows all structs and enumerations."""
+    """Translates all structs and enumerations."""
 
     def __init__(self, structs: dict[str, Struct], enums: dict[str, Enum], bound: list[Bound],
                  enum_names: dict[str, str]) -> None:
@@ -63,7 +63,7 @@ class Language:
     # ---- a field ----
 
     def members(self, of: Bound) -> list[Member]:
-        """Those of a struct, in the order of C++."""
+        """The members of a struct, in the order of C++."""
         made: list[Member] = []
         for one in self.structs[of.cpp].fields:
             made += self._member(of, one)
@@ -87,7 +87,7 @@ class Language:
         return self.enum_names.get(type, f"treeform_{type}") if type in self.enums else ""
 
     def _same(self, name: str, one: Field) -> Member:
-        """Of a struct that has the same bytes in both."""
+        """The members of a struct with the same memory layout in C++ and C."""
         simple = {**NUMBERS, "size_t": "size_t", "bool": "uint8_t"}
         if one.type in self.enums:
             return Member(f"uint8_t {name}", one.doc + f" (a `{self.enum(one.type)}`)")
@@ -243,7 +243,7 @@ class Language:
         raise ValueError(f"{of.cpp}: {type} {name}: C has no such option yet")
 
     def _with_default(self, one: Field) -> str:
-        """What is said of an option, and its default unless that is 0."""
+        """The sentence for an option, with its default unless that is 0."""
         value = one.default
         if "infinity" in value:
             value = "infinite"

@@ -1,11 +1,11 @@
-"""Which structs and enumerations of C++ are in C, and where the names differ. All else follows from
-the headers: `c_language.py` says how."""
+"""The C++ structs and enumerations that are in C, and where names differ. Everything else is
+generated from the headers, as described in `c_language.py`."""
 
 from __future__ import annotations
 
 from c_language import Bound, List, Member
 
-#: Names of enumerations in C, and what their constants begin with; "": as in C++ after TREEFORM_.
+#: Names of enumerations in C, and the prefix of their constants; "": as in C++, after TREEFORM_.
 ENUMS = {
     "precision": ("treeform_precision", ""),
     "vertex_identity": ("treeform_vertices", ""),
@@ -271,7 +271,7 @@ BOUND = [
               Member("size_t adjacent_count", "", "to.adjacent_count = adjacent.size();")]}),
 ]
 
-#: Lists as results: what of, the name of the list, and what is said.
+#: Lists as results: the element, the name of the list, and its docstring.
 LISTS = [
     List("mesh_feature", "features", "features", "Features, largest area first."),
     List("mesh_part", "mesh_parts", "parts", "Parts of a mesh."),

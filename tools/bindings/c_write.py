@@ -1,4 +1,4 @@
-"""Writes what `c_language.py` knows: blocks of the C headers, and the sources of tools/c/made."""
+"""Writes the blocks of the C headers and the sources in tools/c/made, using `c_language.py`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from headers import GENERATED, ROOT, Enum
 
 INCLUDE = ROOT / "tools/c/include/treeform/c"
 MADE = ROOT / "tools/c/made"
-#: Words of C++ that are others in C.
+#: Phrases of C++ docstrings, and those of C.
 IN_C = {"operand_element::none": "TREEFORM_NONE", "prepared_mesh::cloud": "treeform_cloud_create",
         "carry_sources": "treeform_carry"}
 _BLOCK = re.compile(r"^// made of [^\n]+:\n((?://   [^\n]+\n)+).*?^// end\n", re.M | re.S)
@@ -22,7 +22,7 @@ _STRUCT = re.compile(r"^typedef struct (treeform_\w+) \{\n(.*?)^\} \1;", re.M | 
 
 
 def formatted(text: str, name: str) -> str:
-    """Text as clang-format writes it."""
+    """`text` formatted by clang-format."""
     done = subprocess.run(["clang-format", f"--assume-filename={ROOT / name}"], input=text,
                           capture_output=True, text=True, check=True)
     return done.stdout
@@ -37,7 +37,7 @@ def comment(text: str, indent: str = "") -> str:
 
 
 def names_of(block: re.Match[str]) -> list[str]:
-    """What a block of a header is made of."""
+    """The names in a block of a header."""
     return [name for name in block.group(1).split() if name != "//"]
 
 
@@ -48,8 +48,8 @@ class Writer:
         self.language, self.enums = language, enums
         self.functions = Functions(language, lists, functions)
         self.lists = {one.of: one for one in lists}
-        self.order: dict[str, list[str]] = {}  #: members of structs as they stand now
-        self.fields: set[str] = set()  #: of the struct that is written
+        self.order: dict[str, list[str]] = {}  #: the current members of structs
+        self.fields: set[str] = set()  #: of the struct that is being written
         self.values = {name for one in language.enums.values() for name, _ in one.values}
         self.known = {name for path in INCLUDE.glob("*.h")
                       for name in re.findall(r"\b(treeform_\w+)\(", path.read_text())}
@@ -58,7 +58,7 @@ class Writer:
     # ---- words ----
 
     def words(self, text: str) -> str:
-        """A sentence of C++ for C: names in backticks are those of C."""
+        """A sentence of C++ with the names of C in backticks."""
         def name(found: re.Match[str]) -> str:
             word = found.group(1)
             bound = self.language.bound.get(word)
@@ -86,7 +86,8 @@ class Writer:
             self.order[name] = members
 
     def in_order(self, c: str, members: list[Member]) -> list[Member]:
-        """Old members keep their places, so that old programs go on to work; new ones come last."""
+        """Existing members keep their order, so that compiled programs keep working; new ones come
+        last."""
         before = self.order.get(c, [])
         before = before[1:] if before and before[0] in ("owner", "size") else before
         place = {name: i for i, name in enumerate(before)}
@@ -149,7 +150,7 @@ class Writer:
                                      if one.c == "treeform_" + name))
 
     def function(self, entry: str) -> str:
-        """Its declaration, and what C++ says about it."""
+        """The declaration, with the docstring of C++."""
         _, it = self.functions.find(entry)
         self.fields = {name for _, name, _ in it.parameters}
         said = it.doc or next(one.doc for one in self.functions.functions[it.name] if one.doc)
@@ -173,7 +174,7 @@ class Writer:
         return text + "\n".join(self.thing(name) for name in names) + "// end\n"
 
     def header(self, path: pathlib.Path) -> str:
-        """The text of a C header with its blocks made anew."""
+        """The text of a C header with its blocks regenerated."""
         text = path.read_text()
         self.read_order(text)
 
@@ -202,7 +203,7 @@ class Writer:
         return text + "\n}  // namespace glue\n"
 
     def filling(self, bound: Bound) -> str:
-        """The functions of a struct."""
+        """The functions for a struct."""
         members = self.language.members(bound)
         if bound.kind == "same":
             fields = [one.name for one in self.language.structs[bound.cpp].fields
@@ -244,8 +245,8 @@ class Writer:
     def source(self, stem: str, names: list[str], text: str) -> str:
         """The source for a C header."""
         parts = [self.filling(bound) for bound in self.language.bound.values()
-                 if bound.cpp in names or any(self.language.bound[name].c == bound.c for name in names
-                        if name in self.language.bound)]
+                 if bound.cpp in names or any(self.language.bound[name].c == bound.c for name in
+                 names if name in self.language.bound)]
         parts += [self.list_filling(one) for one in self.lists.values()
                   if one.c[len("treeform_"):] in names]
         constants = "".join(

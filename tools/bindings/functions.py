@@ -1,4 +1,4 @@
-"""The functions of C++ headers: what they return and take, and what is said about them."""
+"""Reads the functions of C++ headers: results, parameters and docstrings."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from headers import FOLDERS, ROOT, _words, plain
 @dataclass(frozen=True)
 class Function:
     name: str
-    header: str  #: "mesh/cut.hpp"; "tools/c/cuts.hpp" of what only C has
+    header: str  #: "mesh/cut.hpp", or "tools/c/cuts.hpp" for functions of C only
     doc: str
     returns: str
     parameters: list[tuple[str, str, bool]]  #: type, name, whether there is a default
@@ -22,15 +22,14 @@ class Function:
         return "glue" if self.header.startswith("tools/") else "tf"
 
 
-#: A docstring, which may be that of the declaration above, and a declaration at the outermost
-#: level.
+#: A declaration at file scope, with its docstring, or that of the declaration before it.
 _DECLARED = re.compile(r"(?:((?:^///[^\n]*\n)+)|^(?=\[\[nodis|TREEFORM_API |inline ))"
                        r"(?:\[\[nodiscard\]\] |TREEFORM_API |inline )*"
                        r"((?:const )?[\w:]+(?:<[^;{}()]*>)?[ *&\n]+?)(\w+)(\()", re.M)
 
 
 def _inside(text: str, at: int) -> str:
-    """What stands between the parenthesis before `at` and the one that belongs to it."""
+    """The text from `at` to the parenthesis that closes the one before `at`."""
     depth = 1
     for i in range(at, len(text)):
         depth += {"(": 1, ")": -1}.get(text[i], 0)
@@ -73,7 +72,7 @@ def read(path: pathlib.Path, header: str) -> list[Function]:
 
 
 def read_all() -> dict[str, list[Function]]:
-    """By name; those of C first."""
+    """All functions by name, those of C first."""
     all: dict[str, list[Function]] = {}
     for path in sorted((ROOT / "tools/c").glob("*.hpp")):
         for one in read(path, f"tools/c/{path.name}"):

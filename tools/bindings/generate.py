@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""generate.py [--check | --self-test]: makes the parts of the C library, of the Python package and
-of the tools' reports that follow from the headers of C++. With --check it changes nothing, and
-fails where a file is not what it would make. """
+"""generate.py [--check | --self-test]: generates the parts of the C library, of the Python package
+and of the reports of the tools that follow from the C++ headers. --check changes nothing, and fails
+if a generated file is out of date."""
 
 from __future__ import annotations
 
@@ -53,13 +53,13 @@ def all_files(structs: dict[str, Struct], enums: dict[str, Enum]) -> dict[pathli
     for name in [*(one.cpp for one in c_surface.BOUND), *python_surface.OPTIONS,
                  *(one.cpp for one in python_surface.RESULTS)]:
         if name in structs and structs[name].unclear:
-            raise ValueError(f"{name} of {structs[name].header}: what is {structs[name].unclear}?")
+            raise ValueError(f"{structs[name].header}: cannot parse {structs[name].unclear}")
     return c_files(structs, enums) | python_files(structs, enums) | report_write.Writer(
         structs, enums).files()
 
 
 def self_test() -> None:
-    """A counter and an option more are one line each of C++, and then everywhere."""
+    """A new counter or option is one line of C++, and then appears everywhere."""
     structs, enums = read_all()
     structs["boolean_statistics"].fields.append(Field("unheard", "uint64_t", "0", "of nothing"))
     structs["repair_options"].fields.append(Field("unseen", "double", "2.5", "a length"))
@@ -79,13 +79,13 @@ def self_test() -> None:
         text = " ".join(made[path].split())
         for word in words:
             assert " ".join(word.split()) in text, (path, word)
-    print("a field more is everywhere")
+    print("new fields appear everywhere")
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--check", action="store_true", help="only look")
-    parser.add_argument("--self-test", action="store_true", help="whether a field more is made")
+    parser.add_argument("--check", action="store_true", help="print the differences")
+    parser.add_argument("--self-test", action="store_true", help="add fields, and check the output")
     options = parser.parse_args()
     if not shutil.which("clang-format"):
         print("skipped: no clang-format")
@@ -105,14 +105,14 @@ def main() -> int:
         if options.check:
             name = str(path.relative_to(ROOT))
             sys.stdout.writelines(difflib.unified_diff(
-                before.splitlines(True), text.splitlines(True), name, f"{name}, made anew"))
+                before.splitlines(True), text.splitlines(True), name, f"{name}, regenerated"))
         elif path in made:
             path.parent.mkdir(exist_ok=True)
             path.write_text(text)
         else:
             path.unlink()
     if options.check and wrong:
-        print(f"{wrong} files are not what the headers say: run tools/bindings/generate.py")
+        print(f"{wrong} generated files are out of date: run tools/bindings/generate.py")
     return int(options.check and wrong > 0)
 
 

@@ -1,6 +1,6 @@
-"""The structs and enumerations of the public C++ headers: fields with their types, defaults and
-sentences. It reads what clang-format leaves, plain declarations alone, and ends with a message
-where it does not understand one."""
+"""Reads the structs and enumerations of the public C++ headers: fields with their types, defaults
+and sentences. It understands plain declarations as formatted by clang-format, and reports
+others."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ FOLDERS = ["libmesh/include/treeform/mesh", "libtree/include/treeform/tree"]
 @dataclass(frozen=True)
 class Field:
     name: str
-    type: str  #: without `std::`, `treeform::` and blanks
-    default: str  #: of C++; "" for that of the type
-    doc: str  #: with the shape in front: "[F] ..."
+    type: str  #: without `std::`, `treeform::` and spaces
+    default: str  #: in C++; "": the default of the type
+    doc: str  #: may begin with the shape: "[F] ..."
 
     @property
     def shape(self) -> str:
-        """"F" of "[F] the face ..."; "" where there is none."""
+        """"F" for "[F] the face ..."; "" if there is no shape."""
         found = re.match(r"\[([^\]]+)\]", self.doc)
         return found.group(1) if found else ""
 
@@ -37,7 +37,7 @@ class Struct:
     header: str  #: "mesh/cut.hpp"
     doc: str
     fields: list[Field] = field(default_factory=list)
-    unclear: list[str] = field(default_factory=list)  #: statements that are not understood
+    unclear: list[str] = field(default_factory=list)  #: statements that were not understood
 
     def __getitem__(self, name: str) -> Field:
         for one in self.fields:
@@ -64,20 +64,20 @@ _NO_FIELD = re.compile(r"(static|friend|using|public|private|protected|template|
 
 
 def plain(type: str) -> str:
-    """A type without blanks, `std::` and `treeform::`."""
+    """A type without spaces, `std::` and `treeform::`."""
     type = re.sub(r"\bstd::|\btreeform::", "", type.strip())
     return re.sub(r"\s*([<>,*&])\s*", r"\1", re.sub(r"\s+", " ", type))
 
 
 def _words(comments: list[str]) -> str:
-    """Comment lines as one text; paragraphs of commands (\\pre, \\throws, ...) are left out."""
+    """Comment lines as one text, without commands (\\pre, \\throws, ...)."""
     text = "\n".join(comments)
     text = re.split(r"\n\\(?:pre|throws|cost|same|source)\b", text)[0]
     return "\n\n".join(" ".join(part.split()) for part in text.split("\n\n")).strip()
 
 
 def _declared(text: str) -> tuple[str, str, str] | None:
-    """Type, name and default of a field; None for what is none."""
+    """Type, name and default of a field; None for other statements."""
     found = re.match(r"(?P<type>(?:const )?[\w:]+(?:<.*>)?[ *&]*?)\s+(?P<name>\w+)"
                      r"(?:\s*=\s*(?P<value>.+)|\{(?P<braces>.*)\})?$", text, re.S)
     if not found:
@@ -87,11 +87,11 @@ def _declared(text: str) -> tuple[str, str, str] | None:
 
 
 class _Body:
-    """Goes through the lines of a struct."""
+    """Reads the lines of a struct."""
 
     def __init__(self, struct: Struct) -> None:
         self.struct = struct
-        self.before: list[str] = []  #: comment lines ahead of a declaration
+        self.before: list[str] = []  #: comment lines before a declaration
         self.text = ""
 
     def line(self, line: str) -> None:
@@ -183,7 +183,7 @@ def read(path: pathlib.Path, header: str) -> tuple[list[Struct], list[Enum]]:
 
 
 def read_all() -> tuple[dict[str, Struct], dict[str, Enum]]:
-    """All of the public headers, by name."""
+    """The structs and enumerations of all public headers, by name."""
     structs: dict[str, Struct] = {}
     enums: dict[str, Enum] = {}
     for folder in FOLDERS:

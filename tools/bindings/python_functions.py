@@ -1,5 +1,6 @@
-"""Functions of the package: signature, docstring and call. The docstring is that of the C++ header,
-without what only callers of C++ can use, and the example that the docstring had before."""
+"""Generates the functions of the package: signature, docstring and call. The docstring is that of
+the C++ header, without sentences about C++ only, followed by the example from the existing
+docstring."""
 
 from __future__ import annotations
 
@@ -9,10 +10,10 @@ import re
 from headers import FOLDERS, ROOT, Field
 from python_language import ARGUMENTS, Function, Language, call_text, camel, wrapped
 
-#: What exceptions of C++ are in Python.
+#: Exceptions of C++, and those of Python.
 _ERRORS = {r"std::(invalid_argument|length_error)": "ValueError",
            r"\bio_error": "FileError", "std::overflow_error": "OverflowError"}
-#: Types of options in Python, where the default of C++ is none of Python's.
+#: Annotations of options whose C++ default cannot be written in Python.
 _OPTIONAL = {"vector<pair<string,string>>": "Columns | None",
              "optional<array<double,3>>": "Sequence[float] | None",
              "optional<point3>": "ArrayLike | None", "transform<3>": "ArrayLike | None",
@@ -28,7 +29,7 @@ _CHECK = "if False, also return results that could not be certified; see their `
 
 
 def read_docs() -> dict[str, str]:
-    """The docstrings of the functions of the door, without `///`; of overloads, the first."""
+    """The docstrings of the public C++ functions, without `///`; of overloads, the first one."""
     docs: dict[str, str] = {}
     for folder in FOLDERS:
         for path in sorted((ROOT / folder).glob("*.hpp")):
@@ -49,8 +50,8 @@ def read_docs() -> dict[str, str]:
 
 
 def public_names(text: str) -> list[str]:
-    """What a module offers: what is made in it, its classes, values with a sentence (`#:`), and
-    functions with an example; or what it says itself."""
+    """The public names of a module: generated functions and classes, other classes, values with a
+    comment (`#:`), and functions with an example; or its own `__all__`."""
     said = re.search(r"^__all__ = (\[[^\]]*\])", text, re.M)
     if "# made of uses:" not in text:
         return sorted(ast.literal_eval(said[1])) if said else []
@@ -80,7 +81,7 @@ class FunctionWriter:
             one.name for name in options for one in language.structs[name].fields} - self.known
 
     def exports(self) -> str:
-        """What the package exports: the public names of its modules."""
+        """The exports of the package: the public names of its modules."""
         text = ""
         for module, names in self.public.items():
             line = f"from .{module} import {', '.join(names)}"
@@ -107,7 +108,7 @@ class FunctionWriter:
         return f"`{name}`"
 
     def said(self, text: str, names: set[str], own: str = "") -> str:
-        """`text` in words of Python; sentences that name what it does not have are left out."""
+        """`text` in words of Python, without sentences that name what Python does not have."""
         text = re.sub(r"^\[([^\]]+)\] ", lambda m: f"({m[1]},) ", text)
         for before, after in self.language.words.items():
             text = text.replace(before, after)
@@ -130,7 +131,7 @@ class FunctionWriter:
         return made[:-1] + "." if made.endswith(";") else made
 
     def _paragraphs(self, one: Function, names: set[str]) -> tuple[list[str], list[str], str]:
-        """Of C++: what it does, what it raises, what it costs."""
+        """From the C++ docstring: the description, the exceptions, the cost."""
         name = one.cpp or (re.findall(r"tf::(\w+)\(", one.call) or [one.name])[0]
         text = self.docs[name] if not one.doc or name in self.docs else ""
         body, *tags = re.split(r"\n?^\\(?=\w)", text, flags=re.M)
@@ -155,7 +156,7 @@ class FunctionWriter:
     # ---- arguments ----
 
     def _option(self, field: Field) -> tuple[str, str]:
-        """Annotation and default."""
+        """The annotation and default of an option."""
         type, default = field.type, field.default.rpartition("treeform::")[2]
         if type in _OPTIONAL:
             return _OPTIONAL[type], "None"
@@ -177,7 +178,7 @@ class FunctionWriter:
             default, default.replace("'", "_"))
 
     def text(self, one: Function, example: str) -> str:
-        """The function, for a file of the package."""
+        """The code of the function."""
         language = self.language
         names = {name for name, *_ in one.arguments}
         signature, last, values = [], [], []
@@ -205,7 +206,7 @@ class FunctionWriter:
                     signature.append(f"{option}: {annotation} = {value}")
                     notes.setdefault(option, self._note(fields[option], annotation, names))
                     if not notes[option]:
-                        raise ValueError(f"{one.name}: say what {option} is")
+                        raise ValueError(f"{one.name}: the option {option} has no sentence")
                 values.append("how")
             else:
                 plain = name.strip("*")
@@ -245,7 +246,7 @@ class FunctionWriter:
                                   cost and f"Cost: {cost}"]):
             lines += ["", *wrapped(part if part.endswith(".") else part + ".", 4, "")]
         if not example:
-            raise ValueError(f"{one.name}: an example is missing in its docstring")
+            raise ValueError(f"{one.name}: its docstring has no example")
         text += "\n".join(lines) + "\n\n" + example + '    """\n'
         if one.steps:
             end = ") -> None:\n        super().__init__(locals())\n"
@@ -267,7 +268,7 @@ class FunctionWriter:
                        f"    return {front}made{back}\n")
 
     def _note(self, field: Field, annotation: str, names: set[str]) -> str:
-        """What is said of an option."""
+        """The sentence about an option."""
         text = self.said(self.language.sentence(field, False), names)
         values = self.language.words_of(field.type.removeprefix("optional<").rstrip(">"))
         if annotation.endswith("None"):

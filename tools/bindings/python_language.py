@@ -1,4 +1,4 @@
-"""The package for Python: classes of results, options by name, functions, and the stub."""
+"""Describes the Python package: classes of results, options, functions."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ NUMBERS = {"double": "float", "bool": "bool", "int": "int", "unsigned": "int", "
            "uint8_t": "int", "uint32_t": "int", "uint64_t": "int", "int32_t": "int",
            "array<double,2>": "tuple[float, float]",
            "array<uint64_t,3>": "tuple[int, int, int]"}
-#: Annotations and shapes of what becomes arrays.
+#: Types that become arrays: annotation and shape.
 ARRAYS = {"point3": ("Floats", "(3,)"), "transform<3>": ("Floats", "(4, 4)"),
           "array<array<double,3>,3>": ("Floats", "(3, 3)"), "box3": ("Floats", "(2, 3)"),
           "array<point3,2>": ("Floats", "(2, 3)"), "array<point3,3>": ("Floats", "(3, 3)"),
@@ -20,12 +20,12 @@ ARRAYS = {"point3": ("Floats", "(3,)"), "transform<3>": ("Floats", "(4, 4)"),
           "vector<double>": ("Floats", "({},)"), "vector<point3>": ("Floats", "({}, 3)"),
           "vector<face>": ("Ids", "({}, 3)"), "vector<operand_element>": ("Ids", "({}, 2)")}
 
-#: Columns of fields, and how wide they are.
+#: Types of columns: annotation, and the rest of the shape after n.
 ROWS = {"double": ("Floats", ","), "point3": ("Floats", ", 3"), "uint32_t": ("Ids", ","),
         "optional<uint32_t>": ("Ids", ",")}
 
 
-#: What results are made in, as functions take it.
+#: What results are created with, as parameters of C++.
 CONTEXTS = {"": "", "attributes": ", const carrying& attributes",
             "moving": ", const held_mesh& moving", "data": ", const file_data* data",
             "parts": ", const held_meshes& parts", "whole": ", const tf::section_result& whole",
@@ -35,7 +35,7 @@ CONTEXTS = {"": "", "attributes": ", const carrying& attributes",
 
 @dataclass
 class Attribute:
-    """An attribute of a result. `code` gives its value; in it, `from` is the struct of C++."""
+    """An attribute of a result. `code` is its value, where `from` is the C++ struct."""
 
     name: str
     annotation: str
@@ -46,21 +46,21 @@ class Attribute:
 
 @dataclass
 class Result:
-    """A struct of C++ as a class of Python."""
+    """A C++ struct as a class of Python."""
 
     cpp: str
     name: str
     module: str  #: "_cuts"
     base: str = "Result"
-    doc: str = ""  #: "": that of C++
+    doc: str = ""  #: "": the docstring of C++
     names: dict[str, str] = field(default_factory=dict)
     leave: str = ""
-    inherited: str = ""  #: fields that the base has
-    context: str = ""  #: what it is made in, of `CONTEXTS`
-    custom: dict[str, list[Attribute]] = field(default_factory=dict)  #: "+": more of them
+    inherited: str = ""  #: fields of the base class
+    context: str = ""  #: a key of `CONTEXTS`
+    custom: dict[str, list[Attribute]] = field(default_factory=dict)  #: "+": additional ones
     docs: dict[str, str] = field(default_factory=dict)
-    true: str = ""  #: when it is true, where not always
-    rows: str = ""  #: of many, a column for each field: "tf::{}", or "std::optional<tf::{}>"
+    true: str = ""  #: the condition for `bool()`; "": always true
+    rows: str = ""  #: of a list with a column for each field: "tf::{}", "std::optional<tf::{}>"
 
     @property
     def is_tuple(self) -> bool:
@@ -70,31 +70,31 @@ class Result:
 @dataclass
 class Function:
     """A function of the extension, `cut(mesh: Mesh, ..., options: cut_options) -> CutPieces`, and
-    the call of C++. The package's function of that name takes the same arguments: with defaults,
-    and each option by its name. Options in brackets are left out; all behind `*` are by name."""
+    its C++ call. The function of the package with this name takes the same arguments, with
+    defaults, and each option as a keyword argument. Options in parentheses are positional."""
 
     declared: str
-    call: str = ""  #: "": it is in `src/*.cpp`
-    context: str = ""  #: an argument whose attributes results get, or that moves
+    call: str = ""  #: "": it is in `src/*.cpp`, or has a `body`
+    context: str = ""  #: the argument whose attributes are carried over, or that is moved
     kind: str = "by_elements"  #: `job_kind`
     # of the package
-    #: What is raised where its certificate is not ok: of a "solid" or "solids", NotSolidError where
-    #: one is open, too; of a "mesh" or "meshes", NotCertifiedError alone.
-    pieces: str = ""  #: how many there are, of what it is called for from `begin` to `end`
+    pieces: str = ""  #: the number of elements, of which a call handles those from `begin` to `end`
+    #: Raises NotCertifiedError if the certificate is not ok; for a "solid" or "solids", also
+    #: NotSolidError if a mesh is open. For several operands: "solids", "meshes".
     check: str = ""
-    missing: str = ""  #: what raises ValueError in place of None
-    made: str = ""  #: what the package returns, and how, where it is something else
+    missing: str = ""  #: the message of ValueError instead of None
+    made: str = ""  #: what the package returns, if not the result of the call
     value: str = "{}"
-    body: str = ""  #: of the package alone: what it returns, where `how` are the options
-    given: str = ""  #: options that the package makes of other arguments, `size=size_of(size)`
-    leave: str = ""  #: options that it does not have
-    words: dict[str, str] = field(default_factory=dict)  #: names of C++ that it has others for
-    cpp: str = ""  #: "of", or "of in header": whose docstring it has; "": of the call, or its name
-    doc: str = ""  #: in place of what C++ says, where that is of no use
-    also: str = ""  #: beside it
-    docs: dict[str, str] = field(default_factory=dict)  #: of arguments
+    body: str = ""  #: Python only: the returned expression, where `how` are the options
+    given: str = ""  #: options computed from other arguments, `size=size_of(size)`
+    leave: str = ""  #: options that it does not take
+    words: dict[str, str] = field(default_factory=dict)  #: parameters of C++, and those of Python
+    cpp: str = ""  #: "f" or "f in header" that has the docstring; "": that of the call
+    doc: str = ""  #: replaces the description of C++
+    also: str = ""  #: is added to the description
+    docs: dict[str, str] = field(default_factory=dict)  #: sentences about arguments
     progress: bool = True  #: whether it takes `progress`
-    steps: str = ""  #: a class that does its work in steps, of this class of the extension
+    steps: str = ""  #: for a class: the class of the extension that does its work in steps
 
     @property
     def name(self) -> str:
@@ -102,7 +102,7 @@ class Function:
 
     @property
     def arguments(self) -> list[tuple[str, str, str, list[str]]]:
-        """Names, types, defaults, options that have a place."""
+        """Names, types, defaults, positional options."""
         inside = self.declared[self.declared.index("(") + 1:self.declared.rindex(") -> ")]
         made = []
         for one in re.split(r", (?=\*{0,2}\w+: |\*)", inside):
@@ -123,8 +123,7 @@ class Function:
 
 
 _LIST = '[{} for one in _arrays.several({{0}}, "{{0}}")]'
-#: Types of arguments: in C++, in the stub, how a call gets them; in the package, and what it hands
-#: over.
+#: Types of arguments: in C++, in the stub, in the call; in the package, and the conversion there.
 ARGUMENTS = {
     "Mesh": ("const held_mesh&", "HeldMesh", "{}.ref()", "MeshLike", "held({})"),
     "Body": ("const held_mesh&", "HeldMesh", "{}.ref()", "Body", "held_body({})"),
@@ -240,15 +239,15 @@ class Language:
             return self.results[type].name
         if found := re.fullmatch(r"optional<(.+)>", type):
             return f"{self.annotation(found.group(1))} | None"
-        raise ValueError(f"{type}: Python has no such thing yet")
+        raise ValueError(f"{type}: there is no type for it in Python")
 
     def words_of(self, type: str) -> str:
-        """"'none', 'quarter' or 'any'" of an enumeration of up to six."""
+        """The values of an enumeration with up to six, such as "'none', 'quarter' or 'any'"."""
         words = [f"'{value}'" for value, _ in self.enums[type].values] if type in self.enums else []
         return f"{', '.join(words[:-1])} or {words[-1]}" if 1 < len(words) < 7 else ""
 
     def sentence(self, one: Field, has_words: bool = True) -> str:
-        """What is said of a field, with its shape in front, and the words that it can be."""
+        """The sentence about a field, with its shape and its possible values."""
         text = one.sentence
         shape = ARRAYS.get(one.type.removeprefix("optional<").removesuffix(">"), ("", ""))[1]
         if one.type in ARRAYS:
@@ -269,7 +268,7 @@ class Language:
         return text if not text or text.endswith((".", ":")) else text + "."
 
     def class_text(self, of: Result, order: list[str]) -> str:
-        """The class, for a file of the package."""
+        """The code of the class."""
         own = [one for one in self.attributes(of) if one.name not in of.inherited.split()]
         place = {name: i for i, name in enumerate(order)}
         own.sort(key=lambda one: (bool(one.default), place.get(one.name, len(order))))
@@ -295,7 +294,7 @@ class Language:
         return text
 
     def object_code(self, of: Result) -> str:
-        """The function that makes an object of it."""
+        """The C++ function that creates an object of the class."""
         attributes = self.attributes(of)
         text = self.declaration(of)[:-2] + " {\n"
         codes = [one.code for one in attributes]
@@ -410,7 +409,7 @@ def wrapped(text: str, indent: int, front: str, first: int | None = None) -> lis
 
 
 def call_text(front: str, arguments: list[str], end: str, width: int = 100) -> str:
-    """A declaration over as many lines as it needs."""
+    """A declaration or call, on several lines if necessary."""
     if not arguments:
         return front + end
     lines, line = [], front

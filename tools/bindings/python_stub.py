@@ -1,6 +1,6 @@
-"""The stub of the extension, `treeform/_core.pyi`: what the sources in tools/python/src add to the
-module, with the types of the C++ functions. Where a C++ function returns what only Python knows,
-such as `py::object`, a comment behind its line says the type: `// -> Mesh`."""
+"""Generates the stub of the extension, `treeform/_core.pyi`: everything that the sources in
+tools/python/src add to the module, with the types of the C++ functions. If a function returns a
+type such as `py::object`, a comment at the end of its line has the type in Python: `// -> Mesh`."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ TYPES = {"void": "None", "status": "None", "bool": "bool", "double": "float", "i
          "list": "list[Any]", "object": "Any", "array_like": "ArrayLike", "array": "NDArray[Any]",
          "array<double,3>": "ArrayLike", "held_meshes": "Sequence[HeldMesh]"}
 ARRAYS = {"double": "Floats", "uint32_t": "Ids", "int64_t": "Numbers", "uint8_t": "Bytes"}
-#: Of these, Python sees anything.
+#: Types that may be anything in Python.
 OPAQUE = ("object", "list", "tuple", "array", "auto")
 
 
@@ -46,8 +46,8 @@ class Member:
 
     name: str
     of: str  #: what is bound: "&read", a lambda, or the types of `py::init<...>`
-    returns: str = ""  #: of the comment behind it
-    kind: str = "def"  #: of pybind11
+    returns: str = ""  #: from the comment at the end of the line
+    kind: str = "def"  #: the function of pybind11
     doc: str = ""
     is_job: bool = False
 
@@ -61,7 +61,7 @@ class Class:
 
 
 def _split(text: str, at: str) -> list[str]:
-    """Parts of C++ between `at`, of those outside brackets and strings."""
+    """C++ code split at the separator `at`, but not inside brackets and strings."""
     parts, depth = [""], 0
     for piece in re.findall(r'R"\(.*?\)"|"(?:\\.|[^"\\])*"|->|.', text, re.S):
         depth += {"(": 1, "{": 1, "[": 1, ")": -1, "}": -1, "]": -1}.get(piece, 0)
@@ -73,26 +73,26 @@ def _split(text: str, at: str) -> list[str]:
 
 
 def _text(strings: str) -> str:
-    """What literals of C++ say, one behind the other."""
+    """The text of concatenated C++ string literals."""
     raw = re.fullmatch(r'\s*R"\((.*)\)"\s*', strings, re.S)
     return raw[1] if raw else "".join(map(ast.literal_eval, re.findall(r'"(?:\\.|[^"\\])*"',
                                                                        strings)))
 
 
 class Sources:
-    """What is defined in the sources of the extension, and in the public headers."""
+    """The definitions in the sources of the extension and in the public headers."""
 
     def __init__(self) -> None:
         paths = sorted([*SOURCES.glob("*.hpp"), *SOURCES.glob("*.cpp")])
         text = "\n".join(path.read_text() for path in paths)
-        # Marks stand before the end of a statement, and survive it.
+        # Comments with types become marks inside their statement.
         text = re.sub(r"(;?)[ ]*// -> ([^\n]*)", r" @\2@\1", text)
         self.text = re.sub(r"//[^\n]*", "", text)
         self.headers = "\n".join(path.read_text() for folder in FOLDERS
                                  for path in sorted((ROOT / folder).glob("*.hpp")))
 
     def body(self, head: str, text: str) -> str:
-        """What stands in the braces behind `head`, a regular expression; "" where it is not."""
+        """The text in braces after `head`, a regular expression; "" if it is not found."""
         found = re.search(head + r"[^;{}()]*\{", text)
         if not found:
             return ""
@@ -104,14 +104,14 @@ class Sources:
         return ""
 
     def class_body(self, name: str) -> str:
-        """Of a class, and behind it that of its base."""
+        """The body of a class, followed by that of its base."""
         head = rf"\b(?:class|struct)(?: TREEFORM_API)? {name}\b"
         text = self.body(head, self.text) or self.body(head, self.headers)
         base = re.search(rf"\bstruct {name} : tf::(\w+)", self.text)
         return text + (self.class_body(base[1]) if base else "")
 
     def signature(self, name: str, text: str) -> tuple[str, list[tuple[str, str, bool]]]:
-        """What a function of `text` returns and takes."""
+        """The result and the parameters of a function in `text`."""
         found = re.search(rf"((?:const )?[\w:]+(?:<[^;{{}}()]*>)?[ *&]*?)\s{name}(\()", text)
         if not found:
             raise ValueError(f"{name}: the sources of the extension have no such function")
@@ -121,7 +121,7 @@ class Sources:
 class Stub:
     def __init__(self, language: Language, options: dict[str, str],
                  made: list[Function]) -> None:
-        """made: functions that are declared in `python_verbs.py`."""
+        """made: the functions declared in `python_verbs.py`."""
         self.language, self.options, self.made = language, options, made
         self.sources = Sources()
         self.declared = {one.name for one in made}
@@ -139,7 +139,8 @@ class Stub:
     # ---- what is added to the module ----
 
     def _read(self, body: str, variables: dict[str, str]) -> None:
-        """A function that adds to the module. `variables`: names of classes that others made."""
+        """Reads a function that adds to the module. `variables`: names of classes in other
+        functions."""
         for statement in _split(body, ";"):
             statement = statement.strip()
             if found := re.match(r'module\.attr\("(\w+)"\)\s*=.*@(.*)@', statement, re.S):
@@ -172,7 +173,7 @@ class Stub:
                         self._members(one, found[2])
 
     def _template(self, name: str, argument: str, values: str, more: str) -> None:
-        """A function template that adds to the module, for its argument."""
+        """Reads a function template that adds to the module, for a template argument."""
         found = re.search(rf"template <([^>]*)>\n(?:void|auto) {name}\(([^)]*)\) \{{\n(.*?)^\}}",
                           self.sources.text, re.M | re.S)
         if not found:
@@ -197,7 +198,7 @@ class Stub:
     # ---- types ----
 
     def type(self, cpp: str, own: Class | None = None, is_result: bool = False) -> str:
-        """A type of C++ in Python; `own` is the class whose method has it."""
+        """A C++ type in Python; `own` is the class of the method."""
         cpp = re.sub(r"\b(const|tf::|py::|treeform::) ?", "", plain(cpp)).rstrip("&").strip()
         if cpp in self.aliases and cpp not in TYPES:
             return self.type(self.aliases[cpp], own, is_result)
@@ -224,7 +225,7 @@ class Stub:
         return TYPES[cpp]
 
     def _declared(self, one: Member, own: Class | None) -> tuple[str, list[str]]:
-        """What a member returns, and its arguments."""
+        """The result of a member, and its arguments."""
         if found := re.match(r"\[.*?\]\((.*?)\)\s*(?:-> ([\w:<>, ]+?))?\s*\{", one.of, re.S):
             returns = found[2] or "void"
             taken = functions._parameters(found[1])
@@ -242,7 +243,7 @@ class Stub:
                 returns, taken = self.sources.signature(name, self.sources.text)
         opaque = re.sub(r"\b(const|py::) ?", "", returns).rstrip("& ")
         if opaque in OPAQUE and not one.returns:
-            raise ValueError(f"{one.name}: say behind it what it returns: // -> Type")
+            raise ValueError(f"{one.name}: its line needs a comment with its type: // -> Type")
         returns = one.returns or self.type(returns, own, True)
         arguments = ["self"] if own else []
         for type, name, _ in taken[1:] if own else taken:
@@ -266,7 +267,7 @@ class Stub:
         return call_text(f"{indent}def {one.name}(", arguments, f") -> {returns}:{end}")
 
     def _init(self, own: Class, inits: list[Member]) -> str:
-        """Of several constructors, the longest; what the shortest does not have is optional."""
+        """The longest constructor; arguments that the shortest does not have are optional."""
         counts = [len(_split(one.of, ",")) if one.of.strip() else 0 for one in inits]
         body = self.sources.class_body(re.sub(r"<.*", "", own.cpp))
         name = re.sub(r"<.*", "", own.cpp)
@@ -303,7 +304,7 @@ class Stub:
 
 
 def _calls(chain: str) -> list[tuple[str, str, str]]:
-    """The kind, what is in the brackets, and the mark of each call of a chain."""
+    """The name, the arguments and the mark of each call of a chain."""
     made = []
     at = 0
     while found := re.compile(r"\s*\.(\w+)\(").match(chain, at):
@@ -316,7 +317,7 @@ def _calls(chain: str) -> list[tuple[str, str, str]]:
 
 
 def _doc(text: str, indent: int) -> str:
-    """As a docstring, without its example."""
+    """`text` as a docstring, without its example."""
     said = re.sub(r"\n*^>>> .*", "", text, flags=re.M | re.S).replace("\n\n", "\0")
     lines = wrapped(said.replace("\n", " ").replace("\0", "\n\n"), indent, '"""')
     if len(lines) == 1 and len(lines[0]) < 98:

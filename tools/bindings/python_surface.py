@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from python_language import Attribute, Result
 
-#: Words of C++ in sentences, and those of Python.
+#: Phrases of C++ docstrings, and those of Python.
 WORDS = {"columns as `las_header` says": "columns are the fields of its records",
          "what `las_header` says": "what their records hold",
          "each part, as `split_parts` has them": "each part",
@@ -441,16 +441,16 @@ RESULTS = [
                                         "counts_of<tf::mesh_relation>(from.counts)")]}),
 ]
 
-#: Counters as dictionaries, and what is not among them.
+#: Structs of counters that become dictionaries, and the fields that are left out.
 COUNTERS = {"boolean_statistics": "", "repair_statistics": "",
             "weld_statistics": ""}
 
-#: Structs as bytes, for pickle, and the fields that are left out.
+#: Structs that can be pickled, and the fields that are left out.
 STATES = {"io_warning": "", "column": "", "element": "", "part": "", "corner_values": "",
           "attributes": "", "las_record": "", "las_header": "", "value_range": "",
           "mesh_file": "mesh"}
 
-#: Options by name: structs, and the fields that Python gives in another way, or not at all.
+#: Structs of options, and the fields that are left out or passed in another way.
 OPTIONS = {
     "cloud_inputs": "format names", "read_options": "", "write_options": "keep_names",
     "boolean_options": "face_groups", "cut_options": "keep_cuts",

@@ -1,5 +1,4 @@
-"""Writes what `python_language.py` knows: blocks of the package, its stub, and the sources in
-tools/python/src/made."""
+"""Writes the blocks of the package, its stub, and the sources in tools/python/src/made."""
 
 from __future__ import annotations
 
@@ -15,13 +14,13 @@ from python_stub import Stub
 
 PACKAGE = ROOT / "tools/python/treeform"
 MADE = ROOT / "tools/python/src/made"
-#: Modules whose results are in `places.cpp`.
+#: Modules whose results are converted in `places.cpp`.
 PLACES = ("_assembly", "_nearness", "_placement")
 BLOCK = re.compile(r"^# made of (headers|names|uses)[^\n]*:\n"
                    r"((?:#   [^\n]+\n)*).*?^# end\n",
                    re.M | re.S)
 
-#: Where the modules of the package have names from, in this order.
+#: The imports of the modules of the package, in this order.
 USES = {"html": "", "os": "", "re": "", "shutil": "", "tempfile": "",
         "dataclasses": "dataclass", "functools": "partial",
         "typing": "IO Any Iterable List Mapping NamedTuple Sequence Union",
@@ -36,7 +35,7 @@ USES = {"html": "", "os": "", "re": "", "shutil": "", "tempfile": "",
 
 
 def uses(text: str) -> str:
-    """The imports of a module, and what it offers."""
+    """The imports of a module, and its `__all__`."""
     tree = ast.parse(text)
     used = {one.id for one in ast.walk(tree) if isinstance(one, ast.Name)}
     used -= {one.name for one in tree.body if isinstance(one, (ast.ClassDef, ast.FunctionDef))}
@@ -69,7 +68,7 @@ class Writer:
         self.classes = {one.name: one for one in reversed(language.results.values())}
 
     def package_file(self, path: pathlib.Path) -> str:
-        """A file of the package with its blocks made anew."""
+        """A file of the package with its blocks regenerated."""
         text = BLOCK.sub(self._block, path.read_text())
         return re.sub(r"(^# made of uses:\n).*?(?=^# end\n)", lambda m: m[1] + uses(text), text,
                       flags=re.M | re.S)

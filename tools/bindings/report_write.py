@@ -1,5 +1,5 @@
-"""Objects of the reports of the tools that are fields of results: the functions that fill them, in
-tools/shell/made, and their rows in tools/REPORTS.md."""
+"""Generates the functions in tools/shell/made that fill the objects of reports with the fields of
+results, and the rows for these objects in tools/REPORTS.md."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ PAGE = ROOT / "tools/REPORTS.md"
 
 @dataclass(frozen=True)
 class Object:
-    """`name(from)` makes an object of a struct. Keys are the names of fields, or `field=key`."""
+    """`name(from)` is the object for a struct. Keys are the names of fields, or `field=key`."""
 
     name: str
     struct: str
-    fields: str  #: "" for all
-    rows: tuple[str, ...]  #: where the page has it: "repair.steps.join" of "repair.steps.join.gap"
+    fields: str  #: "": all
+    rows: tuple[str, ...]  #: places on the page: "repair.steps.join" for "repair.steps.join.gap"
 
     def keys(self, structs: dict[str, Struct]) -> list[tuple[str, Field]]:
         struct = structs[self.struct]
@@ -86,11 +86,11 @@ class Writer:
         return f"| {keys} | {self.kind(field.type)} | {text} |\n"
 
     def page(self) -> str:
-        """The page with the rows of all objects; they stand where the first of them stood."""
+        """The page with the rows of all objects, at the position of their first row."""
         lines = PAGE.read_text().splitlines(True)
         for one in OBJECTS:
             keys = one.keys(self.structs)
-            # The same object in several sections has its rows in each.
+            # An object in several sections has rows in each of them.
             places: dict[int, list[str]] = {}
             for prefix in one.rows:
                 here = {f"`{prefix}.{key}`" for key, _ in keys}
