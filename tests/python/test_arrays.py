@@ -163,8 +163,8 @@ def test_cells_are_triangles_and_quads():
     (POINTS, [[0, 2**40, 1]], r"faces: 1099511627776 at \(0, 1\)"),
     (POINTS, [3, 0, 1, 2, 3], "faces: 5 numbers are not"),
     (POINTS, [9, 0, 1, 2, 3], "faces: 5 numbers are not"),
-    (POINTS, [3, 0, 1, 2, 5, 0, 1, 2, 3, 0], "faces: face 1 has 5 corners; .* triangulate first"),
-    (POINTS, [2, 0, 1, 3, 0, 1, 2], "faces: face 0 has 2 corners; .* triangulate first"),
+    (POINTS, [3, 0, 1, 2, 5, 0, 1, 2, 3, 0], "faces: face 1 has 5 corners, .* triangulate"),
+    (POINTS, [2, 0, 1, 3, 0, 1, 2], "faces: face 0 has 2 corners, .* triangulate"),
     (POINTS, FACES.astype(bool), "faces: expected integers, not bool"),
 ])
 def test_what_is_no_mesh_is_named(vertices, faces, message):

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Trees over boxes as both languages ask them, and their answers in rows and lists.
+/// Searches in trees of boxes for both languages, with results in rows and lists.
 
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/build.hpp>
@@ -19,7 +19,7 @@
 
 namespace tools {
 
-/// Boxes from the lows to the highs. Which ones make no sense, `build` and `search_all` know.
+/// Boxes with these lower and upper corners. `build` and `search_all` report invalid ones.
 template <std::size_t D>
 std::vector<treeform::aabb<double, D>> boxes_of(std::span<const std::array<double, D>> lows,
                                                 std::span<const std::array<double, D>> highs) {
@@ -35,7 +35,7 @@ struct boxes_and_tree {
     explicit boxes_and_tree(std::vector<box> of)
         : boxes(std::move(of)), tree(treeform::build(boxes, std::identity{})) {}
 
-    /// The boxes that have a point in common with `query`, ascending.
+    /// The boxes that overlap `query`, ascending.
     [[nodiscard]] std::vector<std::uint32_t> overlapping(const box& query) const {
         return treeform::search_all(
             tree, query, [&](std::uint32_t i) { return treeform::overlaps(boxes[i], query); });
@@ -53,7 +53,7 @@ struct boxes_and_tree {
     treeform::tree<D> tree;
 };
 
-/// Appends to [begin, ids] what `list_of(i)` makes in parallel of `begin` to `end`.
+/// Appends the lists `list_of(i)` for i from `begin` to `end` to [begin, ids]. Parallel.
 template <class Id, class Begin, class ListOf>
 void append_lists(std::size_t begin, std::size_t end, std::vector<Begin>& begins,
                   std::vector<Id>& ids, const ListOf& list_of) {
@@ -67,8 +67,8 @@ void append_lists(std::size_t begin, std::size_t end, std::vector<Begin>& begins
     }
 }
 
-/// Rows of k answers from query `begin` on, either of which may be null. Where there are fewer, ids
-/// are `none` and distances infinite; also where `distance_of(neighbor)` is NaN.
+/// Fills rows of k ids and distances, either of which may be null, from query `begin` on. If there
+/// are fewer neighbors, or if `distance_of(neighbor)` is NaN, ids are `none` and distances infinite.
 template <class Id, class Lists, class DistanceOf>
 void fill_rows(const Lists& found, std::size_t begin, std::size_t k, Id* ids, double* distances,
                Id none, const DistanceOf& distance_of) {

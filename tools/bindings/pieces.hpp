@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Work on many elements piece by piece, so that somebody can look in between.
+/// Work on many elements piece by piece, so that progress can be reported in between.
 
 #include <treeform/tree/parallel.hpp>
 
@@ -12,7 +12,7 @@
 
 namespace tools {
 
-/// A message about an element of a piece, with its number in the whole.
+/// A message about an element of a piece, with its number in the whole instead.
 [[nodiscard]] inline std::string numbered_in_whole(const std::string& message, std::size_t begin) {
     const std::size_t at = message.find_first_of("0123456789");
     if (begin == 0 || at == std::string::npos) return message;
@@ -21,14 +21,14 @@ namespace tools {
     return message.substr(0, at) + std::to_string(begin + number) + message.substr(at + digits);
 }
 
-/// Calls `body(begin, end)` for pieces of `count` elements, one after the other, each as large as
-/// takes some hundredths of a second. Answers must not depend on that. `report` is called before
-/// each how much is done.
+/// Calls `body(begin, end)` for pieces of `count` elements, one after the other. A piece takes some
+/// hundredths of a second; results must not depend on its size. `report` is called before each piece
+/// with the completed share.
 ///
-/// Returns false where `report` asked to stop.
+/// Returns false if `report` asked to stop.
 ///
-/// \throws what `body` throws; of std::invalid_argument, the first number is that of an element,
-///         and is made one of the whole
+/// \throws what `body` throws; in the message of std::invalid_argument, the first number is that of
+///         an element, and is replaced by its number in the whole
 template <class Body>
 [[nodiscard]] bool in_pieces(std::size_t count, const treeform::progress_callback& report,
                              const Body& body) {

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Exact booleans, self-intersection check and repair in Blender, by the Python package treeform.
+"""Exact booleans, self-intersection check and repair in Blender, with the Python package treeform.
 
-Blender's coordinates are float32, so results are asked for in float32: what has been checked is
-what is stored. See README.md."""
+Blender's coordinates are float32, so results are requested in float32: the coordinates that are
+verified are those that are stored. See README.md."""
 
 import textwrap
 from contextlib import contextmanager
@@ -13,7 +13,7 @@ from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 try:
     import treeform
-except ImportError:  # said in the panel
+except ImportError:  # the panel says so
     treeform = None
 
 bl_info = {
@@ -26,12 +26,12 @@ bl_info = {
     "category": "Mesh",
 }
 
-NONE = 0xFFFFFFFF  # in place of a number: there is none
-MOST_UV_LAYERS = 8  # that Blender has in a mesh
+NONE = 0xFFFFFFFF  # stands for no element
+MOST_UV_LAYERS = 8  # limit of Blender
 
 
 class Refused(Exception):
-    """What a person is told, a sentence."""
+    """A message for the user, a sentence."""
 
 
 # ---- from Blender ----
