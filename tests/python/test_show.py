@@ -170,7 +170,7 @@ def test_nothing_is_a_white_picture():
 
 
 @pytest.mark.parametrize("look, words", [
-    ({"view": "above"}, "view: expected one of iso, top"), ({"view": []}, "view: 1 to 16"),
+    ({"view": "above"}, "view: expected one of iso, top"), ({"view": []}, "view: expected 1 to 16"),
     ({"size": (0, 9)}, "size: a side has 16 to"), ({"size": (99999, 99)}, "size"),
     ({"names": ["a", "b"]}, "names: 2 of 1 meshes"), ({"colors": ["red"]}, "colors: 'red' is no"),
     ({"marked": [12]}, "marked: there is no face 12 of 12"), ({"marked": [0.5]}, "marked"),
