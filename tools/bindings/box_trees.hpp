@@ -68,7 +68,8 @@ void append_lists(std::size_t begin, std::size_t end, std::vector<Begin>& begins
 }
 
 /// Fills rows of k ids and distances, either of which may be null, from query `begin` on. If there
-/// are fewer neighbors, or if `distance_of(neighbor)` is NaN, ids are `none` and distances infinite.
+/// are fewer neighbors, or if `distance_of(neighbor)` is NaN, ids are `none` and distances
+/// infinite.
 template <class Id, class Lists, class DistanceOf>
 void fill_rows(const Lists& found, std::size_t begin, std::size_t k, Id* ids, double* distances,
                Id none, const DistanceOf& distance_of) {

@@ -22,8 +22,8 @@ namespace tools {
 }
 
 /// Calls `body(begin, end)` for pieces of `count` elements, one after the other. A piece takes some
-/// hundredths of a second; results must not depend on its size. `report` is called before each piece
-/// with the completed share.
+/// hundredths of a second; results must not depend on its size. `report` is called before each
+/// piece with the completed share.
 ///
 /// Returns false if `report` asked to stop.
 ///
