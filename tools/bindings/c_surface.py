@@ -30,9 +30,10 @@ ENUMS = {
     "scalar_type": ("treeform_scalar", {"float32": "SCALAR_FLOAT32", "float64": "SCALAR_FLOAT64"}),
 }
 
-MESSAGE = Member("const char* message", "half a sentence for people",
+MESSAGE = Member("const char* message", "the result in words, without a full stop",
                  "to.message = kept.keep(from.message()).c_str();")
-FILE = Member("const treeform_file* file", "of a file, with its attributes; else null")
+FILE = Member("const treeform_file* file", "for a mesh from a file: the result with its "
+                                           "attributes; otherwise null")
 
 
 BOUND = [
@@ -68,14 +69,15 @@ BOUND = [
     Bound("stream_search_options", leave="step_done"),
     Bound("stream_search_result", leave="bounds header started_anew", custom={
         "part": [
-            Member("treeform_arrays mesh", "only the faces that meet others",
+            Member("treeform_arrays mesh", "only the intersecting faces",
                    "to.mesh = arrays(from.part.mesh);"),
-            Member("const uint32_t* face_in_file", "[F] their numbers in the file",
+            Member("const uint32_t* face_in_file", "[F] for each of these faces, its number in "
+                                                   "the file",
                    "to.face_in_file = faces_in_file(kept, from.part).data();"),
             Member("uint64_t degenerate", "triangles without area",
                    "to.degenerate = from.part.degenerate;"),
-            Member("uint64_t non_finite", "triangles that are not finite",
-                   "to.non_finite = from.part.non_finite;")]}),
+            Member("uint64_t dropped", "triangles with a coordinate that is not finite",
+                   "to.dropped = from.part.dropped;")]}),
     # solids.h
     Bound("boolean_options"),
     Bound("operand_volumes", "volumes", "part"),
@@ -86,7 +88,7 @@ BOUND = [
     Bound("repair_result", custom={"+": [FILE]}),
     Bound("repaired_file", "repair_result", leave="file parts"),
     Bound("solid_defects", custom={"+": [
-        Member("int32_t any", "there is one", "to.any = from.any();"), MESSAGE]}),
+        Member("int32_t any", "whether there is any defect", "to.any = from.any();"), MESSAGE]}),
     # cuts.h
     Bound("section_loop", kind="same"),
     Bound("section_layer", kind="same"),
@@ -109,15 +111,16 @@ BOUND = [
     Bound("measure_options"),
     Bound("mesh_measure", "relation", names={"relation": "how"}, custom={
         f"on_{x}": [
-            Member(f"uint32_t nearest_{x}", f"the face of `{x}` that `on_{x}` is on",
+            Member(f"uint32_t nearest_{x}", f"the face of `{x}` that contains `on_{x}`",
                    f"to.nearest_{x} = from.on_{x}.face;"),
             Member(f"double on_{x}[3]", f"the nearest point on the surface of `{x}`",
                    f"copy(from.on_{x}.point, to.on_{x});"),
-            Member(f"double barycentric_{x}[3]", "of it in that face",
+            Member(f"double barycentric_{x}[3]", "its barycentric coordinates in that face",
                    f"std::copy(from.on_{x}.barycentric.begin(), from.on_{x}.barycentric.end(), "
                    f"to.barycentric_{x});")] for x in "ab"}),
     Bound("deviation_options", custom={"band": [
-        Member("double band_low", "signed distances within tolerance; NaN: no band", "",
+        Member("double band_low", "lowest and highest signed distance within tolerance; NaN: no "
+                                  "band", "",
                "if (!std::isnan(o.band_low) || !std::isnan(o.band_high))"
                " how.band = {o.band_low, o.band_high};", "to.band_low = not_known;"),
         Member("double band_high", "", "", "", "to.band_high = not_known;")]}),
@@ -139,10 +142,12 @@ BOUND = [
           counts={"group_of_point": "point_count", "first_of_group": "group_count"}),
     # streams.h
     Bound("weld_stream_options", leave="las_scale las_offset shared step_done", custom={"+": [
-        Member("const char* format", "of the inputs; null: by content"),
-        Member("const char* removed", "write the dropped points to this file; or null"),
-        Member("const char* label", "write all points, with their group in this property; or null"),
-        Member("int32_t withhold", 'write all points, with the flag "withheld" of LAS'),
+        Member("const char* format", "of the inputs; null: determined by the content"),
+        Member("const char* removed", "a file for the dropped points, or null"),
+        Member("const char* label", "write all points, with the number of their group as a "
+                                    "property of this name; or null"),
+        Member("int32_t withhold", "write all points, and set the LAS flag \"withheld\" for dropped"
+                                   " ones"),
         Member("void (*map)(const uint64_t* numbers, size_t count, void* data)",
                "Called with the new numbers of the next input points, from the first to the last; or "
                "null."),
@@ -151,16 +156,17 @@ BOUND = [
         Member("const treeform_named_column* columns",
                "[column_count] as in `treeform_read_options`"),
         Member("size_t column_count"),
-        Member("int32_t mixed", "join LAS of other reference systems or time types, which are then "
-               "the first's")]}),
-    Bound("weld_stream_result", leave="kept_apart removed label_replaced las_moved", custom={
+        Member("int32_t mixed", "allow LAS files with different coordinate reference systems or "
+                                "time types; the output has those of the first file")]}),
+    Bound("weld_stream_result", leave="left_alone removed label_replaced las_moved", custom={
         "survey": [Member(f"{type} {name}", doc, f"to.{name} = from.survey.{name};")
                    for type, name, doc in (
                        ("uint64_t", "points", ""),
-                       ("double", "tolerance", "as a length"), ("uint64_t", "tiles", ""),
+                       ("double", "tolerance", "the tolerance as a length"),
+                       ("uint64_t", "tiles", ""),
                        ("uint64_t", "finished_tiles", "by an earlier run"))],
         "max_displacement": [Member(
-            "double max_displacement", "the furthest that a point moved",
+            "double max_displacement", "upper bound of how far points moved",
             "to.max_displacement = from.statistics.max_displacement + from.survey.las_moved;")],
         "welded": [Member("const char* format", "of the output",
                           'to.format = from.welded ? from.welded->format.c_str() : "";')],
@@ -192,14 +198,14 @@ BOUND = [
     Bound("align_freedom", "freedom", "same"),
     Bound("align_result", leave="converged", counts={"points": "point_count"},
           custom={"+": [MESSAGE, Member(
-              "size_t undetermined", "how many of `freedoms` nothing holds",
+              "size_t undetermined", "the number of `freedoms` that the data does not determine",
               "to.undetermined = from.undetermined();")]}),
     # assembly.h
     Bound("clash_options"),
     Bound("contact_region", kind="part",
           counts={"faces_a": "face_count_a", "faces_b": "face_count_b"}),
     Bound("part_clash", kind="part", custom={"nearest": [
-        Member("double on_a[3]", "nearest points of those that are too close; else NaN",
+        Member("double on_a[3]", "the nearest points if the parts are too close, otherwise NaN",
                "copy(from.nearest ? (*from.nearest)[0] : nowhere, to.on_a);"),
         Member("double on_b[3]", "",
                "copy(from.nearest ? (*from.nearest)[1] : nowhere, to.on_b);")]}),
@@ -209,14 +215,17 @@ BOUND = [
     Bound("io_warning", "warning", "part"),
     Bound("column", kind="part", leave="role", custom={
         "list_length": [
-            Member("int32_t is_list", "a row has a list of values",
+            Member("int32_t is_list", "each row is a list of values",
                    "to.is_list = from.list_length.has_value();"),
-            Member("int32_t is_stored_elsewhere", "it stands for what points and faces hold",
+            Member("int32_t is_stored_elsewhere", "the values are those of points or faces, and "
+                                                  "stored there",
                    "to.is_stored_elsewhere = from.role != tf::column_role::data;")],
         "values": [Member("const void* values", "[value_count] of the type",
                           "to.values = from.values.data();"),
                    Member("size_t value_count", "", "to.value_count = from.size();")],
-        "list_begin": [Member("const uint64_t* list_begin", "[rows + 1] of lists; else null",
+        "list_begin": [Member("const uint64_t* list_begin", "[rows + 1] where the list of each "
+                                                            "row begins; null if there are no "
+                                                            "lists",
                               "if (from.list_length) to.list_begin = from.list_begin.data();")]}),
     Bound("element", "rows", "part"),
     Bound("part", "named_faces", "part"),
@@ -230,10 +239,11 @@ BOUND = [
                        "from.las->scale.end(), to.las_scale);"),
                 Member("double las_offset[3]", "", "if (from.las) std::copy(from.las->offset.begin()"
                        ", from.las->offset.end(), to.las_offset);")]}),
-    Bound("read_options", custom={"+": [Member("const char* format", "null: by content")]}),
+    Bound("read_options", custom={"+": [Member("const char* format", "null: determined by the "
+                                                                     "content")]}),
     Bound("write_options", leave="keep_names round", custom={"+": [Member(
         "int32_t certified",
-        "the coordinates are certified: fail rather than round them. For `treeform_write_mesh`")]}),
+        "the coordinates are certified: fail instead of rounding them. For `treeform_write_mesh`")]}),
     Bound("write_result", "written"),
     Bound("part_options"),
     Bound("usable_mesh", "part", leave="distinct stored_face", custom={
@@ -242,21 +252,21 @@ BOUND = [
                      "to.face_in_file = faces_in_file(kept, from).data();")],
         "triangle_of_face": [Member(
             "const uint32_t* triangle_of_face",
-            "[F] the file's triangle that each face is; null: its number",
+            "[F] for each face, the number of its triangle in the file; null: the same number",
             "to.triangle_of_face = or_null(from.triangle_of_face);")],
         "component": [Member("const uint32_t* component",
-                             "[F] with `details`: the component; else null",
+                             "[F] with `details`: the component of each face; otherwise null",
                              "to.component = or_null(from.component);")]}),
     Bound("urdf_joint", "robot_joint", "part", leave="origin axis mimics mimic_line", custom={
-        "limits": [Member("double lower", "the limits; NaN for none",
+        "limits": [Member("double lower", "the limits; NaN: unlimited",
                           "to.lower = from.limits ? (*from.limits)[0] : not_known;"),
                    Member("double upper", "",
                           "to.upper = from.limits ? (*from.limits)[1] : not_known;")]}),
     Bound("urdf_mesh", "robot_mesh", "part", custom={
-        "file": [Member("const char* file", '"" where it was made',
+        "file": [Member("const char* file", "\"\" if it was generated",
                         "to.file = kept.keep(from.file.string()).c_str();")],
         "shape": [
-            Member("const double* points", "[point_count][3] as made",
+            Member("const double* points", "[point_count][3] of generated meshes",
                    "to.points = flat(from.shape.points);"),
             Member("size_t point_count", "", "to.point_count = from.shape.points.size();"),
             Member("const uint32_t* faces", "[face_count][3]",
@@ -265,7 +275,8 @@ BOUND = [
     Bound("urdf_robot", "robot_view", leave="approximated skipped", counts={"links": "link_count"},
           custom={"+": [
               Member("const uint32_t* adjacent",
-                     "[adjacent_count][2] pairs of links that need not be compared",
+                     "[adjacent_count][2] pairs of links that are connected by a joint, and "
+                     "always touch",
                      "const auto& adjacent = kept.keep(from.adjacent()); "
                      "to.adjacent = flat(adjacent);"),
               Member("size_t adjacent_count", "", "to.adjacent_count = adjacent.size();")]}),
@@ -278,5 +289,5 @@ LISTS = [
     List("intersection_region", "regions", "regions", "Regions, in the order of their lowest faces."),
     List("uint32_t", "indices", "values", "A list of numbers."),
     List("double", "heights", "heights", "Numbers."),
-    List("string", "strings", "values", "A list of words."),
+    List("string", "strings", "values", "A list of strings."),
 ]

@@ -88,7 +88,7 @@ typedef struct treeform_part_clash {
     int32_t a_inside_b;          ///< as in `treeform_measure`
     int32_t b_inside_a;          ///< the same with `a` and `b` swapped
     double distance;             ///< distance of the surfaces; 0 if they meet
-    double on_a[3];              ///< nearest points of those that are too close; else NaN
+    double on_a[3];              ///< the nearest points if the parts are too close, otherwise NaN
     double on_b[3];
     uint64_t face_pairs;                     ///< that meet
     const treeform_contact_region* regions;  ///< [region_count] by their lowest faces

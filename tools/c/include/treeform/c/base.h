@@ -182,7 +182,7 @@ typedef struct treeform_indices {
     size_t count;
 } treeform_indices;
 
-/// A list of words.
+/// A list of strings.
 typedef struct treeform_strings {
     void* owner;
     const char* const* values;  ///< [count]
@@ -222,7 +222,7 @@ enum {
 typedef struct treeform_certificate {
     void* owner;
     treeform_status status;
-    const char* message;  ///< half a sentence for people
+    const char* message;  ///< the result in words, without a full stop
     /// Number of pairs of faces that meet where they should not. A face paired with itself is
     /// degenerate, or has the outside behind it. `meeting` lists the first 100.
     uint64_t meeting_count;

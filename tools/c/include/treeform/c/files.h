@@ -30,7 +30,7 @@ TREEFORM_C_API treeform_code treeform_read_mesh(const char* path, treeform_mesh*
 /// How to read.
 typedef struct treeform_read_options {
     size_t size;
-    const char* format;  ///< null: by content
+    const char* format;  ///< null: determined by the content
     /// [column_count] Of XYZ, PTS and CSV: names for columns, each with what the heading calls the
     /// column, or its number, from 1: {"x", "easting"}. Those for x, y and z are the coordinates.
     const treeform_named_column* columns;
@@ -75,11 +75,13 @@ enum {
 typedef struct treeform_column {
     const char* name;
     treeform_scalar type;
-    int32_t is_list;              ///< a row has a list of values
-    int32_t is_stored_elsewhere;  ///< it stands for what points and faces hold
-    const void* values;           ///< [value_count] of the type
+    int32_t is_list;  ///< each row is a list of values
+    /// the values are those of points or faces, and stored there
+    int32_t is_stored_elsewhere;
+    const void* values;  ///< [value_count] of the type
     size_t value_count;
-    const uint64_t* list_begin;  ///< [rows + 1] of lists; else null
+    /// [rows + 1] where the list of each row begins; null if there are no lists
+    const uint64_t* list_begin;
 } treeform_column;
 
 /// A kind of row in a file, such as vertices, with its properties in the order of the file.
@@ -226,7 +228,7 @@ typedef struct treeform_write_options {
     /// hold float32. 3MF holds doubles, but most of its readers convert to float, so none means
     /// float32 there; a `treeform_precision`, or -1
     int32_t precision;
-    /// the coordinates are certified: fail rather than round them. For `treeform_write_mesh`
+    /// the coordinates are certified: fail instead of rounding them. For `treeform_write_mesh`
     int32_t certified;
     /// Called with 0 at the start and during the writing, and with 1 before the file is renamed.
     /// If it returns false, nothing is written, and an existing file is unchanged.
@@ -288,13 +290,14 @@ TREEFORM_C_API treeform_code treeform_write_memory(const treeform_file* file,
 typedef struct treeform_part {
     void* owner;
     treeform_arrays mesh;
-    /// [F] the file's triangle that each face is; null: its number
+    /// [F] for each face, the number of its triangle in the file; null: the same number
     const uint32_t* triangle_of_face;
     const uint32_t* face_in_file;  ///< [F] the number in the file, counting polygons
-    const uint32_t* component;     ///< [F] with `details`: the component; else null
-    uint64_t degenerate;           ///< likewise: triangles that are a segment or a point
-    uint64_t joined;               ///< likewise: points merged by tolerance
-    uint64_t non_finite;           ///< triangles with a coordinate that is not finite
+    /// [F] with `details`: the component of each face; otherwise null
+    const uint32_t* component;
+    uint64_t dropped;     ///< triangles with a coordinate that is not finite
+    uint64_t degenerate;  ///< likewise: triangles that are a segment or a point
+    uint64_t joined;      ///< likewise: points merged by tolerance
 } treeform_part;
 
 /// Which part of a mesh.
@@ -375,9 +378,9 @@ TREEFORM_C_API treeform_code treeform_read_urdf(const char* path,
 /// A mesh of a link, from a file or a shape; `place` maps its points to the link's frame.
 typedef struct treeform_robot_mesh {
     uint32_t link;
-    const char* file;      ///< "" where it was made
+    const char* file;      ///< "" if it was generated
     double place[12];      ///< the origin, and the scale of the mesh
-    const double* points;  ///< [point_count][3] as made
+    const double* points;  ///< [point_count][3] of generated meshes
     size_t point_count;
     const uint32_t* faces;  ///< [face_count][3]
     size_t face_count;
@@ -390,7 +393,7 @@ typedef struct treeform_robot_joint {
     int32_t kind;
     uint32_t parent;  ///< numbers of links
     uint32_t child;
-    double lower;  ///< the limits; NaN for none
+    double lower;  ///< the limits; NaN: unlimited
     double upper;
 } treeform_robot_joint;
 
@@ -405,7 +408,7 @@ typedef struct treeform_robot_view {
     size_t joint_count;
     const treeform_robot_mesh* meshes;  ///< [mesh_count] by links
     size_t mesh_count;
-    /// [adjacent_count][2] pairs of links that need not be compared
+    /// [adjacent_count][2] pairs of links that are connected by a joint, and always touch
     const uint32_t* adjacent;
     size_t adjacent_count;
 } treeform_robot_view;

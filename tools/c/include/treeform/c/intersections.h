@@ -215,8 +215,9 @@ TREEFORM_C_API void treeform_stream_search_options_init(treeform_stream_search_o
 /// What was found in the file.
 typedef struct treeform_stream_search_result {
     void* owner;
-    treeform_arrays mesh;          ///< only the faces that meet others
-    const uint32_t* face_in_file;  ///< [F] their numbers in the file
+    treeform_arrays mesh;  ///< only the intersecting faces
+    /// [F] for each of these faces, its number in the file
+    const uint32_t* face_in_file;
     /// Pairs of faces of `treeform_named_faces`. Its counters are sums over the tiles.
     const treeform_pairs* found;
     uint64_t stored_faces;  ///< faces of the file
@@ -224,6 +225,7 @@ typedef struct treeform_stream_search_result {
     uint64_t searched;      ///< finite triangles that meet the box
     uint64_t points;        ///< points of the file; for STL three for each face
     uint64_t degenerate;    ///< triangles without area
+    uint64_t dropped;       ///< triangles with a coordinate that is not finite
     size_t tiles;
     size_t finished_tiles;  ///< tiles finished by an earlier run
     uint64_t non_finite;    ///< triangles that are not finite

@@ -154,12 +154,12 @@ typedef struct treeform_relation {
     /// Exactly 0 if and only if a face of one meets a face of the other. So it is positive for a
     /// mesh inside a solid whose surface it does not touch.
     double surface_distance;
-    uint32_t nearest_a;       ///< the face of `a` that `on_a` is on
-    uint32_t nearest_b;       ///< the face of `b` that `on_b` is on
+    uint32_t nearest_a;       ///< the face of `a` that contains `on_a`
+    uint32_t nearest_b;       ///< the face of `b` that contains `on_b`
     double on_a[3];           ///< the nearest point on the surface of `a`
     double on_b[3];           ///< the nearest point on the surface of `b`
-    double barycentric_a[3];  ///< of it in that face
-    double barycentric_b[3];  ///< of it in that face
+    double barycentric_a[3];  ///< its barycentric coordinates in that face
+    double barycentric_b[3];  ///< its barycentric coordinates in that face
 } treeform_relation;
 
 /// How to look. What an operation has no use for, it ignores.
@@ -220,7 +220,8 @@ TREEFORM_C_API treeform_code treeform_count_sides(const double* points, size_t p
 /// What to compute besides distances.
 typedef struct treeform_deviation_options {
     size_t size;
-    double band_low;  ///< signed distances within tolerance; NaN: no band
+    /// lowest and highest signed distance within tolerance; NaN: no band
+    double band_low;
     double band_high;
     uint64_t bins;  ///< of the histogram; 0: none; default 40
     /// also compute distances of the points of `b` from `a`; default 1

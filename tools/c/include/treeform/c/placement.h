@@ -65,7 +65,7 @@ typedef struct treeform_placement {
     /// `not_certified` (not_representable), `out_of_range` or `cancelled`. It lists no faces.
     const treeform_certificate* certificate;
     treeform_placement_end end;
-    const char* message;   ///< half a sentence for people
+    const char* message;   ///< the result in words, without a full stop
     const double* points;  ///< [V] at the place, as they are to be written
     size_t point_count;
     /// new = M * old: a translation; of `treeform_turn` and `treeform_mate_features` a turn, too.

@@ -278,8 +278,9 @@ typedef struct treeform_repair_result {
     /// (`resolve_options::touching`).
     const treeform_certificate* certificate;
     const treeform_repair_statistics* statistics;
-    const treeform_file* file;  ///< of a file, with its attributes; else null
-    const uint8_t* is_left;     ///< [F] 1 where something is left of an input face
+    /// for a mesh from a file: the result with its attributes; otherwise null
+    const treeform_file* file;
+    const uint8_t* is_left;  ///< [F] 1 where something is left of an input face
 } treeform_repair_result;
 
 /// `mesh` without self-intersections. Look at the certificate: it says whether this was possible.
@@ -372,8 +373,8 @@ TREEFORM_C_API treeform_code treeform_repair_file(const treeform_file* file,
 /// The defects that keep a mesh from being a solid. Points with equal coordinates are one.
 typedef struct treeform_solid_defects {
     void* owner;
-    int32_t any;                    ///< there is one
-    const char* message;            ///< half a sentence for people
+    int32_t any;                    ///< whether there is any defect
+    const char* message;            ///< the result in words, without a full stop
     uint64_t nonfinite_vertices;    ///< with a NaN or infinite coordinate, used or not
     uint64_t unusable_faces;        ///< with an invalid corner; not counted below
     int32_t without_faces;          ///< there are points, but no usable face

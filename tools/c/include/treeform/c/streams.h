@@ -25,11 +25,12 @@ typedef struct treeform_weld_stream_options {
     uint64_t memory;           ///< bytes that the process may take; 0: `treeform_default_memory`
     const char* folder;        ///< for the tiles; empty: the input's name and ".tiles"
     uint64_t points_per_tile;  ///< at most about this many; 0: as the memory allows
-    const char* format;        ///< of the inputs; null: by content
-    const char* removed;       ///< write the dropped points to this file; or null
-    /// write all points, with their group in this property; or null
+    const char* format;        ///< of the inputs; null: determined by the content
+    const char* removed;       ///< a file for the dropped points, or null
+    /// write all points, with the number of their group as a property of this name; or null
     const char* label;
-    int32_t withhold;  ///< write all points, with the flag "withheld" of LAS
+    /// write all points, and set the LAS flag "withheld" for dropped ones
+    int32_t withhold;
     /// Called with the new numbers of the next input points, from the first to the last; or null.
     void (*map)(const uint64_t* numbers, size_t count, void* data);
     void* map_data;
@@ -45,7 +46,8 @@ typedef struct treeform_weld_stream_options {
     /// [column_count] as in `treeform_read_options`
     const treeform_named_column* columns;
     size_t column_count;
-    /// join LAS of other reference systems or time types, which are then the first's
+    /// allow LAS files with different coordinate reference systems or time types; the output has
+    /// those of the first file
     int32_t mixed;
 } treeform_weld_stream_options;
 /// Sets the defaults.
@@ -61,10 +63,10 @@ typedef struct treeform_weld_stream_result {
     uint64_t points;
     /// points with a NaN or infinite coordinate, left as they are
     uint64_t non_finite;
-    double tolerance;         ///< as a length
+    double tolerance;         ///< the tolerance as a length
     uint64_t kept;            ///< points
     uint64_t groups;          ///< groups of two points or more
-    double max_displacement;  ///< the furthest that a point moved
+    double max_displacement;  ///< upper bound of how far points moved
     uint64_t tiles;
     uint64_t finished_tiles;  ///< by an earlier run
     const char* format;       ///< of the output
