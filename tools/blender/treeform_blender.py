@@ -44,7 +44,7 @@ def column(rows, name, width=1, kind=np.float32):
 
 
 class Triangles:
-    """The triangles of a mesh, the polygons that they are parts of, and what goes with them."""
+    """The triangles of a mesh, with their polygons and attributes."""
 
     def __init__(self, mesh, move=None):
         """move: (4, 4) float64, applied to the vertices."""
@@ -74,7 +74,7 @@ class Triangles:
 
 
 def triangles_as_seen(context, object, move=None):
-    """Those of an object with its modifiers and shape keys."""
+    """The triangles of an object, with its modifiers and shape keys applied."""
     evaluated = object.evaluated_get(context.evaluated_depsgraph_get())
     try:
         return Triangles(evaluated.to_mesh(), move)
@@ -85,7 +85,8 @@ def triangles_as_seen(context, object, move=None):
 
 
 def matrix_between(object, active):
-    """From the space of `object` to that of `active`, in double precision; None: the same space."""
+    """The transform from the space of `object` to that of `active`, in double precision; None if they
+    are the same."""
     here, there = (np.array(one.matrix_world, np.float64) for one in (object, active))
     if np.array_equal(here, there):
         return None
@@ -102,8 +103,8 @@ def materials_of(object):
 # ---- what results keep of their operands ----
 
 def weights_in_source(corners, triangle):
-    """(n, 3, 3): of each corner of faces (n, 3, 3), the barycentric weights in the triangles (n, 3,
-    3) that the faces lie in."""
+    """(n, 3, 3) for each corner of faces (n, 3, 3), its barycentric coordinates in the triangles
+    (n, 3, 3) that contain the faces."""
     u, v = (triangle[:, None, k] - triangle[:, None, 0] for k in (1, 2))
     w = corners - triangle[:, None, 0]
     normal = np.cross(u, v)
@@ -116,7 +117,7 @@ def weights_in_source(corners, triangle):
 
 
 def whole_polygons(operand, source, faces, same):
-    """Polygons that a result has as they were.
+    """Polygons that are unchanged in a result.
 
     source (n,): the triangle that each of `faces` lies in; same (n, 3, 3): which of its corners is
     which of that one. Returns the polygons, whether they are turned over, and the vertex of the
@@ -137,7 +138,7 @@ def whole_polygons(operand, source, faces, same):
 
 
 class Faces:
-    """Faces of a result, with what they keep of their operands."""
+    """Faces of a result, with the attributes from their operands."""
 
     def __init__(self, mesh, face_source, vertex_source, operands):
         """face_source, vertex_source: (n, 2), an operand and its face or vertex. Faces without a
@@ -178,7 +179,7 @@ class Faces:
         return np.repeat(operand.start[polygons], total) + place
 
     def add_lost(self, faces):
-        """Those that lie in no face of an operand."""
+        """Adds faces that are not in a face of an operand."""
         zeros = np.zeros(len(faces))
         for values, more in ((self.corners, faces.ravel()), (self.totals, zeros + 3),
                              (self.operand, zeros), (self.polygon, zeros - 1),
@@ -188,7 +189,7 @@ class Faces:
             values.append(np.zeros((faces.size, 2)))
 
     def add(self, k, operand, polygons, corners, totals, uvs_of):
-        """Those that lie in these polygons."""
+        """Adds faces that are in these polygons."""
         for values, more in ((self.corners, corners), (self.totals, totals),
                              (self.operand, np.full(len(polygons), k)), (self.polygon, polygons),
                              (self.material, operand.material[polygons]),
@@ -199,8 +200,8 @@ class Faces:
             values.append(np.zeros((len(corners), 2)) if uv is None else uvs_of(uv))
 
     def give_slots(self, slots_of_operands):
-        """Renumbers materials by the slots of the first operand, and those that others bring along.
-        Returns them all."""
+        """Renumbers materials by the slots of the first operand, followed by those of the others.
+        Returns all materials."""
         all_slots = list(slots_of_operands[0])
         for k, slots in enumerate(slots_of_operands):
             rows = self.operand == k
@@ -220,7 +221,7 @@ def changeable(object):
 
 
 def own_mesh(object):
-    """The mesh of the object, its own, without shape keys and modifiers."""
+    """The mesh of the object, made single-user, without shape keys and modifiers."""
     if object.data.users > 1:
         object.data = object.data.copy()
     if object.data.shape_keys:
@@ -230,7 +231,7 @@ def own_mesh(object):
 
 
 def fill(data, vertices, faces):
-    """Gives a mesh new vertices and faces."""
+    """Replaces the vertices and faces of a mesh."""
     data.clear_geometry()
     data.vertices.add(len(vertices))
     data.loops.add(len(faces.corners))
@@ -290,7 +291,7 @@ def store(object, made, sources, operands, slots):
 
 
 def select_faces(mesh, polygons):
-    """Selects these polygons, their edges and vertices, and nothing else."""
+    """Selects only these polygons, with their edges and vertices."""
     chosen = np.zeros(len(mesh.polygons), bool)
     chosen[polygons] = True
     loop_chosen = np.repeat(chosen, column(mesh.polygons, "loop_total", 1, np.int32))
@@ -305,7 +306,7 @@ def select_faces(mesh, polygons):
 # ---- what the operators do ----
 
 def combine(context, operation, active, others, progress=None):
-    """The certified result of a set operation, in the space of `active`; it is stored there."""
+    """Performs a set operation, and stores its certified result in `active`, in its space."""
     changeable(active)
     objects = [active, *others]
     operands = [triangles_as_seen(context, one, matrix_between(one, active)) for one in objects]
@@ -322,7 +323,7 @@ def combine(context, operation, active, others, progress=None):
 
 
 def find_pairs(mesh, progress=None):
-    """Pairs of polygons of a mesh that meet, (n, 2), ascending, each once; and how, (n,)."""
+    """(n, 2) the pairs of intersecting polygons of a mesh, ascending, and (n,) their kinds."""
     triangles = Triangles(mesh)
     found = treeform.self_intersections(triangles.arrays(), progress=progress)
     pairs = np.sort(triangles.polygon[found.pairs].reshape(-1, 2), axis=1)
@@ -332,7 +333,7 @@ def find_pairs(mesh, progress=None):
 
 
 def mend(context, object, sheet=False, progress=None):
-    """Repairs an object; None where nothing was to be done."""
+    """Repairs an object; None if there was nothing to do."""
     changeable(object)
     before = triangles_as_seen(context, object)
     mixes = bool(before.uvs) or len(set(zip(before.material, before.smooth))) > 1
@@ -350,7 +351,7 @@ def mend(context, object, sheet=False, progress=None):
 
 @contextmanager
 def progress_shown(context, part=0, parts=1):
-    """A function for `progress=` that shows the share at the pointer; of a part of all the work."""
+    """A callback for `progress=` in part `part` of `parts`, which shows the share at the pointer."""
     manager = context.window_manager
     manager.progress_begin(0, 100)
     try:
@@ -385,7 +386,7 @@ class Operator(bpy.types.Operator):
         return {"CANCELLED"}
 
     def say(self, context, sentence, level="INFO"):
-        """In the status line, and in the panel."""
+        """Shows a message in the status line and in the panel."""
         sentence = sentence[0].upper() + sentence[1:] + "."
         context.window_manager.treeform_said = sentence
         self.report({level}, sentence)
@@ -458,7 +459,7 @@ class TREEFORM_OT_check(Operator):
 
     @staticmethod
     def look_at(context, part, object, parts):
-        """What is said of an object; its faces that meet become the selected ones."""
+        """The message about an object, whose intersecting faces are selected."""
         with progress_shown(context, part, parts) as progress:
             try:
                 pairs, kinds = find_pairs(object.data, progress)
