@@ -85,8 +85,8 @@ def triangles_as_seen(context, object, move=None):
 
 
 def matrix_between(object, active):
-    """The transform from the space of `object` to that of `active`, in double precision; None if they
-    are the same."""
+    """The transform from the space of `object` to that of `active`, in double precision; None if
+    they are the same."""
     here, there = (np.array(one.matrix_world, np.float64) for one in (object, active))
     if np.array_equal(here, there):
         return None
@@ -351,7 +351,7 @@ def mend(context, object, sheet=False, progress=None):
 
 @contextmanager
 def progress_shown(context, part=0, parts=1):
-    """A callback for `progress=` in part `part` of `parts`, which shows the share at the pointer."""
+    """A callback for `progress=` in `part` of `parts`, which shows the share at the pointer."""
     manager = context.window_manager
     manager.progress_begin(0, 100)
     try:
