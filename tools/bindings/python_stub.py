@@ -269,8 +269,8 @@ class Stub:
     def _init(self, own: Class, inits: list[Member]) -> str:
         """The longest constructor; arguments that the shortest does not have are optional."""
         counts = [len(_split(one.of, ",")) if one.of.strip() else 0 for one in inits]
-        body = self.sources.class_body(re.sub(r"<.*", "", own.cpp))
-        name = re.sub(r"<.*", "", own.cpp)
+        name = re.sub(r"<.*", "", own.cpp).removeprefix("tf::")
+        body = self.sources.class_body(name)
         taken: list[tuple[str, str, bool]] = []
         for found in re.finditer(rf"(?<!~)\b{name}\(", body):
             some = functions._parameters(functions._inside(body, found.end()))

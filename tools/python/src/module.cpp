@@ -46,18 +46,6 @@ void translate(std::exception_ptr thrown) {
     }
 }
 
-/// Limits the number of threads of loops while it is entered.
-class threads {
-  public:
-    explicit threads(unsigned most) : most_(most) {}
-    void enter() { scope_ = std::make_unique<tf::thread_scope>(most_); }
-    void exit() { scope_.reset(); }
-
-  private:
-    unsigned most_;
-    std::unique_ptr<tf::thread_scope> scope_;
-};
-
 void add_meshes(py::module_& module) {
     py::class_<held_mesh>(module, "HeldMesh", "A mesh or cloud in the arrays of Python.")
         .def(py::init<points_array, faces_array, bool>())
@@ -70,10 +58,7 @@ void add_meshes(py::module_& module) {
         .def_property_readonly("indexes_built", [](const held_mesh& m) -> std::size_t {
             return m.prepared().indexes_built();
         });
-    py::class_<threads>(module, "Threads")
-        .def(py::init<unsigned>())
-        .def("enter", &threads::enter)
-        .def("exit", &threads::exit);
+    py::class_<tf::thread_scope>(module, "Threads").def(py::init<unsigned>());
     module.def("thread_count", &tf::thread_count);
     module.def("version", &tf::version_string);
     module.def("end", &end);

@@ -59,15 +59,9 @@ def _pairs(pairs: PartPairs) -> Ids:
 
 
 def _at(body: _core.HeldMesh, pose: Floats) -> _core.HeldMesh:
-    """A transformed body, rounded once. A reflection also flips its faces."""
-    x, y, z = body.vertices.T[:, :, None]
-    points = np.ascontiguousarray(x * pose[:3, 0] + y * pose[:3, 1] + z * pose[:3, 2] + pose[:3, 3])
-    if body.is_cloud:
-        return _core.HeldMesh(points)
-    faces = body.faces
-    if np.linalg.det(pose[:3, :3]) < 0:
-        faces = np.ascontiguousarray(faces[:, [0, 2, 1]])
-    return _core.HeldMesh(points, faces, True)
+    """A transformed body."""
+    moved = _core.transformed(body, pose)
+    return _core.HeldMesh(moved.vertices) if body.is_cloud else held(moved)
 
 
 def _held(parts: Iterable[Body]) -> list[_core.HeldMesh]:

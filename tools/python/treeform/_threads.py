@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from types import TracebackType
-
 from . import _arrays, _core
 
 __all__ = ["thread_count", "threads"]
@@ -20,15 +18,15 @@ class threads:
     """
 
     def __init__(self, most: int) -> None:
-        self._scope = _core.Threads(_arrays.whole(most, "most"))
+        self._most = _arrays.whole(most, "most")
+        self._scope: _core.Threads | None = None
 
     def __enter__(self) -> threads:
-        self._scope.enter()
+        self._scope = _core.Threads(self._most)
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None,
-                 trace: TracebackType | None) -> None:
-        self._scope.exit()
+    def __exit__(self, *_: object) -> None:
+        self._scope = None  # its destructor restores the limit
 
 
 def thread_count() -> int:
