@@ -216,7 +216,7 @@ class Booleans(Case):
         self.refused("Not closed, 4 open edges: sheet. Close", union, a, b)
         b.data.vertices[2].co.x = float("nan")
         select(a, b)
-        self.refused(f"{b.name}: vertex 2 is not at a finite place", union, a)
+        self.refused(f"{b.name}: vertex 2 has a coordinate that is not finite", union, a)
         with tempfile.TemporaryDirectory() as folder:
             bpy.data.libraries.write(f"{folder}/other.blend", {a})
             with bpy.data.libraries.load(f"{folder}/other.blend", link=True) as (_, linked):
@@ -227,7 +227,7 @@ class Booleans(Case):
         select(a, b)
         a.scale.x = 0
         bpy.context.view_layer.update()
-        self.refused(f"{a.name} is scaled to nothing", union, a)
+        self.refused(f"{a.name} has a scale of zero", union, a)
         bpy.ops.object.mode_set(mode="EDIT")
         self.assertFalse(union.poll())
 
@@ -420,7 +420,8 @@ class Checks(Case):
     def test_what_is_refused(self):
         a = add()
         a.data.vertices[3].co.y = float("nan")
-        self.refused(f"{a.name}: vertex 3 is not at a finite place", bpy.ops.object.treeform_check,
+        self.refused(f"{a.name}: vertex 3 has a coordinate that is not finite",
+                     bpy.ops.object.treeform_check,
                      a)
 
 

@@ -16,7 +16,7 @@ WORDS = {"columns as `las_header` says": "columns are the fields of its records"
              "Of the coordinates returned; 'float32' for STL and GLB.",
          "above `plane`": "above a plane", "`relation`": "`measure`", "`subtract`": "`difference`",
          "`point_count`": "the number of vertices", "a prepared mesh": "a `Mesh`",
-         "meshes that are not prepared": "what is no `Mesh`",
+         "meshes that are not prepared": "objects other than a `Mesh`",
          "Prepared meshes keep": "A `Mesh` keeps", "Of prepared meshes": "Of a `Mesh`",
          "`unite`": "`union`", "`transform_mesh`": "`transformed`",
          "`find_oriented_box`": "`oriented_box`", "`find_mass_properties`": "`mass_properties`",

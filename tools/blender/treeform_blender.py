@@ -59,7 +59,7 @@ class Triangles:
         if self.mirrored:  # still counter-clockwise from outside
             self.faces, self.loops = self.faces[:, ::-1].copy(), self.loops[:, ::-1].copy()
         if not (finite := np.isfinite(self.vertices).all(axis=1)).all():
-            raise Refused(f"vertex {finite.argmin()} is not at a finite place")
+            raise Refused(f"vertex {finite.argmin()} has a coordinate that is not finite")
         self.polygon = column(triangles, "polygon_index", 1, np.int32)
         self.loop_count = len(mesh.loops)
         self.start = column(polygons, "loop_start", 1, np.int32)
@@ -93,7 +93,7 @@ def matrix_between(object, active):
     try:
         return np.linalg.inv(there) @ here
     except np.linalg.LinAlgError:
-        raise Refused(f"{active.name} is scaled to nothing") from None
+        raise Refused(f"{active.name} has a scale of zero") from None
 
 
 def materials_of(object):
@@ -170,8 +170,8 @@ class Faces:
 
     @staticmethod
     def loops_of(operand, polygons, turned):
-        """Loops of polygons; those of the turned ones backward, from the same one on, so that
-        Blender cuts quads by the same diagonal."""
+        """The loops of polygons. Those of flipped ones are reversed and begin with the same loop,
+        so that Blender cuts quads along the same diagonal."""
         total = operand.total[polygons]
         place = np.arange(total.sum()) - np.repeat(np.cumsum(total) - total, total)
         size = np.repeat(total, total)
@@ -257,8 +257,8 @@ def edge_and_corner(triangles, vertices):
 
 
 def are_missing(some, triangles, vertices):
-    """(n,) whether each of some triangles is none of `triangles`, of which only one has an edge in
-    the same direction."""
+    """(n,) for each of some triangles, whether it is not among `triangles`, in which each directed
+    edge occurs only once."""
     edges, corners = edge_and_corner(triangles, vertices)
     order = np.argsort(edges)
     wanted, corner = edge_and_corner(some, vertices)
@@ -267,9 +267,9 @@ def are_missing(some, triangles, vertices):
 
 
 def store(object, made, sources, operands, slots):
-    """Makes the mesh of `made` that of the object, in place of what it has and of its modifiers.
+    """Replaces the mesh of the object by that of `made`, and removes its modifiers.
 
-    Polygons that are whole stay, if Blender cuts them into the triangles that were checked."""
+    Unchanged polygons are kept if Blender cuts them into the triangles that were verified."""
     data = own_mesh(object)
     layer = data.uv_layers.active.name if data.uv_layers.active else ""
     while True:
@@ -366,7 +366,7 @@ class Operator(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         if treeform is None:
-            cls.poll_message_set("The Python package treeform is not where Blender's Python looks")
+            cls.poll_message_set("Blender's Python does not find the package treeform")
             return False
         if context.mode not in cls.modes:
             cls.poll_message_set("Leave this mode first")

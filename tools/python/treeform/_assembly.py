@@ -128,8 +128,8 @@ def clashes_in_poses(parts: Iterable[Body], poses: ArrayLike, how: _core.ClashOp
 def intersects(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
                move_b: ArrayLike | None = None, progress: Progress = None) -> Any:
     """Whether a face of `a` and a face of `b` have a common point; touching counts. Exact. Returns
-    as soon as one pair is found. Of what is no `Mesh`, only faces that reach, as moved, into the
-    intersection of both bounding boxes are indexed.
+    as soon as one pair is found. Of objects other than a `Mesh`, only faces that reach, as moved,
+    into the intersection of both bounding boxes are indexed.
 
     move_a: an affine transform of `a`, (4, 4), or several, (n, 4, 4). With several, the result is
         an array (n,).

@@ -197,8 +197,8 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = N
     Exact on the coordinates as given, or as moved. The kinds are crossing, overlap, touching and
     degenerate: two meshes share no corners, so faces that meet in equal corners are `touching`, and
     equal faces `overlap`. Surfaces count, not solids: a mesh inside the other that does not touch
-    it gives no pair. `a` and `b` may be the same mesh. Of what is no `Mesh`, only faces that reach,
-    as moved, into the intersection of both bounding boxes are indexed.
+    it gives no pair. `a` and `b` may be the same mesh. Of objects other than a `Mesh`, only faces
+    that reach, as moved, into the intersection of both bounding boxes are indexed.
 
     move_a: (4, 4) an affine transform applied to `a` first.
     move_b: (4, 4) an affine transform applied to `b` first.

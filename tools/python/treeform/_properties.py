@@ -1,4 +1,4 @@
-"""What is known of a mesh."""
+"""Properties and defects of meshes."""
 
 from __future__ import annotations
 
