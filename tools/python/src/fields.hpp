@@ -29,6 +29,13 @@ template <class T>
 requires requires(const T& to) { converter(to); }
 void take(const char* name, py::handle value, T& to) {
     if (std::is_integral_v<T> && !std::is_same_v<T, bool> && value.is_none()) return;
+    if constexpr (std::is_arithmetic_v<T>) {  // usually of the right type: no call of Python
+        py::detail::make_caster<T> direct;
+        if (direct.load(value, false)) {
+            to = direct;
+            return;
+        }
+    }
     const py::object package = py::module_::import("treeform._arrays");
     try {
         to = package.attr(converter(to))(value, name).template cast<T>();
