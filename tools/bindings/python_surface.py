@@ -13,7 +13,8 @@ WORDS = {"columns as `las_header` says": "columns are the fields of its records"
          "Of `file.attributes`, each": "Of `Attributes`, each", "`mesh_file::": "`Attributes.",
          "`attributes::": "`Attributes.",
          "Precision of the coordinates returned. float32 values are stored as doubles.":
-             "Of the coordinates returned; 'float32' for STL and GLB.",
+             "Precision of the returned coordinates; use 'float32' for STL and GLB.",
+         "of the points returned": "Precision of the returned points",
          "above `plane`": "above a plane", "`relation`": "`measure`", "`subtract`": "`difference`",
          "`point_count`": "the number of vertices", "a prepared mesh": "a `Mesh`",
          "meshes that are not prepared": "objects other than a `Mesh`",

@@ -23,6 +23,7 @@ _PIECE = f"mesh.prepared(), {_ALL_RAYS}.piece(begin, end)"
 _MESHES = {"meshes": "each argument is a mesh or a list of meshes."}
 _VOLUMES = {"volumes": "compute the volumes of the two operands, of their union and of their "
                        "intersection."}
+_INSIDE = {"inside": "'nonzero', 'odd' or 'positive': the winding numbers that count as inside."}
 _WELD = {
     "same": "vertex properties that must agree for points to be merged, each with the largest "
             "difference allowed.",
@@ -63,7 +64,7 @@ _FIXED = "a fixed body, or a list of them."
 def _operation(name: str, what: str, leave: str = "gap",
                docs: dict[str, str] = {}) -> Function:  # noqa: B006
     return Function(f"{name}(*meshes: Operands, options: boolean_options) -> BooleanResult",
-                    doc=what, leave=leave, docs=_MESHES | _VOLUMES | docs, cpp="boolean",
+                    doc=what, leave=leave, docs=_MESHES | _VOLUMES | _INSIDE | docs, cpp="boolean",
                     check="solids",
                     body=f'combined("{name}", meshes, how, progress)')
 
@@ -123,7 +124,7 @@ FUNCTIONS = [
                   "The value is 0 or NaN if an operand does not have the attribute. Coplanar "
                   "faces are merged only if their values are equal, and if vertices have values, "
                   "only with `simplify`.",
-             docs=_VOLUMES | {
+             docs=_VOLUMES | _INSIDE | {
                    "expression": "a formula of `operands`, named `a`, `b`, `c`, ..., and of "
                                  "`meshes` by their names: `+` or `|` for union, `*` or `&` for "
                                  "intersection, `-` for difference, `^` for exclusive or, and "
@@ -137,7 +138,8 @@ FUNCTIONS = [
                  "parts of `sheet` outside all of them, or inside all of them. The sheet may have"
                  " any border, may intersect itself, and may even be closed. The result is an "
                  "open surface, so its edges are not checked.",
-             docs={"keep": "'outside' or 'inside'. Parts on the surface of a solid count as "
+             docs=_INSIDE | {
+                   "keep": "'outside' or 'inside'. Parts on the surface of a solid count as "
                            "inside it. So for one solid, the two results together are the whole "
                            "sheet."}),
     Function("boolean_of(meshes: Meshes, operation: str, formula: str, names: Words, "
@@ -236,7 +238,8 @@ FUNCTIONS = [
              "options: resolve_options) -> RepairResult",
              "tf::resolve_self_intersections($mesh, $mode, options)", "attributes of mesh",
              check="solid",
-             docs={"mode": "'outer' cuts faces along their intersections and keeps those that "
+             docs=_INSIDE | {
+                   "mode": "'outer' cuts faces along their intersections and keeps those that "
                            "bound the solid; 'split' keeps all pieces; 'remove', for surfaces "
                            "that do not bound a solid, deletes intersecting faces and fills the "
                            "holes."}),

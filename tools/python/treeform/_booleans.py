@@ -94,8 +94,9 @@ def union(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float6
     a single mesh is the solid that it encloses, without self-intersections. See `boolean`.
 
     meshes: each argument is a mesh or a list of meshes.
-    inside: 'nonzero', 'odd' or 'positive'. What is solid.
-    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    inside: 'nonzero', 'odd' or 'positive': the winding numbers that count as inside.
+    precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
+        and GLB.
     max_displacement: Where rounding makes faces meet, only points at most this far apart are
         joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
         coordinate. Not negative.
@@ -141,8 +142,9 @@ def intersection(*meshes: MeshesLike, inside: str = "nonzero", precision: str = 
     a file with several objects, these are the operands, as in `difference`. See `boolean`.
 
     meshes: each argument is a mesh or a list of meshes.
-    inside: 'nonzero', 'odd' or 'positive'. What is solid.
-    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    inside: 'nonzero', 'odd' or 'positive': the winding numbers that count as inside.
+    precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
+        and GLB.
     max_displacement: Where rounding makes faces meet, only points at most this far apart are
         joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
         coordinate. Not negative.
@@ -185,8 +187,9 @@ def difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "f
     is subtracted. See `boolean`.
 
     meshes: each argument is a mesh or a list of meshes.
-    inside: 'nonzero', 'odd' or 'positive'. What is solid.
-    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    inside: 'nonzero', 'odd' or 'positive': the winding numbers that count as inside.
+    precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
+        and GLB.
     max_displacement: Where rounding makes faces meet, only points at most this far apart are
         joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
         coordinate. Not negative.
@@ -228,8 +231,9 @@ def symmetric_difference(*meshes: MeshesLike, inside: str = "nonzero", precision
     `difference`. See `boolean`.
 
     meshes: each argument is a mesh or a list of meshes.
-    inside: 'nonzero', 'odd' or 'positive'. What is solid.
-    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    inside: 'nonzero', 'odd' or 'positive': the winding numbers that count as inside.
+    precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
+        and GLB.
     max_displacement: Where rounding makes faces meet, only points at most this far apart are
         joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
         coordinate. Not negative.
@@ -287,8 +291,9 @@ def boolean(expression: str, *operands: MeshesLike, inside: str = "nonzero",
     expression: a formula of `operands`, named `a`, `b`, `c`, ..., and of `meshes` by their names:
         `+` or `|` for union, `*` or `&` for intersection, `-` for difference, `^` for exclusive or,
         and parentheses. `*` and `&` are evaluated first, the others from left to right.
-    inside: 'nonzero', 'odd' or 'positive'. What is solid.
-    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    inside: 'nonzero', 'odd' or 'positive': the winding numbers that count as inside.
+    precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
+        and GLB.
     max_displacement: Where rounding makes faces meet, only points at most this far apart are
         joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
         coordinate. Not negative.
@@ -330,8 +335,9 @@ def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", inside: st
 
     keep: 'outside' or 'inside'. Parts on the surface of a solid count as inside it. So for one
         solid, the two results together are the whole sheet.
-    inside: 'nonzero', 'odd' or 'positive'. What is solid.
-    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    inside: 'nonzero', 'odd' or 'positive': the winding numbers that count as inside.
+    precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
+        and GLB.
     max_displacement: Where rounding makes faces meet, only points at most this far apart are
         joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
         coordinate. Not negative.
@@ -364,7 +370,8 @@ def split(*meshes: MeshesLike, precision: str = "float64", max_displacement: flo
     the lowest of them. Coplanar pieces are not merged.
 
     meshes: each argument is a mesh or a list of meshes.
-    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
+        and GLB.
     max_displacement: Where rounding makes faces meet, only points at most this far apart are
         joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
         coordinate. Not negative.

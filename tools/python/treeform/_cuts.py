@@ -249,7 +249,8 @@ def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0)
     at: (3,) a point on the plane.
     heights: (K,) the distances of K parallel planes from this plane, measured along its unit
         normal. None: this plane only.
-    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
+        and GLB.
     max_displacement: As in `boolean`.
     caps: Close pieces by caps. If false, the mesh is cut as a surface, which may be open, and
         pieces are open at the planes.
@@ -281,7 +282,8 @@ def cut_to_fit(mesh: MeshLike, size: ArrayLike, *, precision: str = "float64",
     before.
 
     size: (3,) the size of the box, such as the build volume of a printer.
-    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
+        and GLB.
     max_displacement: As in `boolean`.
     caps: Close pieces by caps. If false, the mesh is cut as a surface, which may be open, and
         pieces are open at the planes.

@@ -176,7 +176,7 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
     direction: (3,) the direction of motion, of any length.
     clearance: The gap to leave, a distance; 0: until contact.
     max_travel: A length; whatever is further along is ignored.
-    precision: 'float32' or 'float64'. Of the points returned.
+    precision: 'float32' or 'float64'. Precision of the returned points.
     bed: z of a bed, which also stops the mesh: points resting on the bed have exactly this z (for
         float32, the smallest value not below it), and no point is below it.
 
@@ -235,7 +235,7 @@ def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float |
     onto: a fixed body, or a list of them.
     clearance: The gap to leave, a distance; 0: until contact.
     max_travel: A length; whatever is further along is ignored.
-    precision: 'float32' or 'float64'. Of the points returned.
+    precision: 'float32' or 'float64'. Precision of the returned points.
 
     Raises ValueError as `slide`.
 
@@ -265,7 +265,7 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
     fixed: a fixed body, or a list of them.
     clearance: The gap to leave, a distance; 0: until contact.
     max_travel: A length; whatever is further along is ignored.
-    precision: 'float32' or 'float64'. Of the points returned.
+    precision: 'float32' or 'float64'. Precision of the returned points.
     effort: limit for the number of pairs of faces that the search examines, where a pair in motion
         counts as two; 0: 20 million, plus 200 for each face. Distance computations for a clearance
         are not counted.
@@ -315,7 +315,7 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
     max_angle: the largest rotation, in degrees; greater than 0 and at most 360.
     tolerance: the largest gap, beyond the clearance, that counts as contact; greater than 0. None:
         2^-32 of the largest distance of a point from the axis.
-    precision: 'float32' or 'float64'. Of the points returned.
+    precision: 'float32' or 'float64'. Precision of the returned points.
 
     Raises ValueError as `slide`; for an axis that is zero or not finite, an angle out of range, or
     a tolerance that is not positive.
@@ -354,7 +354,7 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
     max_travel: A length; whatever is further along is ignored.
     flip: make the normals of the planes point in the same direction instead of in opposite
         directions; for axes, reverse the direction.
-    precision: 'float32' or 'float64'. Of the points returned.
+    precision: 'float32' or 'float64'. Precision of the returned points.
 
     Raises ValueError as `slide`; for features of different kinds, with a direction that is not of
     length 1, or with an origin that is not finite.
@@ -439,7 +439,7 @@ def lay_flat(mesh: MeshLike, *, normal: ArrayLike | None = None, point: ArrayLik
         rounded falls into many exactly coplanar sides; about 1e-6 of the size joins them.
     bed: Z of the bed.
     overhang_angle: In degrees from the vertical, 0 to 90.
-    precision: 'float32' or 'float64'. Of the points returned.
+    precision: 'float32' or 'float64'. Precision of the returned points.
 
     Raises ValueError naming a point that is not finite or a face with a corner out of range; for a
     zero `normal`; for several choices of a side; for options that are not finite, a negative
@@ -558,7 +558,7 @@ def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False
         small ones first, with aligned centers. The best end is returned; of equal ends the first.
     samples: Use at most this many moving points in the steps, spread evenly over space; 0 is all.
     start: (4, 4) Applied to the moving points first: any affine map.
-    precision: 'float32' or 'float64'. Of the points returned.
+    precision: 'float32' or 'float64'. Precision of the returned points.
 
     Raises ValueError naming a point that is not finite or a face with a corner out of range; for an
     option out of its range; OverflowError if the matrix, a rounded point, or a squared distance
@@ -664,7 +664,7 @@ def pack(parts: Iterable[Body], size: ArrayLike, *, corner: ArrayLike = (0.0, 0.
     tries: Largest number of tries; at least 1.
     seconds: Start no more tries after this many seconds. If that ends the search, the result
         depends on the speed of the machine.
-    precision: 'float32' or 'float64'. Of the points returned.
+    precision: 'float32' or 'float64'. Precision of the returned points.
 
     Raises ValueError naming the part with a corner out of range or not finite; for options that are
     negative, NaN, or (except for the height and the seconds) not finite.

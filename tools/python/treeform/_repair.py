@@ -113,8 +113,9 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
     mode: 'outer' cuts faces along their intersections and keeps those that bound the solid; 'split'
         keeps all pieces; 'remove', for surfaces that do not bound a solid, deletes intersecting
         faces and fills the holes.
-    inside: 'nonzero', 'odd' or 'positive'. For `outer`: what is solid.
-    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    inside: 'nonzero', 'odd' or 'positive': the winding numbers that count as inside.
+    precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
+        and GLB.
     max_displacement: For `split` and `outer`: as in `boolean`.
     keep_cuts: For `outer`: as in `boolean`; `split` keeps all cuts.
     touching: For `remove`: delete faces that only touch, too; else they stay.
@@ -179,7 +180,8 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
         were holes, of the area. Faces that are still there or hidden in the solid are not lost. 1
         allows any loss.
     sheet: The mesh is an open surface: keep its border, and fill nothing.
-    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
+        and GLB.
     max_displacement: As in `boolean`.
     keep_cuts: as in `boolean`; faces that fill holes are only merged with each other.
     check: if False, also return results that could not be certified; see their `certificate`.

@@ -111,7 +111,8 @@ def offset(mesh: MeshLike, distance: float, *, resolution: float | None = None,
         None: a quarter of the distance, at most 1/64 of the diagonal of the result; larger, up to
         half of the distance, if there would be more than about 2^16 cells at the surface (170,000
         faces). `OffsetResult` has the value used, and the error.
-    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
+        and GLB.
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotSolidError if the mesh is open, NotCertifiedError if the result could not be
@@ -150,7 +151,8 @@ def hollow(mesh: MeshLike, wall: float, *, drains: ArrayLike = (), resolution: f
         None: a quarter of the distance, at most 1/64 of the diagonal of the result; larger, up to
         half of the distance, if there would be more than about 2^16 cells at the surface (170,000
         faces). `OffsetResult` has the value used, and the error.
-    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
+        and GLB.
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotSolidError if the mesh is open, NotCertifiedError if the result could not be
@@ -188,7 +190,8 @@ def thicken(mesh: MeshLike, thickness: float, *, resolution: float | None = None
     shift: move the surface by this distance before thickening: toward its front if positive, toward
         its back if negative. By default, half of the thickness is added on each side; with half of
         the thickness as `shift`, all of it is added on the front.
-    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
+        and GLB.
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotSolidError if the mesh is open, NotCertifiedError if the result could not be
@@ -222,7 +225,8 @@ def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision:
 
     offset: `wrap`: how far the vertices of the wrap are from the mesh, in its length unit. None: a
         thirtieth of the size.
-    precision: 'float32' or 'float64'. Of the coordinates returned; 'float32' for STL and GLB.
+    precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
+        and GLB.
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotCertifiedError if the result could not be certified; ValueError naming a face with a
@@ -298,8 +302,8 @@ def simplify(mesh: MeshLike, max_distance: float, *, face_groups: ArrayLike | No
     materials or values, are preserved.
 
     face_groups: (F,) a group number for each face; borders between groups are preserved, too.
-    precision: 'float32' or 'float64'. Precision of the points returned. With float32, all points
-        are rounded first, and the bounds include this; values are stored as doubles.
+    precision: 'float32' or 'float64'. Precision Precision of the returned points. With float32, all
+        points are rounded first, and the bounds include this; values are stored as doubles.
     target_faces: Stop at this number of faces.
     feature_angle: Edges are features if the normals of their faces differ by more than this, in
         degrees; 180: none.
