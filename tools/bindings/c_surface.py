@@ -76,8 +76,8 @@ BOUND = [
                    "to.face_in_file = faces_in_file(kept, from.part).data();"),
             Member("uint64_t degenerate", "triangles without area",
                    "to.degenerate = from.part.degenerate;"),
-            Member("uint64_t dropped", "triangles with a coordinate that is not finite",
-                   "to.dropped = from.part.dropped;")]}),
+            Member("uint64_t non_finite", "triangles with a coordinate that is not finite",
+                   "to.non_finite = from.part.non_finite;")]}),
     # solids.h
     Bound("boolean_options"),
     Bound("operand_volumes", "volumes", "part"),
@@ -158,7 +158,7 @@ BOUND = [
         Member("size_t column_count"),
         Member("int32_t mixed", "allow LAS files with different coordinate reference systems or "
                                 "time types; the output has those of the first file")]}),
-    Bound("weld_stream_result", leave="left_alone removed label_replaced las_moved", custom={
+    Bound("weld_stream_result", leave="kept_apart removed label_replaced las_moved", custom={
         "survey": [Member(f"{type} {name}", doc, f"to.{name} = from.survey.{name};")
                    for type, name, doc in (
                        ("uint64_t", "points", ""),

@@ -204,8 +204,8 @@ RESULTS = [
                                              "file.",
                              "mesh_object(std::move(from.part.mesh), py::none(), "
                              "py::none())"),
-                   Attribute("dropped", "int", "Number of triangles skipped because a coordinate "
-                                               "is not finite.", "py::cast(from.part.dropped)")],
+                   Attribute("non_finite", "int", "Number of triangles skipped because a coordinate "
+                                               "is not finite.", "py::cast(from.part.non_finite)")],
                "found": [
                    column("pairs", "", "", "found.pairs", "std::array{one.a, one.b}"),
                    column("kinds", "", "", "found.pairs", "one.kind"),
@@ -270,7 +270,7 @@ RESULTS = [
                                       "mesh_object(std::move(from.mesh), py::none(), "
                                       "with_attributes(data, std::move(from.attributes)))")]}),
     Result("weld_stream_result", "WeldStreamResult", "_weld", doc="The result of `weld_stream`.",
-           leave="welded removed label_replaced las_moved still_within",
+           leave="welded removed label_replaced las_moved mergeable",
            custom={"survey": [
                Attribute("points", "int", "Number of input points.",
                          "py::cast(from.survey.points)"),

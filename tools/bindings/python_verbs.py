@@ -88,7 +88,7 @@ def _placed(signature: str, call: str, own: str = "", **more: dict[str, str]) ->
 
 FUNCTIONS = [
     # _booleans
-    _operation("union", "union", "The union of solids: `union(a, b, ...)`, or `union([a, b, "
+    _operation("union", "The union of solids: `union(a, b, ...)`, or `union([a, b, "
                                  "...])` as in trimesh. The union of a single mesh is the solid "
                                  "that it encloses, without self-intersections. See `boolean`.",
                "", {
@@ -97,11 +97,11 @@ FUNCTIONS = [
                           "`face_source` is the face at the end of the gap, or the one opposite. "
                           "`filled_faces` of `statistics` counts the faces at filled gaps. Not "
                           "together with `volumes`."}),
-    _operation("intersection", "intersection", "The intersection of solids: the region that all "
+    _operation("intersection", "The intersection of solids: the region that all "
                                                "of them share. If a single mesh was read from a "
                                                "file with several objects, these are the "
                                                "operands, as in `difference`. See `boolean`."),
-    _operation("difference", "difference", "The first solid minus all others: `difference(a, b, "
+    _operation("difference", "The first solid minus all others: `difference(a, b, "
                                            "c)`, or `difference(a, [b, c])`. If a single mesh was"
                                            " read from a file with several objects "
                                            "(`attributes.parts`), the other objects are "
@@ -110,7 +110,7 @@ FUNCTIONS = [
                                            "number of the object and the number within it. From a"
                                            " single mesh without such objects, nothing is "
                                            "subtracted. See `boolean`."),
-    _operation("symmetric_difference", "xor", "The symmetric difference (exclusive or) of solids:"
+    _operation("symmetric_difference", "The symmetric difference (exclusive or) of solids:"
                                               " the region inside an odd number of them. If a "
                                               "single mesh was read from a file with several "
                                               "objects, these are the operands, as in "
@@ -356,7 +356,8 @@ FUNCTIONS = [
                    "columns": "for XYZ, PTS and CSV, which column of the file to use for which "
                               "property: {'x': 'E', 'y': 'N', 'z': 'H'}; columns can also be "
                               "given by number, from 1.",
-                   "drop_nan": "drop points with a NaN or infinite coordinate, and their faces."}),
+                   "drop_non_finite": "drop points with a NaN or infinite coordinate, and their "
+                                      "faces."}),
     Function("write(path: Path | IO[bytes], mesh: PartsLike, options: write_options(format))"
              " -> Written", body="written(path, mesh, format, how, progress)",
              words={"file": "mesh"},

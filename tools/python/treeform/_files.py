@@ -165,7 +165,7 @@ def read(path: Path | IO[bytes], format: str = "", *, join: bool = True,
         their numbers in the file; in other formats, so do vertices.
     columns: for XYZ, PTS and CSV, which column of the file to use for which property: {'x': 'E',
         'y': 'N', 'z': 'H'}; columns can also be given by number, from 1.
-    drop_nan: drop points with a NaN or infinite coordinate, and their faces.
+    drop_non_finite: drop points with a NaN or infinite coordinate, and their faces.
 
     Raises FileError naming path, line or byte, and reason.
 

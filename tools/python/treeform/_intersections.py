@@ -66,8 +66,8 @@ class FilePairs(FacePairs):
     mesh: Only the intersecting faces, in the order of the file.
     face_in_file: (F,) for each face of `mesh`, its number in the file.
     stored_faces: Faces of the file.
-    dropped: Number of triangles skipped because a coordinate is not finite.
     tiles: Number of tiles that space was divided into.
+    non_finite: Number of triangles skipped because a coordinate is not finite.
     """
 
     mesh: Mesh

@@ -71,7 +71,7 @@ class Placement(MeshResult):
         are moved by it and rounded once, except for those that are set on the bed.
     end: Why it ended there: 'contact', 'bed', 'unchanged', 'moved_apart', 'nothing_met', 'too_far',
         'starts_penetrating', 'starts_too_near', 'starts_touching', 'starts_below_bed',
-        'no_coordinates', 'too_many_steps', 'out_of_range'.
+        'not_representable', 'too_many_steps', 'out_of_range'.
     message: Why no position was found, in words; otherwise empty.
     direction: (3,) unit direction of the travel; 0 if there is none.
     travel: A length; for `too_far` the length needed.

@@ -24,7 +24,7 @@ class Communicator(Protocol):
     @property
     def size(self) -> int: ...
 
-    def allgather(self, told: Any, /) -> list[Any]:
+    def allgather(self, sent: Any, /) -> list[Any]:
         """The messages of all processes, in the order of their ranks."""
         ...
 

@@ -295,9 +295,9 @@ typedef struct treeform_part {
     const uint32_t* face_in_file;  ///< [F] the number in the file, counting polygons
     /// [F] with `details`: the component of each face; otherwise null
     const uint32_t* component;
-    uint64_t dropped;     ///< triangles with a coordinate that is not finite
     uint64_t degenerate;  ///< likewise: triangles that are a segment or a point
     uint64_t joined;      ///< likewise: points merged by tolerance
+    uint64_t non_finite;  ///< triangles with a coordinate that is not finite
 } treeform_part;
 
 /// Which part of a mesh.

@@ -225,11 +225,10 @@ typedef struct treeform_stream_search_result {
     uint64_t searched;      ///< finite triangles that meet the box
     uint64_t points;        ///< points of the file; for STL three for each face
     uint64_t degenerate;    ///< triangles without area
-    uint64_t dropped;       ///< triangles with a coordinate that is not finite
     size_t tiles;
     size_t finished_tiles;  ///< tiles finished by an earlier run
-    uint64_t non_finite;    ///< triangles that are not finite
-} treeform_stream_search_result;
+    uint64_t non_finite;    ///< triangles with a coordinate that is not finite
+} treeform_search_result;
 
 /// The pairs that `treeform_self_intersections` finds in the usable part of a file, for files
 /// larger than memory: binary STL, and PLY with vertices before faces. Space is cut into tiles.

@@ -98,10 +98,10 @@ typedef struct treeform_weld_result {
     double max_displacement;
     uint64_t nonmanifold_before;  ///< edges of more than two faces
     uint64_t nonmanifold_after;
-    uint64_t flipped;     ///< kept faces whose normal turned by more than a right angle
-    uint64_t left_alone;  ///< groups that `keep_manifold` did not merge completely
+    uint64_t flipped;  ///< kept faces whose normal turned by more than a right angle
     /// for a mesh from a file: the result with its attributes; otherwise null
     const treeform_file* file;
+    uint64_t kept_apart;  ///< groups that `keep_manifold` did not merge completely
 } treeform_weld_result;
 
 /// The mesh or cloud with the points merged that are within the tolerance of each other: exact.
