@@ -41,7 +41,7 @@ PARAMETERS = {
 }
 
 #: The C++ types of the handles of C.
-HANDLES = {"mesh_file": "file", "urdf_robot": "robot", "shared_search": "search",
+HANDLES = {"mesh_file": "file", "urdf_robot": "robot", "shared_search": "shared_search",
            "shared_weld": "shared_weld", "point_reader": "point_reader",
            "point_writer": "point_writer", "point_tree": "point_tree", "box_tree": "box_tree",
            "thread_scope": "thread_limit"}

@@ -329,7 +329,7 @@ FUNCTIONS = [
                              "If a run was interrupted, the same call resumes it.",
                    "communicator": "processes that share the work, as for `weld_stream`. Rank 0 "
                                    "gets the result, all others an empty one."}),
-    Function("StreamSearch(path: Path, options: stream_search_options) -> None",
+    Function("SharedSearch(path: Path, options: stream_search_options) -> None",
              steps="SearchInSteps",
              doc=_IN_STEPS.format("self_intersections_of_file", "search_tile", "searched"),
              also="The folder is locked until `close`, the end of a `with` block, or the end of "
@@ -429,7 +429,7 @@ FUNCTIONS = [
                                  "`mpi4py.MPI.COMM_WORLD`. All processes make the same call. If "
                                  "one fails or is interrupted, all others raise an error at their"
                                  " next collective call."}),
-    Function("StreamWeld(files: Path | Iterable[Path], options: weld_stream_options(tolerance), "
+    Function("SharedWeld(files: Path | Iterable[Path], options: weld_stream_options(tolerance), "
              "columns: Columns = None, mixed: bool = False) -> None", steps="WeldInSteps",
              doc=_IN_STEPS.format("weld_stream", "weld_tile", "welded"),
              also="The folder is locked until `close`, the end of a `with` block, or the end of "

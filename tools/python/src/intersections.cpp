@@ -35,23 +35,23 @@ py::object self_intersections_of_file(const std::filesystem::path& path,
     }));
 }
 
-struct shared_search : tf::shared_search {
+struct search_steps : tf::shared_search {
     using tf::shared_search::shared_search;
     /// The number of tiles.
     [[nodiscard]] std::size_t scatter() {
-        return shared_search::scatter() == tf::status::ok ? tiles() : 0;
+        return tf::shared_search::scatter() == tf::status::ok ? tiles() : 0;
     }
     [[nodiscard]] tf::status do_tile(std::size_t tile) { return search_tile(tile); }
 };
 
-using search_in_steps = work_in_steps<shared_search>;
+using search_in_steps = work_in_steps<search_steps>;
 
 std::unique_ptr<search_in_steps> search_of(const std::filesystem::path& path,
                                            tf::stream_search_options options) {
     return run([&](const tf::progress_callback&) {
         return std::make_unique<search_in_steps>([&](const step_progress& progress) {
             options.progress = std::ref(progress);
-            return shared_search(path, options);
+            return search_steps(path, options);
         });
     });
 }
@@ -62,8 +62,8 @@ void add_intersections(py::module_& module) {
     module.attr("KINDS") = py::cast(kind_words);  // -> list[str]
     add_job(module, "self_intersections_of_file", &self_intersections_of_file,
             job_kind::long_work);  // -> FilePairs
-    add_steps<shared_search>(module, "SearchInSteps", &shared_search::finish)
-        .def("unfinished", step_of<shared_search>(&shared_search::unfinished));
+    add_steps<search_steps>(module, "SearchInSteps", &search_steps::finish)
+        .def("unfinished", step_of<search_steps>(&search_steps::unfinished));
     add_job(module, "search_of", &search_of, job_kind::long_work);
 }
 

@@ -38,7 +38,7 @@ py::object weld_stream(const tf::cloud_inputs& inputs, tf::weld_stream_options o
 
 // ---- step by step, by many processes ----
 
-struct shared_weld {
+struct weld_steps {
     tf::shared_weld work;
     bool looked = false;
 
@@ -71,7 +71,7 @@ struct shared_weld {
     }
 };
 
-using weld_in_steps = work_in_steps<shared_weld>;
+using weld_in_steps = work_in_steps<weld_steps>;
 
 std::unique_ptr<weld_in_steps> weld_of(const tf::cloud_inputs& inputs,
                                        tf::weld_stream_options options) {
@@ -79,7 +79,7 @@ std::unique_ptr<weld_in_steps> weld_of(const tf::cloud_inputs& inputs,
     return run([&](const tf::progress_callback&) {
         return std::make_unique<weld_in_steps>([&](const step_progress& progress) {
             options.progress = std::ref(progress);
-            return shared_weld{tf::shared_weld(inputs, options)};
+            return weld_steps{tf::shared_weld(inputs, options)};
         });
     });
 }
@@ -88,7 +88,7 @@ std::unique_ptr<weld_in_steps> weld_of(const tf::cloud_inputs& inputs,
 
 void add_streams(py::module_& module) {
     add_job(module, "weld_stream", &weld_stream, job_kind::writes);  // -> WeldStreamResult
-    add_steps<shared_weld>(module, "WeldInSteps", &shared_weld::finish);
+    add_steps<weld_steps>(module, "WeldInSteps", &weld_steps::finish);
     add_job(module, "weld_of", &weld_of, job_kind::long_work);
 }
 

@@ -228,7 +228,7 @@ typedef struct treeform_stream_search_result {
     size_t tiles;
     size_t finished_tiles;  ///< tiles finished by an earlier run
     uint64_t non_finite;    ///< triangles with a coordinate that is not finite
-} treeform_search_result;
+} treeform_stream_search_result;
 
 /// The pairs that `treeform_self_intersections` finds in the usable part of a file, for files
 /// larger than memory: binary STL, and PLY with vertices before faces. Space is cut into tiles.
