@@ -5,31 +5,34 @@ from __future__ import annotations
 
 from python_language import Attribute, Result
 
-#: Phrases of C++ docstrings, and those of Python.
-WORDS = {"columns as `las_header` says": "columns are the fields of its records",
-         "what `las_header` says": "what their records hold",
-         "each part, as `split_parts` has them": "each part",
-         " (`libmesh/attributes/known_columns.cpp` is the table)": "",
-         "Of `file.attributes`, each": "Of `Attributes`, each", "`mesh_file::": "`Attributes.",
+#: Words of C++ in sentences, and those of Python.
+WORDS = {"columns as in `las_header`": "columns are the fields of its records",
+         "the dimensions listed at `las_header`": "the fields of their records",
+         "each part (`split_parts`)": "each part",
+         " (table in `libmesh/attributes/known_columns.cpp`)": "",
+         "what it can of `file.attributes`": "what it can of `Attributes`",
+         "`mesh_file::": "`Attributes.",
          "`attributes::": "`Attributes.",
          "Precision of the coordinates returned. float32 values are stored as doubles.":
              "Precision of the returned coordinates; use 'float32' for STL and GLB.",
          "of the points returned": "Precision of the returned points",
          "above `plane`": "above a plane", "`relation`": "`measure`", "`subtract`": "`difference`",
          "`point_count`": "the number of vertices", "a prepared mesh": "a `Mesh`",
-         "meshes that are not prepared": "objects other than a `Mesh`",
-         "Prepared meshes keep": "A `Mesh` keeps", "Of prepared meshes": "Of a `Mesh`",
+         "meshes that are not prepared": "meshes that are not a `Mesh`",
+         "Prepared meshes cache tight bounds of their surfaces":
+             "A `Mesh` caches tight bounds of its surface",
+         "for prepared meshes": "for a `Mesh`",
          "`unite`": "`union`", "`transform_mesh`": "`transformed`",
          "`find_oriented_box`": "`oriented_box`", "`find_mass_properties`": "`mass_properties`",
          "`signed_volume`": "`Mesh.volume`", "`surface_area`": "`Mesh.area`",
          "`boolean_statistics`": "`BooleanResult.statistics`",
          "bounding_box": "Mesh.bounds", "`written_as`": "`precision`"}
 
-MESSAGE = Attribute("message", "str", "The result in words, without a full stop.",
+MESSAGE = Attribute("message", "str", "The outcome as a clause for people, without a full stop.",
                     "py::cast(from.message())")
 MESH_OF_PLACE = Attribute(
     "mesh", "Mesh",
-    "The moved mesh, in checked coordinates; unmoved if no position was found.",
+    "The moved mesh, in the checked coordinates; the unmoved mesh if there is no place.",
     "moved_mesh(std::move(from.points), moving, from.matrix, "
     "from.certificate ? certificate : py::none())")
 
@@ -43,103 +46,97 @@ def column(name: str, annotation: str, doc: str, rows: str, value: str) -> Attri
 RESULTS = [
     # _results
     Result("certificate", "Certificate", "_results", leave="meeting_at",
-           doc="What was verified about the coordinates of a result, with exact predicates. True "
-               "if the result has all properties that the operation guarantees.",
+           doc="The outcome of checking the coordinates of a result with exact predicates. True if "
+               "all guarantees of the operation hold.",
            custom={
                "status": [Attribute("status", "str", "'ok', or why the result is not certified.",
                                     "py::cast(word_of(from.status))")],
-               "meeting": [column("meeting", "Ids", "(n, 2) the first 100 of these pairs.",
+               "meeting": [column("meeting", "Ids", "(n, 2) the first 100 pairs of faces that "
+                                                    "meet.",
                                   "meeting", "one")],
                "open_edges": [
                    Attribute("open_edges", "Floats", "(n, 2, 3) the ends of the first 100 of these "
                              "edges.", "ends_of(from.open_edges)")],
                "open_faces": [
-                   column("open_faces", "Ids", "(n, 2) the operand and the face at each of these "
+                   column("open_faces", "Ids", "(n, 2) the operand and its face at each of these "
                                                "edges.",
                           "open_faces", "std::array{one.operand, one.index}")],
                "+": [MESSAGE]},
-           docs={"boundary_edges": "Open edges with an odd number of faces.",
-                 "misoriented_edges": "Open edges between faces that are oriented inconsistently.",
-                 "meeting_count": "Number of pairs of faces that intersect although they should "
-                                  "not.",
-                 "open_count": "Number of edges where the surface is not closed: the faces on "
-                               "both sides do not cancel out.",
-                 "size_after": "The volume (or area) after.",
+           docs={"boundary_edges": "Number of open edges with an odd number of faces.",
+                 "misoriented_edges": "Number of open edges whose faces are inconsistently "
+                                      "oriented.",
+                 "meeting_count": "Number of pairs of faces that meet where they should not.",
+                 "open_count": "Number of edges whose signed face count is not zero.",
+                 "size_after": "The same after the operation.",
                  "size_is_volume": "Whether these are volumes, not areas."}),
     # _booleans
     Result("boolean_result", "BooleanResult", "_booleans", "MeshResult", context="attributes",
-           doc="The surface of a solid, and what was verified about it. A result can be passed to"
-               " any function that takes a mesh; `vertices, faces = result.mesh`.",
+           doc="The surface of a solid, with its certificate. Every function that takes a "
+               "mesh also takes a result; `vertices, faces = result.mesh`.",
            leave="face_of_cut_vertex vanished_at",
            docs={"mesh": "Faces are counter-clockwise from outside.",
-                 "certificate": "What was verified about the coordinates.",
-                 "face_source": "(F, 2) for each face, the operand and the operand's face that "
-                                "contains it; the lowest operand if there are several.",
-                 "vertex_source": "(V, 2) for each vertex, the operand and the operand's vertex "
-                                  "that it comes from; the lowest operand if there are several, "
-                                  "`NONE` for new vertices."},
+                 "certificate": "The outcome of checking its coordinates.",
+                 "face_source": "(F, 2) the lowest operand, and its face, that contain each face.",
+                 "vertex_source": "(V, 2) the lowest operand, and its vertex, equal to each "
+                                  "vertex; `NONE` for new vertices."},
            custom={"volumes": [Attribute(
                "volumes", "tuple[float, float, float, float] | None",
-               "If `volumes` was set: the volumes of the first operand, the second, their union "
-               "and their intersection.", "volumes_of(from)")],
+               "With `volumes`: volumes of the first operand, the second, their union and "
+               "their intersection.", "volumes_of(from)")],
                "vanished_components": [], "vanished_reach": [],
                "statistics": [Attribute("statistics", "dict[str, Any]",
-                                        "Counters of the operation.",
+                                        "Counts of the steps.",
                                         "with(with(counters(from.statistics), "
                                         '"vanished_components", from.vanished_components), '
                                         '"vanished_reach", from.vanished_reach)')]}),
     # _cuts
     Result("section_loop", "SectionLoop", "_cuts", context="whole",
            docs={"closed": "Whether the loop is a closed polygon.",
-                 "oriented": "Whether the faces along it are oriented consistently: the inside is"
-                             " to the left, seen from above the plane.",
-                 "length": "Sum of the lengths of its sides."},
+                 "oriented": "Whether the faces along it are consistently oriented; then the "
+                             "inside is to the left, seen from above the plane.",
+                             "length": "Length of the polyline."},
            custom={"first_point": [
-               Attribute("points", "Floats", "(n, 2) in the plane of the section; the first point"
-                                             " is not repeated at the end.",
-                         "part_of(whole.points, from)"),
-               Attribute("faces", "Ids", "(n,) for each point, the face that contains the side to"
-                                         " the next point.",
-                         "part_of(whole.faces, from)")],
+               Attribute("points", "Floats", "(n, 2) in the plane of the section; the first is not "
+                         "repeated.", "part_of<double>(whole.points, from)"),
+               Attribute("faces", "Ids", "(n,) the face in which the segment after each point "
+                         "begins.", "part_of<std::uint32_t>(whole.faces, from)")],
                "point_count": [],
-               "parent": [Attribute("parent", "int | None", "The number of the innermost loop of "
-                                                            "the layer that encloses it, or None.",
+               "parent": [Attribute("parent", "int | None", "Number of the innermost loop of the "
+                                    "layer around this one; None if there is none.",
                                     "parent_of(whole, from)")]}),
     Result("section_result", "Section", "_cuts",
-           doc="Sections by parallel planes: one layer for each height, in the given order. "
-               "`loops(i)` returns the loops of layer i.",
-           docs={"axes": "(3, 3) the x and y axes of `points` and the normal of the plane, each "
-                         "of length 1."},
+           doc="Sections by parallel planes: layers, in the order of the given heights. Layer i "
+               "has the loops `loops(i)`.",
+           docs={"axes": "(3, 3) the axes x and y of `points`, and the normal, each of length 1."},
            custom={
                "layers": [
-                   column("heights", "Floats", "(K,) the height of each layer.", "layers",
+                   column("heights", "Floats", "(K,) heights of the layers.", "layers",
                           "one.height"),
-                   column("origins", "Floats", "(K, 3) a point on each plane.", "layers", "one.at"),
-                   column("areas", "Floats", "(K,) the area inside the loops of each layer; "
-                                             "meaningful for solids.", "layers",
+                   column("origins", "Floats", "(K, 3) a point of each plane.", "layers", "one.at"),
+                   column("areas", "Floats", "(K,) area of each layer: the area inside a solid.",
+                          "layers",
                           "one.area"),
-                   column("lengths", "Floats", "(K,) the total length of the loops of each layer.",
+                   column("lengths", "Floats", "(K,) total length of the loops of each layer.",
                           "layers", "one.length"),
-                   column("open_counts", "Ids", "(K,) the number of open polylines of each layer;"
-                                                " 0 for a solid.", "layers", "one.open_count")],
-               "points": [Attribute("points", "Floats", "(P, 2) the points of all loops, one loop"
-                                                        " after the other: (x . p, y . p) for a "
-                                                        "point p in space.",
-                                    "as_array(std::vector(from.points))")],
-               "faces": [Attribute("faces", "Ids", "(P,) for each point, the face that contains "
-                                                   "the side starting at it.",
-                                   "as_array(std::vector(from.faces))")],
+                   column("open_counts", "Ids", "(K,) number of open polylines in each layer; 0 "
+                          "for a solid.", "layers", "one.open_count")],
+               "points": [Attribute("points", "Floats", "(P, 2) points of all loops, one after the "
+                                    "other: (x . p, y . p) for p in space.",
+                                    "as_array<double>(std::vector(from.points))")],
+               "faces": [Attribute("faces", "Ids", "(P,) the face in which the segment after each "
+                                   "point begins.", "as_array(std::vector(from.faces))")],
                "loops": [],
                "+": [Attribute("_data", "_core.SectionData", "", "py::cast(std::move(from))")]}),
     Result("cut_piece", "CutPiece", "_cuts", "MadeMesh", context="attributes",
            inherited="mesh certificate"),
     Result("mesh_part", "MeshPart", "_cuts", "MeshResult", context="attributes",
-           doc="Some faces of a mesh as a mesh of their own, with their vertices and attributes.",
+           doc="A subset of the faces of a mesh, with the vertices that they use and their "
+               "attributes.",
            docs={"mesh": "The part."}),
     Result("mass_properties", "MassProperties", "_cuts"),
     # _shapes
     Result("offset_result", "OffsetResult", "_shapes", "MadeMesh",
-           doc="The result of `offset`, `hollow`, `thicken` or `wrap`.",
+           doc="An offset, hollowed, thickened or wrapped solid.",
            inherited="mesh certificate"),
     Result("simplify_result", "SimplifyResult", "_shapes", "MadeMesh", context="attributes",
            doc="A mesh with fewer faces.", inherited="mesh certificate"),
@@ -150,19 +147,18 @@ RESULTS = [
     # _repair
     Result("repair_result", "RepairResult", "_repair", "MadeMesh", context="attributes",
            doc="A repaired mesh.", inherited="mesh certificate", names={"statistics": "steps"},
-           docs={"steps": "Counters of each step: faces flipped, holes filled, ..."},
+           docs={"steps": "Counts of each step's changes: faces flipped, holes filled, ..."},
            custom={"is_left": [Attribute(
-               "is_left", "NDArray[np.bool_]", "(F,) for each input face, whether any part of it "
-                                               "is in the result, possibly merged with other "
-                                               "faces.",
+               "is_left", "NDArray[np.bool_]", "(faces of the input,) whether a part of each face "
+                                               "is left, "
+               "also if it was merged with others.",
                'as_python(std::move(from.is_left)).attr("view")("bool")')]}),
     Result("convex_hull_result", "ConvexHull", "_repair",
-           doc="The convex hull of points: triangles, grouped into planar sides.",
-           docs={"faces": "(F, 3) the numbers of the points at the corners of each triangle, "
-                          "counter-clockwise from outside."},
+           doc="The convex hull of points: triangles, grouped by flat sides.",
+           docs={"faces": "(F, 3) triangles, by point numbers, outward."},
            custom={"sides": [
-               column("first_face", "Ids", "(S,) the first face of each planar side; the faces of"
-                                           " a side are consecutive.", "sides", "one.first_face"),
+               column("first_face", "Ids", "(S,) the first face of each flat side; its faces "
+                      "are consecutive.", "sides", "one.first_face"),
                column("areas", "Floats", "(S,) the area of each side.", "sides", "one.area"),
                column("normals", "Floats", "(S, 3) the outward normal of each side, of length 1.",
                       "sides", "one.normal")]}),
@@ -180,76 +176,74 @@ RESULTS = [
     Result("intersection_result", "FacePairs", "_intersections",
              leave="box_pairs exact_pairs predicates tree_seconds pair_seconds",
              custom={"pairs": [
-                 column("pairs", "Ids", "(n, 2) uint32, ascending; for a single mesh, the lower "
-                                        "face number first.", "pairs", "std::array{one.a, one.b}"),
-                 column("kinds", "NDArray[np.uint8]", "(n,) uint8 the kind of each pair, an index"
-                                                      " into `KINDS`.", "pairs", "one.kind")],
+                 column("pairs", "Ids", "(n, 2) uint32, ascending; for one mesh, the lower face "
+                        "first.", "pairs", "std::array{one.a, one.b}"),
+                 column("kinds", "NDArray[np.uint8]", "(n,) uint8: the kind of each pair, an "
+                                                      "index into "
+                        "`KINDS`.", "pairs", "one.kind")],
                  "counts": [Attribute("counts", "dict[str, int]",
-                                      "The number of pairs of each kind, including those not "
-                                      "listed.",
+                                      "Number of pairs of each kind, listed or not.",
                                       "counts_of<tf::pair_kind>(from.counts)")]}),
     Result("intersection_region", "Region", "_intersections", custom={
-        "min": [Attribute("bounds", "Floats", "(2, 3) the bounding box of the pairs.",
+        "min": [Attribute("bounds", "Floats", "(2, 3) bounding box of the faces.",
                           "as_python(std::array{from.min, from.max})")], "max": []}),
     Result("stream_search_result", "FilePairs", "_intersections", "FacePairs",
            inherited="pairs kinds counts",
-           doc="Pairs of intersecting faces of a file, as face numbers of `mesh`.",
+           doc="Pairs of faces of a file that meet, as numbers of faces of `mesh`.",
            leave="triangles searched points bounds header finished_tiles started_anew",
-           docs={"tiles": "Number of tiles that space was divided into."},
+           docs={"tiles": "Number of tiles into which space was cut."},
            custom={
                "part": [
-                   Attribute("face_in_file", "Ids", "(F,) for each face of `mesh`, its number in "
-                                                    "the file.", "faces_in_file(from.part)"),
-                   Attribute("mesh", "Mesh", "Only the intersecting faces, in the order of the "
-                                             "file.",
-                             "mesh_object(std::move(from.part.mesh), py::none(), "
+                   Attribute("face_in_file", "Ids", "(F,) the number in the file of each face of "
+                             "`mesh`.", "faces_in_file(from.part)"),
+                   Attribute("mesh", "Mesh", "Only the faces in pairs, in the order of the "
+                             "file.", "mesh_object(std::move(from.part.mesh), py::none(), "
                              "py::none())"),
-                   Attribute("non_finite", "int", "Number of triangles skipped because a coordinate "
-                                               "is not finite.", "py::cast(from.part.non_finite)")],
+                   Attribute("non_finite", "int", "Number of omitted triangles with a coordinate "
+                                                  "that is "
+                             "not finite.", "py::cast(from.part.non_finite)")],
                "found": [
                    column("pairs", "", "", "found.pairs", "std::array{one.a, one.b}"),
                    column("kinds", "", "", "found.pairs", "one.kind"),
                    Attribute("counts", "", "", "counts_of<tf::pair_kind>(from.found.counts)")]}),
     # _files
-    Result("write_result", "Written", "_files", doc="What `write` wrote.",
+    Result("write_result", "Written", "_files", doc="The result of `write`.",
            names={"written_as": "precision"},
            docs={"format": "'stl-binary', 'ply-ascii', 'obj', ...",
                  "precision": "Precision of the written coordinates: 'float32' or 'float64'."},
-           custom={"warnings": [Attribute("warnings", "list[str]", "Warnings for the user.",
-                                          "list_of(from.warnings, &tf::io_warning::text)")]}),
+           custom={"warnings": [Attribute("warnings", "list[str]", "Remarks about the file.",
+                                          "texts_of(from.warnings)")]}),
     # _robots
     Result("urdf_joint", "Joint", "_robots", "NamedTuple", context="robot",
-           leave="origin axis mimics mimic_line", doc="A joint, which connects two links.",
-           docs={"name": "As in the file.",
+           leave="origin axis mimics mimic_line", doc="A joint of two links.",
+           docs={"name": "Name in the file.",
                  "kind": "'fixed', 'revolute', 'continuous' or 'prismatic'.",
-                 "limits": "Lowest and highest value, in radians or meters; None if unlimited."},
+                 "limits": "Least and greatest value, in radians or meters; None without limits."},
            custom={
                **{end: [Attribute(end, "str", f"Name of the {end} link.",
                                   f"py::cast(robot.links[from.{end}])")]
                   for end in ("parent", "child")}}),
     Result("urdf_robot", "Robot", "_robots", context="robot_parts",
-           doc="The links and joints of a robot, with a mesh for each link that has geometry.\n\n"
-               "Check it with `clash(robot.parts, ...)` or `check_poses(robot.parts, "
-               "robot.poses(values), ignored=robot.adjacent)`.",
-           docs={"name": "As in the file.",
-                 "approximated": "The cylinders and spheres that were approximated by triangles, "
-                                 "a sentence each.",
-                 "skipped": "Other geometry that is not a mesh and was skipped, a sentence each."},
+           doc="Links and joints, with a mesh for each link that has any.\n\n"
+               "`clash(robot.parts, ...)` and `check_poses(robot.parts, robot.poses(values), "
+               "ignored=robot.adjacent)` take its parts.",
+           docs={"name": "Name in the file.",
+                 "approximated": "Cylinders and spheres replaced by triangles, a sentence each.",
+                 "skipped": "Geometry that is not read, a sentence each."},
            custom={
                "links": [Attribute("links", "list[str]", "Names of the links, in the order of the"
                                                          " file.",
                                    "as_python(std::vector(from.links))")],
-               "joints": [Attribute("joints", "list[Joint]", "The joints, parents before their "
-                                                             "children.",
+               "joints": [Attribute("joints", "list[Joint]", "Parents before their children.",
                                     "as_python(std::vector(from.joints), from)")],
                "meshes": [
-                   Attribute("parts", "list[Mesh]", "One mesh for each link that has geometry, in"
-                                                    " the frame of the link.",
-                             "meshes_of(std::move(parts))"),
+                   Attribute("parts", "list[Mesh]", "One mesh for each link with faces, in the "
+                                                    "frame "
+                             "of the link.", "meshes_of(std::move(parts))"),
                    Attribute("link_of_part", "Ids", "(N,) the link of each part.",
                              "column(parts, &tf::urdf_mesh::link)"),
-                   Attribute("adjacent", "Ids", "(n, 2) parts that are connected by a joint, the "
-                                                "lower number first. These always touch.",
+                   Attribute("adjacent", "Ids", "(n, 2) parts connected by a joint, the lower "
+                             "number first: they always touch.",
                              "column(from.adjacent(parts), std::identity{})")],
                "+": [Attribute("_data", "_core.RobotData", "",
                                "py::cast(robot_data(from, parts))")]}),
@@ -257,109 +251,103 @@ RESULTS = [
     Result("weld_result", "WeldResult", "_weld", "MeshResult", context="data",
            doc="A welded mesh or cloud.", leave="attributes",
            names={"point_of_group": "source", "face_of_new": "face_source"},
-           docs={"source": "(m,) for each point of the result, the input point that its "
-                           "properties come from.",
-                 "face_source": "(F,) for each face of the result, its number in the input; empty"
-                                " for a cloud.",
-                 "statistics": "Counters of the operation."},
-           custom={"groups": [Attribute("index", "Ids", "(n,) for each input point, its number in"
-                                                        " the result.",
+           docs={"source": "(m,) the input point whose properties each new point has.",
+                 "face_source": "(F,) the input face of each face; empty for a cloud.",
+                 "statistics": "Counts of what welding changed."},
+           custom={"groups": [Attribute("index", "Ids", "(n,) the new number of each point.",
                                         "as_python(std::move(from.groups.group_of_point))")],
                    "mesh": [Attribute("mesh", "Mesh", "The welded mesh; without faces for a "
-                                                      "cloud.",
-                                      "mesh_object(std::move(from.mesh), py::none(), "
+                                      "cloud.", "mesh_object(std::move(from.mesh), py::none(), "
                                       "with_attributes(data, std::move(from.attributes)))")]}),
     Result("weld_stream_result", "WeldStreamResult", "_weld", doc="The result of `weld_stream`.",
            leave="welded removed label_replaced las_moved mergeable",
            custom={"survey": [
-               Attribute("points", "int", "Number of input points.",
+               Attribute("points", "int", "Number of points in the inputs.",
                          "py::cast(from.survey.points)"),
                Attribute("tolerance", "float", "The tolerance as a length.",
                          "py::cast(from.survey.tolerance)"),
-               Attribute("non_finite", "int", "Number of points that are not finite; all are "
-                                              "kept.",
+               Attribute("non_finite", "int", "Number of points that are not finite; all are kept.",
                          "py::cast(from.survey.non_finite)"),
-               Attribute("tiles", "int", "Number of tiles that space was divided into.",
+               Attribute("tiles", "int", "Number of tiles into which space was cut.",
                          "py::cast(from.survey.tiles)"),
-               Attribute("continued", "bool", "Whether the run resumed an earlier one.",
+               Attribute("continued", "bool", "Whether this run resumed an earlier one.",
                          "py::cast(from.survey.continued)")],
                "+": [
-                   Attribute("max_displacement", "float", "Upper bound of how far points moved, "
-                                                          "including rounding to the resolution "
-                                                          "of LAS.",
+                   Attribute("max_displacement", "float",
+                             "Upper bound of the distance that a point "
+                             "moved, rounding for LAS included.",
                              "py::cast(from.statistics.max_displacement + from.survey.las_moved)"),
-                   Attribute("warnings", "list[str]", "Warnings for the user.",
+                   Attribute("warnings", "list[str]", "Remarks about the files.",
                              "warnings_of(from)")]},
-           docs={"kept": "Number of points in the output.",
-                 "faces": "For a mesh, the number of faces in the output.",
-                 "triangles": "The same, with polygons cut into triangles.",
-                 "statistics": "Counters of the operation, as in `WeldResult`."}),
+           docs={"kept": "Number of kept points.", "faces": "For a mesh, number of kept faces.",
+                 "triangles": "Number of triangles of these faces.",
+                 "statistics": "Counts of what welding changed, as in `WeldResult`."}),
     # _nearness
     Result("deviation_result", "Deviation", "_nearness", leave="winding_numbers",
-           doc="Distances of points from a surface.",
-           docs={"is_signed": "Whether the distances are signed."},
+           doc="Distances of points from a surface, and their statistics.",
+           docs={"is_signed": "Whether distances have a sign."},
            custom={
                "histogram": [
-                   Attribute("histogram", "NDArray[np.uint64]", "(bins,) the number of signed "
-                                                                "distances in each of `bins` "
-                                                                "intervals of equal length from "
-                                                                "`lowest` to `highest`.",
+                   Attribute("histogram", "NDArray[np.uint64]", "(bins,) number of signed "
+                             "distances in intervals of equal length from `lowest` to `highest`.",
                              "as_python(std::move(from.histogram))")]}),
     Result("closest_points_result", "NearestPoints", "_assembly", "NamedTuple"),
     Result("closest_point_result", "ClosestPoints", "_nearness", "NamedTuple",
            rows="std::optional<tf::{}>", names={"point": "closest", "face": "triangle_id"},
-           doc="The nearest point on a mesh for each query, in the order of trimesh: `closest, "
-               "distance, triangle_id = closest_point(mesh, points)`.",
-           docs={"closest": "(n, 3) points on the mesh, rounded; NaN if there is none within the "
+           doc="The nearest point of a mesh for each query, in the order of trimesh: "
+               "`closest, distance, triangle_id = closest_point(mesh, points)`.",
+           docs={"closest": "(n, 3) points on the mesh, rounded; NaN if none is within the "
                             "radius.",
-                 "distance": "(n,) distances, not squared; infinite if there is none.",
-                 "triangle_id": "(n,) uint32 the face; 4294967295 if there is none."}),
+                 "distance": "(n,) distances, not squared; infinite if there is no point.",
+                 "triangle_id": "(n,) uint32 face numbers; 4294967295 if there is no point."}),
     Result("mesh_hit", "RayHits", "_nearness", "NamedTuple", rows="std::optional<tf::{}>",
            leave="coplanar t_end", doc="The first face that each ray hits.",
-           docs={"t": "(n,) the hit is at origin + t * direction; infinite if nothing is hit.",
-                 "face": "(n,) uint32 the face; 4294967295 if nothing is hit."},
+           docs={"t": "(n,) the point hit is origin + t direction; infinite without a hit.",
+                 "face": "(n,) uint32 face numbers; 4294967295 without a hit."},
            custom={"at": [Attribute(
-               "at", "NDArray[np.uint8]", "(n,) uint8 where the face is hit: at corner 0, 1 or 2,"
-                                          " on edge 3, 4 or 5, or in the interior (6).",
+               "at", "NDArray[np.uint8]", "(n,) uint8: the corner (0, 1, 2), edge (3, 4, 5) or "
+               "interior (6) of the face that was hit.",
                "column(from, [](const auto& one) { return one ? one->at : "
                "tf::feature::interior; })")]}),
     # _placement
     Result("placement_contact", "Contacts", "_placement", "NamedTuple", rows="tf::{}",
            doc="Pairs of faces that touch in the final position, or are at the clearance.",
            names={"point": "points", "normal": "normals"},
-           docs={"normals": "(n, 3) unit normals from the fixed to the moving mesh; 0 if "
-                            "undefined.",
-                 "moving": "(n,) faces of the moving mesh.",
-                 "fixed_face": "(n,) faces of the fixed mesh; 4294967295 for the bed."},
-           custom={"fixed": [Attribute("fixed", "Ids", "(n,) the number of the fixed mesh.",
+           docs={"normals": "(n, 3) of length 1, from the fixed to the moving mesh; 0 if there "
+                            "is none.",
+                 "moving": "faces of the moving mesh.",
+                 "fixed_face": "faces of the fixed mesh; 4294967295 for the bed."},
+           custom={"fixed": [Attribute("fixed", "Ids", "(n,) number of the fixed mesh.",
                                        "column(from, "
                    "[](const auto& one) { return static_cast<std::uint32_t>(one.fixed); })")]}),
     Result("search_effort", "SearchEffort", "_placement", "NamedTuple"),
     Result("mesh_measure", "Measure", "_placement", leave="face_a face_b", custom={
         f"on_{x}": [
             Attribute(f"on_{x}", "Floats", f"(3,) the nearest point on the surface of `{x}`; a "
-                      "common point if the bodies meet.", f"as_python(from.on_{x}.point)"),
+                      "common point if they meet.", f"as_python(from.on_{x}.point)"),
             Attribute(f"face_{x}", "int", f"The face of `{x}` that contains `on_{x}`.",
                       f"py::cast(from.on_{x}.face)")] for x in "ab"},
            docs={"relation": "'separate', 'touching' or 'penetrating'. Exact."}),
     Result("placement", "Placement", "_placement", "MeshResult", context="moving",
            true="bool(self.certificate)",
-           doc="The new position of a mesh. True if one was found; otherwise `message` says why "
-               "not.",
+           doc="The result of a placement. True if the mesh has a place; else `message` has the "
+               "reason.",
            leave="clearance bed below_bed max_travel statistics",
-           docs={"end": "Why it ended there: 'contact', 'bed', 'unchanged', 'moved_apart', "
+           docs={"end": "Why the placement ended where it did: 'contact', 'bed', 'unchanged', "
+                        "'moved_apart', "
                         "'nothing_met', 'too_far', 'starts_penetrating', 'starts_too_near', "
                         "'starts_touching', 'starts_below_bed', 'not_representable', "
                         "'too_many_steps', 'out_of_range'.",
-                 "certificate": "What was verified about the coordinates."},
+                 "certificate": "The outcome of checking the coordinates."},
            custom={
                "points": [MESH_OF_PLACE],
                "contacts": [Attribute(
                    "contacts", "Contacts", "Pairs of faces that touch in the final position, or "
                                            "are at the clearance.",
                    "as_python(std::move(from.contacts))")],
-               "+": [Attribute("message", "str", "Why no position was found, in words; otherwise "
-                                                 "empty.",
+               "+": [Attribute("message", "str", "Why there is no place, as a clause; empty if "
+                                                 "there is "
+                               "a place.",
                                "py::cast(from.message())")]}),
     Result("impact", "Impact", "_placement", "NamedTuple",
            leave="contact_count pairs_tested predicates",
@@ -372,56 +360,49 @@ RESULTS = [
                       "contacts", "one.point")]}),
     Result("penetration_depth_result", "Depth", "_placement", "NamedTuple"),
     Result("laid_flat", "LaidFlat", "_placement", "MeshResult", context="moving",
-           leave="bed contact corrected", doc="A mesh laid flat on the bed.",
-           docs={"certificate": "What was verified about the coordinates."},
+           leave="bed contact corrected", doc="A mesh on the bed.",
+           docs={"certificate": "The outcome of checking the coordinates."},
            custom={
                "points": [Attribute("mesh", "Mesh", "The mesh on the bed.",
                                     "moved_mesh(std::move(from.points), moving, from.matrix, "
                                     "certificate)")],
-               "sides": [column("areas", "Floats", "(S,) the areas of the planar sides of the "
-                                                   "convex hull, largest first.", "sides",
-                                "one.area"),
-                         column("normals", "Floats", "(S, 3) the outward normals of these sides, "
-                                                     "before the rotation.", "sides",
+               "sides": [column("areas", "Floats", "(S,) areas of the flat sides of the convex "
+                                "hull, largest first.", "sides", "one.area"),
+                         column("normals", "Floats", "(S, 3) outward normals, before the rotation.",
+                                "sides",
                                 "one.normal")],
                "+": [MESSAGE]}),
     Result("align_result", "Alignment", "_placement", "MeshResult", context="moving",
            leave="pivot pivot_moved freedoms", true="self.converged",
-           doc="The motion found by `align`.",
+           doc="The motion that `align` found.",
            docs={"end": "'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'."},
            custom={"points": [Attribute("mesh", "Mesh", "The moved mesh; without faces for a "
-                                                        "cloud.",
-                                        "moved_mesh(std::move(from.points), moving, "
+                                        "cloud.", "moved_mesh(std::move(from.points), moving, "
                                         "from.matrix, py::none())")],
-                   "+": [Attribute("undetermined", "int", "Number of independent motions that the"
-                                                          " data does not determine, such as "
-                                                          "sliding a plane along a plane.",
+                   "+": [Attribute("undetermined", "int",
+                                   "Number of independent motions that the data "
+                                   "do not determine, such as a plane sliding on a plane.",
                                    "py::cast(from.undetermined())"), MESSAGE]}),
     Result("packed_part", "PackedPart", "_placement", "NamedTuple", context="moving",
            docs={"plate": "Number of its plate, from 0."},
            custom={"points": [Attribute(
-               "mesh", "Mesh", "The part in its position on the plate; unmoved if it is not "
-                               "placed.",
+               "mesh", "Mesh", "The moved part; the unmoved part if it is not placed.",
                "moved_mesh(std::move(from.points), moving, from.matrix, py::none())")]}),
     Result("packing", "Packing", "_placement", context="parts",
            leave="pairs_measured bed certificate", true="len(self.not_placed) == 0",
-           doc="Parts arranged on plates. True if every part was placed.",
-           custom={"parts": [Attribute("parts", "list[PackedPart]", "The parts, in the order of "
-                                                                    "the input.",
+           doc="Filled plates. True if every part was placed.",
+           custom={"parts": [Attribute("parts", "list[PackedPart]", "In the order of the input.",
                                        "packed_parts(std::move(from.parts), parts)")],
                    "+": [MESSAGE]}),
     # _assembly
     Result("part_clash", "PartClash", "_assembly", docs={
         "how": "'penetrating', 'touching' or 'closer_than_clearance'."},
            custom={"regions": [Attribute(
-               "regions", "list[tuple[Floats, int, Ids, Ids]]", "Where the parts meet: (bounding "
-                                                                "box (2, 3), number of pairs of "
-                                                                "faces, faces of a, faces of b).",
-                                         "regions_of(from)")]}),
+               "regions", "list[tuple[Floats, int, Ids, Ids]]", "Regions where they meet: (box "
+               "(2, 3), number of pairs of faces, faces of a, faces of b).", "regions_of(from)")]}),
     Result("pose_result", "PoseClashes", "_assembly", leave="boxes_apart",
-           doc="The pairs of parts that clash or touch in each of many poses: n pairs, pose after"
-               " pose.",
-           docs={"clashing": "Number of poses in which a pair penetrates or is too close."},
+           doc="The clashes in each of many poses: n pairs of parts, pose after pose.",
+           docs={"clashing": "Number of poses with a pair that penetrates or is too close."},
            custom={"poses": [
                Attribute("pose", "Ids", "(n,) the number of the pose, ascending.",
                          "column_of_poses(from, [](std::uint32_t pose, const tf::pose_clash&) "
@@ -431,14 +412,15 @@ RESULTS = [
                  for name, annotation, doc, value in (
                      ("parts", "Ids", "(n, 2) the two parts, the lower number first.",
                       "std::array{one.a, one.b}"),
-                     ("how", "NDArray[np.uint8]", "(n,) uint8 the relation of the two parts, an "
-                                                  "index into `RELATIONS`.", "one.how"),
-                     ("distance", "Floats", "(n,) the distance of parts that are closer than the "
-                                            "clearance, otherwise 0.", "one.distance"))]]}),
+                     ("how", "NDArray[np.uint8]", "(n,) uint8: their relation, an index into "
+                      "`RELATIONS`.", "one.how"),
+                     ("distance", "Floats", "(n,) of those that are closer than the clearance; "
+                                            "else "
+                      "0.", "one.distance"))]]}),
     Result("clash_result", "ClashResult", "_assembly", leave="ignored parts_indexed",
-           doc="The relations of all pairs of parts.",
+           doc="The clashes of all parts of an assembly.",
            custom={"counts": [Attribute("counts", "dict[str, int]",
-                                        "The number of pairs with each relation.",
+                                        "Number of tested pairs, by relation.",
                                         "counts_of<tf::mesh_relation>(from.counts)")]}),
 ]
 

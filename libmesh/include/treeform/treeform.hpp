@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The whole door: every public header but <treeform/tf.hpp>. Programs that care how long they
-/// compile include what they use.
+/// Includes every public header except <treeform/tf.hpp>. To compile faster, include only the
+/// headers that you use.
 
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/as_mesh.hpp>

@@ -204,9 +204,9 @@ def closest_points(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     lowest numbers are returned. If the meshes meet, any pair that meets may be returned, but the
     same one in every run.
 
-    Prepared meshes cache tight bounds of their surfaces, which make later calls several times
-    faster for nearly flat surfaces that are not axis-aligned. Transforms other than rotations,
-    uniform scalings and reflections are slower.
+    A `Mesh` caches tight bounds of its surface, which make later calls several times faster for
+    nearly flat surfaces that are not axis-aligned. Transforms other than rotations, uniform
+    scalings and reflections are slower.
 
     move_a: (4, 4) an affine transform applied to `a` first.
     move_b: (4, 4) an affine transform applied to `b` first.
@@ -235,8 +235,8 @@ class PartClash(Result):
     a_inside_b: As in `measure`.
     b_inside_a: The same with `a` and `b` swapped.
     distance: Distance of the surfaces; 0 if they meet.
-    nearest: (2, 3) Nearest points on a and on b, of parts that are too close.
-    face_pairs: That meet.
+    nearest: (2, 3) For parts that are too close: the nearest points on a and on b.
+    face_pairs: Pairs of faces that meet.
     volume: For closed parts that penetrate: the volume of their intersection, as
         `operand_volumes::both`.
     depth: For penetrating parts: `penetration_depth`, the length of `move`.
@@ -289,10 +289,10 @@ def clash(parts: Iterable[Body], clearance: float = 0.0, *, volumes: bool = True
     of all. Distances are those of `distance`, and only computed with a clearance. A part is only
     indexed if its box is near that of another.
 
-    clearance: Parts that are nearer than this are too close.
+    clearance: Parts nearer than this are too close; not squared.
     volumes: Compute the volume of the intersection of closed parts.
     depths: Compute depths of penetrating parts.
-    limit: Faces listed for each region and part.
+    limit: Largest number of faces listed for each region and part.
     vertices: 'by_coordinates' or 'by_index'. As in `measure`.
     poses: (N, 4, 4) an affine transform for each of the N parts. Transformed vertices are rounded
         to float64; everything after that is exact. The result refers to the transformed parts. For

@@ -101,8 +101,9 @@ def union(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float6
         joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
         coordinate. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
-        merged, exactly and before rounding: this removes vertices inside a flat part, and on a
-        straight edge between two flat parts. Uncut faces stay as they are. `split` keeps all cuts.
+        merged, exactly and before rounding, which removes vertices inside a flat region, and on a
+        straight edge between two flat regions. Uncut faces stay as they are. `split` keeps all
+        cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
@@ -149,8 +150,9 @@ def intersection(*meshes: MeshesLike, inside: str = "nonzero", precision: str = 
         joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
         coordinate. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
-        merged, exactly and before rounding: this removes vertices inside a flat part, and on a
-        straight edge between two flat parts. Uncut faces stay as they are. `split` keeps all cuts.
+        merged, exactly and before rounding, which removes vertices inside a flat region, and on a
+        straight edge between two flat regions. Uncut faces stay as they are. `split` keeps all
+        cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
@@ -194,8 +196,9 @@ def difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "f
         joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
         coordinate. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
-        merged, exactly and before rounding: this removes vertices inside a flat part, and on a
-        straight edge between two flat parts. Uncut faces stay as they are. `split` keeps all cuts.
+        merged, exactly and before rounding, which removes vertices inside a flat region, and on a
+        straight edge between two flat regions. Uncut faces stay as they are. `split` keeps all
+        cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
@@ -238,8 +241,9 @@ def symmetric_difference(*meshes: MeshesLike, inside: str = "nonzero", precision
         joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
         coordinate. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
-        merged, exactly and before rounding: this removes vertices inside a flat part, and on a
-        straight edge between two flat parts. Uncut faces stay as they are. `split` keeps all cuts.
+        merged, exactly and before rounding, which removes vertices inside a flat region, and on a
+        straight edge between two flat regions. Uncut faces stay as they are. `split` keeps all
+        cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
@@ -298,8 +302,9 @@ def boolean(expression: str, *operands: MeshesLike, inside: str = "nonzero",
         joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
         coordinate. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
-        merged, exactly and before rounding: this removes vertices inside a flat part, and on a
-        straight edge between two flat parts. Uncut faces stay as they are. `split` keeps all cuts.
+        merged, exactly and before rounding, which removes vertices inside a flat region, and on a
+        straight edge between two flat regions. Uncut faces stay as they are. `split` keeps all
+        cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids

@@ -309,7 +309,7 @@ def cut_along(mesh: MeshLike, values: ArrayLike, levels: ArrayLike, *, check: bo
     surfaces with common border points, and together cover the mesh. Only new points are rounded, by
     less than a step of their largest coordinate.
 
-    The certificate tells whether faces of all pieces together meet beyond common corners and edges,
+    The certificate lists faces of all pieces together that meet beyond common corners and edges,
     because faces of the mesh do, or by rounding. Its face numbers count through all pieces.
 
     values: (V,) a value for each vertex, interpolated linearly over each face.
@@ -351,11 +351,12 @@ class MeshPart(MeshResult):
 
 def components(mesh: MeshLike, *, min_volume: float = 0.0, largest: int = 0,
                progress: Progress = None) -> list[MeshPart]:
-    """The faces that corners link, as meshes, in the order of their lowest faces. Corners with
-    equal coordinates are one. A closed part that is inside out is a cavity, and goes with the
-    smallest closed part that it is in, if any. Volumes count without their sign, those of open
-    parts as 0. Parts with less than `min_volume`, in cubic units, are left out; `largest` parts of
-    the greatest volume are kept, of equal ones those of the greatest area; 0: all.
+    """The connected components of a mesh (faces linked by common corners), in the order of their
+    lowest faces. Corners with equal coordinates are one. A closed component that is inside out is a
+    cavity; it is returned with the smallest closed component around it, if any. Parts with a volume
+    below `min_volume`, in cubic units, are omitted; volumes count without sign, those of open parts
+    as 0. If `largest` is not 0, only that many parts are returned: those of the greatest volume
+    and, for equal volumes, the greatest area.
 
     min_volume: ignore components with a smaller volume, in cubic units.
     largest: return only this many of the largest components; 0: all.
@@ -444,8 +445,8 @@ class MassProperties(Result):
 def mass_properties(mesh: MeshLike, *, progress: Progress = None) -> MassProperties | None:
     """Volume, center of mass and inertia of the solid that a closed mesh bounds. If the mesh is
     inside out, volume and inertia have the opposite sign. A region counts as often as the surface
-    winds around it. None if the volume is 0, as for an empty mesh, not finite, or so small compared
-    with the terms of its sum that the center would be noise. Meaningless for an open mesh.
+    winds around it. None if the volume is 0 (as for an empty mesh), not finite, or so small
+    compared with the terms of its sum that the center would be noise. Meaningless for an open mesh.
 
     Coordinates are first taken relative to the center of the box, which rounds them by at most
     2^-53 of its diagonal. Sums have twice the precision of double; their terms have a relative

@@ -129,29 +129,28 @@ def read(path: Path | IO[bytes], format: str = "", *, join: bool = True,
       y z red green blue, and 7 have both. More points than announced are read with a warning; fewer
       are an error. The format is reported as "xyz".
     - PCD: a field of several values becomes columns "name[0]", "name[1]", ...
-
-    LAZ of LASzip 1 to 3, COPC included; extra bytes as described in the file.
-
-    - 3MF: the build. Each mesh of an item, directly or through components, is a part with a unique
-      name ("gear", "gear (2)"), transformed; faces of mirrored parts are flipped, so that they are
-      not inside out. Supports and surfaces are read like models; objects of type "other" and
-      objects outside the build are not read. Items and components may be in other model parts of
-      the package. Base materials are materials of parts, and their colors and those of color groups
-      become columns red, green, blue and alpha of faces, or of points where corners have colors of
-      their own. Texture coordinates are in `Attributes.corners`; images are not read. Extensions
-      that a file requires and that would change its shape are refused.
-    - glTF 2.0 and GLB, also packed by draco where treeform was built with it: the default scene.
-      Each mesh of a node, also as an instance of EXT_mesh_gpu_instancing, is a part with a unique
-      name, from the node or the mesh, transformed by matrices composed in double; faces of mirrored
-      parts are flipped. Strips and fans are triangles. COLOR_0 becomes columns red, green, blue and
-      alpha of points, in the type and with the numbers of the file; NORMAL nx, ny and nz, turned
-      with the node; the texture coordinates that the color of the material takes, with
-      KHR_texture_transform, s and t = 1 - v, since t counts from the lower edge elsewhere. Colors
-      of materials become columns red, green, blue and alpha of faces, of 8 bits. Textures, other
-      attributes and lines are not read, morph targets and skins not applied. Files that a glTF
-      names are read from its folder and those in it. Extensions that a file requires are refused by
-      name, except for KHR_mesh_quantization and those that only change how a surface looks. glTF
-      1.0 is left to assimp.
+    - LAS and LAZ: columns are the fields of its records. LAZ of LASzip 1 to 3, COPC included; extra
+      bytes as described in the file.
+    - 3MF: the items of the build. Each mesh of an item, directly or through components, is a part
+      with a unique name ("gear", "gear (2)"), transformed; faces of mirrored parts are flipped, so
+      that they are not inside out. Supports and surfaces are read like models; objects of type
+      "other" and objects outside the build are not read. Items and components may be in other model
+      parts of the package. Base materials are materials of parts, and their colors and those of
+      color groups become columns red, green, blue and alpha of faces, or of points where corners
+      have colors of their own. Texture coordinates are in `Attributes.corners`; images are not
+      read. Extensions that a file requires and that would change its shape are refused.
+    - glTF 2.0 and GLB: the default scene. Draco compression is supported if treeform was built with
+      it. Each mesh of a node, also as an instance of EXT_mesh_gpu_instancing, is a part with a
+      unique name, from the node or the mesh, transformed by matrices composed in double; faces of
+      mirrored parts are flipped. Strips and fans are triangles. COLOR_0 becomes columns red, green,
+      blue and alpha of points, in the type and with the numbers of the file; NORMAL becomes nx, ny
+      and nz, rotated with the node. The texture coordinates of the material's base color, with
+      KHR_texture_transform applied, become s and t = 1 - v, since other formats count t from the
+      lower edge. Colors of materials become columns red, green, blue and alpha of faces, of 8 bits.
+      Textures, other attributes and lines are not read; morph targets and skins are not applied.
+      Files that a glTF refers to are read only from its folder and subfolders. Extensions that a
+      file requires are refused by name, except for KHR_mesh_quantization and those that only change
+      how a surface looks. glTF 1.0 is read by assimp.
 
     Polygons are triangulated (`Attributes.stored_face`). A point cloud has no faces. DAE and some
     other formats require a build with assimp. If the file does not exist, the FileError is also a
@@ -181,7 +180,7 @@ def read(path: Path | IO[bytes], format: str = "", *, join: bool = True,
 
 @dataclass(frozen=True, repr=False)
 class Written(Result):
-    """What `write` wrote.
+    """The result of `write`.
 
     format: 'stl-binary', 'ply-ascii', 'obj', ...
     precision: Precision of the written coordinates: 'float32' or 'float64'.
@@ -205,41 +204,41 @@ def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: b
     Numbers in text are the shortest that read back as the same double, float32 values included.
     Polygons are written as polygons if the format has polygons. Newlines in names become blanks.
 
-    Of `Attributes`, each format takes what it can hold:
+    Each format stores what it can of `Attributes`:
     - PLY: all elements in their order; texture coordinates of corners, as the list "texcoord" of
       faces with two numbers a corner, in float32 unless the file has that list as double (NaN where
-      a corner has none); names of texture files, behind the comments.
-    - OBJ: parts, material files, texture coordinates and normals of corners, or those of points,
-      vertex colors.
+      a corner has none); names of texture files, after the comments.
+    - OBJ: parts, material files, texture coordinates and normals of corners (else those of points),
+      colors of vertices.
     - OFF: normals, colors and texture coordinates of points.
-    - STL: its header, without a leading "solid" and with a NUL as its last byte where it has none;
-      the names of solids, the column "stl_attribute".
-    - XYZ and CSV: further columns.
-    - LAS and LAZ: what their records hold; further columns as extra bytes. Columns red, green and
-      blue of 8 bits are multiplied by 256; points that no column says it of are returns 1 of 1;
-      intensities that are no whole numbers are rounded, or multiplied by 65535 where all are from 0
-      to 1; scan_angle_rank becomes scan_angle in formats from 6 on. Coordinates that the file's
-      scale and offset do not hold are rounded (`max_displacement`). A file that was not LAS gets
-      the smallest format that holds its columns, and for each axis the coarsest scale of 1, 0.1,
-      0.01, ... that gives all coordinates back within two units in their last place, else the
-      finest that 32 bits allow.
-    - GLB: a node and a mesh with the points that they use for faces of one object and group in a
-      row, with their name; in these, one primitive for each color of faces (columns red, green,
-      blue and alpha, if any, of the element "face"), which materials have. Columns of points: red,
-      green, blue and alpha become COLOR_0, of 8 and 16 bits as they are, others as floats from 0 to
-      1; nx, ny and nz NORMAL, with length 1; s and t, u and v or texture_u and texture_v
-      TEXCOORD_0, with v = 1 - t. Those of corners go ahead of these, and a point gets a copy for
-      each that it has.
+    - STL: the header, without a leading "solid", and with a NUL as its last byte if it contains
+      none; the names of solids; the column "stl_attribute".
+    - XYZ and CSV: the other columns of points.
+    - LAS and LAZ: the fields of their records; other columns as extra bytes. Columns red, green and
+      blue of 8 bits are multiplied by 256. Without columns for them, return_number and
+      number_of_returns are 1. Intensities that are not integers are rounded, or multiplied by 65535
+      if all are from 0 to 1. scan_angle_rank becomes scan_angle in point formats 6 to 10.
+      Coordinates that are not multiples of the file's scale are rounded (`max_displacement`). A
+      file that was not LAS gets the smallest format that holds its columns, and for each axis the
+      coarsest scale of 1, 0.1, 0.01, ... that gives all coordinates back within two units in their
+      last place, else the finest that 32 bits allow.
+    - GLB: one node and mesh for each run of faces of the same object and group, with its name and
+      the points that it uses. Each mesh has one primitive, with a material, for each color of its
+      faces (columns red, green, blue and, if present, alpha of the element "face"). Of the columns
+      of points, red, green, blue and alpha become COLOR_0 (8 and 16 bits unchanged, other types as
+      floats from 0 to 1); nx, ny and nz become NORMAL, scaled to length 1; s and t, u and v, or
+      texture_u and texture_v become TEXCOORD_0 (u = s, v = 1-t). Normals and texture coordinates of
+      corners take precedence over those of points; a point with several of them is repeated.
 
-    Polygons are written as triangles. A number in text is that of the double, so that readers of
-    floats and of doubles get the same.
+    Polygons are written as triangles. Numbers are written as the shortest text of the double, so
+    that readers of floats and of doubles get the same value.
 
-    Columns of points that several formats know have the names and types of the format that is
-    written: colors are red, green and blue of 8 bits, but in LAS of 16, in PCD the packed `rgb`, in
-    OBJ numbers from 0 to 1; normals are nx, ny, nz, in PCD normal_x, ..., in OBJ `vn`. A file is
-    not translated to its own format.
+    Columns of points that several formats have get the name and type of the written format: colors
+    are red, green and blue of 8 bits, but in LAS of 16, in PCD the packed `rgb`, in OBJ numbers
+    from 0 to 1; normals are nx, ny, nz, in PCD normal_x, ..., in OBJ `vn`. If a file was read from
+    the format that is written, its columns are unchanged.
 
-    Warnings tell what is scaled, rounded or omitted.
+    `Written.warnings` lists what is scaled, rounded or omitted.
 
     An empty mesh can be written in every mesh format, and read again.
 
@@ -252,7 +251,7 @@ def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: b
     ascii: Write text if the format has text and binary. Binary PLY is little endian, unless the
         file was read from a big-endian file. PCD is compressed only if it was read from a
         compressed file.
-    precision: 'float32' or 'float64'. Precision of the coordinates; None: as they were stored.
+    precision: 'float32' or 'float64'. Precision of the coordinates; None: the stored precision.
         Binary STL and GLB only hold float32. 3MF holds doubles, but most of its readers convert to
         float, so none means float32 there.
     drop: Columns of points to omit; "normal", "uv" or "color" for all columns of that kind, also of

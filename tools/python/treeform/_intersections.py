@@ -206,11 +206,11 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = N
     kinds: the kinds to search for, from `KINDS`; None: all.
     limit: Lowest pairs listed; all are counted.
 
-    Raises ValueError if a transform is not finite; naming the mesh and its face with a corner out
-    of range or, after the move, not finite.
+    Raises ValueError if a transform is not finite; naming the mesh and its face with a corner that
+    is out of range or, after the transform, not finite.
 
     Cost: O(F log F) for indexes that are not built yet; O(B) time for the B pairs whose boxes
-    overlap and the nodes above them. Of a `Mesh` up to twice as fast.
+    overlap and the nodes above them. Up to twice as fast for a `Mesh`.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -237,7 +237,7 @@ def self_intersections_of_file(path: Path, *, vertices: str | None = None,
 
     vertices: None: 'by_coordinates' for STL, otherwise 'by_index'.
     kinds: as for `self_intersections`.
-    format: Of the input, as for `read`.
+    format: Format of the input, as for `read`.
     memory: Limit in bytes; 0: three quarters of the machine's memory.
     folder: the folder for temporary tiles; empty: a folder next to the input. If a run was
         interrupted, the same call resumes it.
@@ -245,8 +245,8 @@ def self_intersections_of_file(path: Path, *, vertices: str | None = None,
     communicator: processes that share the work, as for `weld_stream`. Rank 0 gets the result, all
         others an empty one.
 
-    Raises FileError if the file cannot be read or has another format, or for the folder; ValueError
-    for more than 2^32 - 1 triangles.
+    Raises FileError if the file cannot be read or has another format, or if the folder cannot be
+    used; ValueError for more than 2^32 - 1 triangles.
 
     Cost: time as `self_intersections`; memory as in the options, plus the result; on the disk 60 to
     100 bytes for each tile that a face reaches into, and 24 bytes for each vertex of a PLY.

@@ -210,8 +210,8 @@ class RayHits(NamedTuple):
 
 def raycast(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min: float = 0.0,
             t_max: float = np.inf, progress: Progress = None) -> RayHits:
-    """The face that a ray hits first; none when it hits nothing. Of several faces at one point, the
-    lowest number.
+    """The first face that a ray hits; none if it hits no face. Of several faces at the same point,
+    the lowest number.
 
     The faces that a ray hits, their order, and the corner, edge or interior hit are exact. Only the
     parameters t are rounded. A ray that hits an edge or a corner hits every face there: through a

@@ -74,7 +74,7 @@ class Placement(MeshResult):
         'not_representable', 'too_many_steps', 'out_of_range'.
     message: Why no position was found, in words; otherwise empty.
     direction: (3,) unit direction of the travel; 0 if there is none.
-    travel: A length; for `too_far` the length needed.
+    travel: Distance moved; for `too_far` the distance needed.
     at_start: Exact: 'separate', 'touching', 'penetrating', 'closer_than_clearance' or 'clear'.
     at_place: The same at the place: 'separate', 'touching', 'penetrating', 'closer_than_clearance'
         or 'clear'.
@@ -84,12 +84,13 @@ class Placement(MeshResult):
         one that it touches, else to the nearest. None if all are too far away.
     certificate: What was verified about the coordinates.
     effort: For `separate`: the effort of its search. If `cut` is not 0, a shorter translation may
-        exist; or, if no place was found, a place.
-    angle: Of `turn` and `mate_features`: in degrees, of the turn.
-    tolerance: Of `turn`: the gap, beyond the clearance, that counts as contact.
-    offset: Of `mate_features`: how far the center of the moving feature ended from that of the
-        fixed one, along the direction of the fixed one. Of planes: their distance.
-    nearest_fixed: Number of that mesh; the lowest if several qualify.
+        exist or, if no place was found, a place.
+    angle: For `turn` and `mate_features`: angle of the rotation, in degrees.
+    tolerance: For `turn`: the gap, beyond the clearance, that counts as contact.
+    offset: For `mate_features`: the distance of the moving feature's center from the fixed
+        feature's center at the place, along the direction of the fixed feature. For planes, their
+        distance.
+    nearest_fixed: Number of that fixed mesh; the lowest if several qualify.
     """
 
     mesh: Mesh
@@ -120,8 +121,8 @@ class SearchEffort(NamedTuple):
 
     pairs: Pairs of faces tested; a pair in motion counts as two.
     bound: The limit of `pairs`.
-    cut: Number of candidates skipped, since each would take more than 1/32 of the bound, or more
-        than the rest of it. If not 0, a better result may exist.
+    cut: Number of candidates skipped because testing one would take more than 1/32 of the bound, or
+        more than what is left of it. If not 0, a better result may exist.
     """
 
     pairs: int
@@ -134,7 +135,7 @@ class SearchEffort(NamedTuple):
 
 @dataclass(frozen=True, repr=False)
 class Measure(Result):
-    """How two meshes lie to each other.
+    """The relation and distance of two meshes.
 
     relation: 'separate', 'touching' or 'penetrating'. Exact.
     distance: Not squared. 0 if and only if the meshes touch or penetrate each other.
@@ -259,8 +260,8 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
     meet, and others around the best. The nearest of the places found is returned, if its
     coordinates pass the check of `slide`. It need not be the globally nearest place, which is on
     the boundary of a set with O(n^2 m^2) faces. The search is limited by `effort`, and skips
-    candidates that would take much of it, as in `penetration_depth`; `Placement.effort` tells how
-    many.
+    candidates that would take much of it, as in `penetration_depth`; `Placement.effort` has their
+    number (`cut`).
 
     fixed: a fixed body, or a list of them.
     clearance: The gap to leave, a distance; 0: until contact.
@@ -344,8 +345,8 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
     is.
 
     A shaft may go through its bore and meet nothing: then its center stays at that of the bore, if
-    that penetrates nothing and keeps the clearance. The place is looked at exactly, in the
-    coordinates returned. `travel` is 0.
+    that penetrates nothing and keeps the clearance. The place is checked exactly, on the returned
+    coordinates. `travel` is 0.
 
     onto: a fixed body, or a list of them.
     of_moving: a plane or an axis found by `find_features`.
@@ -395,9 +396,9 @@ class LaidFlat(MeshResult):
     on_bed: (n,) points of that side, ascending.
     certificate: What was verified about the coordinates.
     center_heights: (S,) of the center of mass over the plane of the side.
-    mass_dimension: The dimension of what has the mass: 3 for the solid that a closed mesh bounds; 2
-        for the faces of a mesh that bounds none, as sheets of equal thickness; 0 for the points of
-        a mesh without a face of positive area.
+    mass_dimension: What the mass is attributed to: 3 for the solid that a closed mesh bounds; 2 for
+        the faces of an open mesh, as sheets of equal thickness; 0 for the points of a mesh without
+        a face of positive area.
     """
 
     mesh: Mesh
@@ -465,20 +466,20 @@ class Alignment(MeshResult):
     """The motion found by `align`.
 
     matrix: (4, 4) new = M * old, with `start` included. Far from the origin its last column is
-        large, and so is its rounding. There, new = `pivot_moved` + (linear part of M) * (old -
+        large and has a large rounding error; then new = `pivot_moved` + (linear part of M) * (old -
         `pivot`) is more accurate.
     mesh: The moved mesh; without faces for a cloud.
     rms: Root mean square of the distances at the end, weighted if weights are used; 0 without
-        partners. For two clouds with `plane_to_plane`, of the distances to the planes, by the
-        agreement of both sides.
+        partners. For two clouds with `plane_to_plane`: of the distances to the planes, weighted by
+        the agreement of both planes.
     rms_at_start: The same at the start, unweighted.
     overlap: Share of all moving points whose nearest fixed point is within `max_distance`, at the
         end.
-    inliers: Number of moving points within 4.5 medians of the distances used.
+    inliers: Number of moving points within 4.5 times the median of the distances used.
     correlation: Correlation of the signed distances of neighbors, in [-1, 1]: near 0 for noise,
         near 1 if whole regions deviate to one side.
-    uncertainty: Estimated error of the place, as a root mean square over the points: the standard
-        deviation from the residuals and the stiffness of the motions, without those that
+    uncertainty: Estimated error of the position, as a root mean square over the points: the
+        standard deviation, from the residuals and the stiffness of the motions, except those that
         `undetermined` counts.
     scale: The scale found, in addition to that of `start`.
     end: 'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'.
@@ -521,22 +522,23 @@ def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False
     From each start this is a local optimum: the right one if the motion is small compared with the
     features of the shape. The result is never worse than the present position; if nothing better is
     found, it is `start`, scaled about its center to the bounds of the scale. Results are compared
-    by the mean of the squared distances to the nearest fixed points, cut off at `max_distance`
-    squared, over the nearest `overlap` share. With weights, and with an overlap below 1, it is the
+    by the mean, over the nearest `overlap` share, of the squared distances to the nearest fixed
+    points, each at most `max_distance` squared. If `robust`, or with an overlap below 1, it is the
     mean of Welsch's function with the final v, so that an overlap somewhat too large does no harm.
     Motions in which points slide freely (a plane on a plane) are not changed. Equal points of a
     cloud count once.
 
-    Along motions with a stiffness below 0.02, such as a cogwheel about its axis, places up to 6% of
-    the diagonal away are also tried.
+    Along motions with a stiffness below 0.02, such as the rotation of a gear about its axis,
+    positions up to 6% of the diagonal away are also tried.
 
-    Distances alone do not tell whether a place is right. At the right place residuals are noise; at
-    a wrong one, regions deviate to one side. From 4000 moving points on, every fourth is held out
-    of the fit and used for this test. If its residuals are more than noise, places around the start
-    are tried: shifts by 8% of the diagonal, rotations by 14 degrees. If they still are, a cloud is
-    doubtful if they exceed 0.6 times the thickness of both sides around their planes. On a mesh,
-    `converged` requires that other starts, tried with few points, do not end better, and that the
-    deviation is below 0.2% of the diagonal.
+    Small distances alone do not prove that a result is correct. In a correct alignment residuals
+    are noise; in a wrong one, whole regions deviate to one side. With 4000 moving points or more,
+    every fourth is held out of the fit and used for this test. If its residuals are more than
+    noise, other starts around `start` are tried: shifts by 8% of the diagonal, rotations by 14
+    degrees. If residuals are still more than noise, a fixed cloud gives `doubtful` if they exceed
+    0.6 times the thickness of both sides around their planes. On a fixed mesh, `converged` then
+    requires that other starts, tried with few points, do not end better, and that the deviation is
+    below 0.2% of the diagonal.
 
     If either side has no points, the result is `start`, not converged.
 
@@ -544,18 +546,20 @@ def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False
         of `start`.
     method: 'point_to_plane', 'point_to_point', 'automatic' or 'plane_to_plane'.
     overlap: Share of the moving points that have a partner, in (0, 1]. Each step uses this share of
-        nearest points, and ignores the rest.
-    robust: Partners count less the further apart they are: by exp(-d^2 / 2 v^2) (Welsch). From 3
-        medians of the distances at the start, v is halved down to where a third of the points is
-        within 2 v; at the end it is 4.5 medians of what is near. Up to half of the points may have
-        no partner, and nobody needs to say how many. Otherwise all count alike.
+        the points, those with the nearest partners.
+    robust: Weight partners at distance d by exp(-d^2 / (2 v^2)) (Welsch), so that up to half of the
+        points may have no partner, without a given `overlap`. v starts at 3 times the median
+        distance, and is halved while at least a third of the points are within v; finally it is 4.5
+        times the median of the near distances. If false, all partners have the same weight.
     max_distance: Ignore partners further apart. Not squared, not negative.
     max_iterations: From each start.
-    tolerance: Converged if the cost falls by less than this share in 5 steps in a row, or if a step
-        moves no point near the fixed mesh by more than 1e-11 of the diagonal of its box.
+    tolerance: Converged if the cost falls by less than this share in each of 5 consecutive steps,
+        or if a step moves no point near the fixed mesh by more than 1e-11 of the diagonal of the
+        fixed mesh's box.
     starts: Number of starts, at least 1. The first is the present position; then the principal axes
         of both sides aligned, in their 4 ways; then rotations spread evenly over all rotations,
-        small ones first, with aligned centers. The best end is returned; of equal ends the first.
+        small ones first, with aligned centers. The best result is returned; of equal results the
+        first.
     samples: Use at most this many moving points in the steps, spread evenly over space; 0 is all.
     start: (4, 4) Applied to the moving points first: any affine map.
     precision: 'float32' or 'float64'. Precision of the returned points.
@@ -581,7 +585,7 @@ def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False
 class PackedPart(NamedTuple):
     """A part on a plate.
 
-    placed: Whether it has a place.
+    placed: Whether a position was found.
     plate: Number of its plate, from 0.
     matrix: (4, 4) new = M * old, a rotation about z and a translation; the identity if the part is
         not placed. `points` differ from it by a few units in the last place of the largest
@@ -658,7 +662,7 @@ def pack(parts: Iterable[Body], size: ArrayLike, *, corner: ArrayLike = (0.0, 0.
         (none), 2, 3, 4, 6, 8, 12 or 24.
     stack: Fill the box up to its height, which must be finite: parts may be above, below and inside
         one another, and hang in the air. Otherwise each part stands on the bed.
-    plates: Largest number of plates; at least 1.
+    plates: Largest number of plates to use; at least 1.
     plate_step: (3,) from the corner of a plate to that of the next; its z is ignored.
     seed: Seed of the orders and rotations that are tried if not all parts fit.
     tries: Largest number of tries; at least 1.

@@ -26,9 +26,9 @@ class SolidDefects(Result):
     """The defects that keep a mesh from being a solid. True if there are any.
 
     nonfinite_vertices: With a NaN or infinite coordinate, used or not.
-    unusable_faces: With an invalid corner; not counted below.
-    without_faces: There are points, but no usable face.
-    tetrahedra: Whose sides are faces, as in a volume mesh.
+    unusable_faces: With an invalid corner; ignored by the counts below.
+    without_faces: The mesh has points, but no usable face.
+    tetrahedra: Tetrahedra whose sides are faces, as in a volume mesh.
     degenerate: Faces without area.
     repeated: Faces with the same corners as another.
     open_edges: Edges of one face.
@@ -36,7 +36,7 @@ class SolidDefects(Result):
     misoriented_edges: Edges of two inconsistently oriented faces.
     nonmanifold_vertices: With more than one fan of faces.
     meeting_pairs: Pairs of faces that meet beyond common corners.
-    inverted: Closed components that are inside out, and inside no other one.
+    inverted: Closed components that are inside out, without being inside another.
     wrongly_nested: Disjoint closed components are nested, but not as a solid and its cavities.
     message: The defects in words, such as 'open at 37 edges, 2 pairs of faces meet', or 'none'.
     """
@@ -63,7 +63,7 @@ class SolidDefects(Result):
 def find_solid_defects(mesh: MeshLike, *, progress: Progress = None) -> SolidDefects:
     """The defects that `repair` would mend or refuse. A mesh without points is a solid.
 
-    Raises ValueError as `self_intersections`, but not for corners.
+    Raises ValueError as `self_intersections`, except that invalid corners are counted.
 
     Cost: O(V log V + F log F), plus `self_intersections`.
 
@@ -208,9 +208,9 @@ class Feature(Result):
 
     kind: Plane or axis: 'plane' or 'axis'.
     origin: (3,) center of the faces, on the plane or the axis.
-    direction: (3,) of length 1: the normal, outward; along the axis, either way.
+    direction: (3,) of length 1: the outward normal of a plane; along an axis, in either sense.
     radius: Of the cylinder.
-    hollow: For a cylinder: the faces point to the axis, as in a hole.
+    hollow: For a cylinder: the faces point toward the axis, as in a hole.
     area: Of the faces.
     deviation: Largest distance of a corner from the plane or cylinder.
     faces: (n,) ascending.
@@ -229,9 +229,10 @@ class Feature(Result):
 def find_features(mesh: MeshLike, kind: str = "plane", *, tolerance: float | None = None,
                   plane_angle: float = 1.0, facet_angle: float = 46.0, arc: float = 60.0,
                   progress: Progress = None) -> list[Feature]:
-    """The flat or cylindrical regions of `mesh`, largest area first. A region grows over edges,
-    from the largest face, or pair of faces with an angle between them, that is not yet in a region.
-    Join points with equal coordinates first (`join_equal_points`). Cones are not found.
+    """The flat or cylindrical regions of `mesh`, largest area first. Regions grow across edges,
+    each from the largest face (for an axis, the largest pair of faces with an angle between them)
+    that is not yet in a region. Join points with equal coordinates first (`join_equal_points`).
+    Cones are not found.
 
     kind: 'plane' for flat regions, 'axis' for cylindrical ones.
     tolerance: Largest distance of a corner from the plane or cylinder. None: 1e-4 of the diagonal.

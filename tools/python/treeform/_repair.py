@@ -95,20 +95,20 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
                                keep_cuts: bool = False, touching: bool = False,
                                max_loss: float = 0.05, check: bool = True,
                                progress: Progress = None) -> RepairResult:
-    """`mesh` without self-intersections. Look at the certificate: it says whether this was
+    """`mesh` without self-intersections. Check the certificate: its status says whether this was
     possible.
 
     `split` and `outer` decide exactly, on the coordinates as given, what is cut and what is inside.
-    Then they round the points on cuts. Faces that meet nothing stay as they are.
+    Then they round the points on cuts. Faces that meet no other face do not change.
 
-    `remove` is for surfaces that bound no solid. It works locally. It deletes the faces that meet
+    `remove` is for surfaces that bound no solid, and works locally. It deletes the faces that meet
     or are degenerate. It closes each hole by triangles of the least total area between the vertices
-    of its rim, but not beyond where the mesh ended. Where the new triangles meet other faces, the
-    hole is made wider. A part is a set of faces linked by edges:
-    - In a part that has a border, a hole stays open where widening does not help, or where the hole
-      would surround the border. Then of each pair only one face is deleted.
-    - A closed part stays as it is where a part with a border passes through it.
-    - Where every face of a part has a copy, as in a sheet with a back, one copy stays.
+    of its rim, but not beyond the former border of the mesh. Where the new triangles meet other
+    faces, the hole is widened. A part is a set of faces linked by edges:
+    - In a part that has a border, a hole stays open if widening does not help, or if the hole would
+      surround the border. Then only one face of each pair is deleted.
+    - A closed part is not changed where a part with a border passes through it.
+    - If every face of a part has a copy, as in a sheet with a back, one copy stays.
 
     mode: 'outer' cuts faces along their intersections and keeps those that bound the solid; 'split'
         keeps all pieces; 'remove', for surfaces that do not bound a solid, deletes intersecting
@@ -118,7 +118,7 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
         and GLB.
     max_displacement: For `split` and `outer`: as in `boolean`.
     keep_cuts: For `outer`: as in `boolean`; `split` keeps all cuts.
-    touching: For `remove`: delete faces that only touch, too; else they stay.
+    touching: For `remove`: also delete faces that only touch.
     max_loss: For `outer` and `remove`: losing more than this share gives the status
         `excessive_loss`. The share is of the volume of the solid, or of the area if the mesh bounds
         none. 1 allows any loss. The solid before is that of `repair` without filling holes.
@@ -127,9 +127,9 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
     Raises NotSolidError if the mesh is open, NotCertifiedError if the result could not be
     certified; ValueError as `boolean`; for `remove`, a coordinate may be beyond 2^1000.
 
-    Cost: as `boolean`, and as `repair` where a loss is looked for: in `remove`, and in `outer`
-    where a component is inward; for `remove`, one `self_intersections` a round, and for a hole of n
-    vertices O(n^3) when n <= 200, else O(n^2).
+    Cost: as `boolean`; plus `repair` to measure the loss, for `remove`, and for `outer` if a
+    component is inside out; for `remove`, one `self_intersections` a round, and for a hole of n
+    vertices O(n^3) if n <= 200, else O(n^2).
 
     >>> import treeform
     >>> solid = treeform.resolve_self_intersections(treeform.read("data/two_spheres.stl"))
@@ -146,22 +146,23 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
            max_loss: float = 0.05, sheet: bool = False, precision: str = "float64",
            max_displacement: float = np.inf, keep_cuts: bool = False, check: bool = True,
            progress: Progress = None) -> RepairResult:
-    """A solid made of a dirty mesh: closed, oriented, manifold and free of self-intersections. Look
-    at the certificate: it says whether this was possible, and where not.
+    """A solid made of a dirty mesh: closed, oriented, manifold and free of self-intersections.
+    Check the certificate: its status says whether this was possible, and it lists where it was not.
 
     The steps are `options`, in this order. Each changes only what is defective: a mesh that is a
     solid is returned bit for bit. Which faces meet and what is inside is decided exactly. Which
-    cracks are closed, how faces are oriented, and what fills a hole are heuristics, and counted.
-    Points with equal coordinates are one. Faces that are the sides of tetrahedra are replaced by
-    the boundary of the tetrahedra. If faces remain inconsistent, a minimum cut labels cells inside
-    or outside, by the orientations of faces and generalized winding numbers; the result is used if
-    it loses less.
+    cracks are closed, how faces are oriented, and how holes are filled is decided by heuristics,
+    and counted in `statistics`. Points with equal coordinates are one. If faces are the sides of
+    tetrahedra, only the boundary of the tetrahedra is kept. If faces remain inconsistent, a minimum
+    cut labels cells inside or outside, by the orientations of faces and generalized winding
+    numbers; the result is used if it loses less.
 
     Holes are filled with triangles between their vertices; large holes in smooth surfaces also with
     new points, which continue the surface smoothly. Sheets are not filled, but reported as open,
     unless any loss is allowed. A sheet is a part with an area below 1 / 0.6 of the area that would
-    close it, unless its border is in a plane and it is on one side of the plane. Nor is a mesh
-    filled with more than one edge for 10 faces where three or more faces are inconsistent.
+    close it, unless its border is in a plane and it is on one side of the plane. No hole is filled
+    in a mesh of more than 1000 faces in which more than one edge for every 10 faces has three or
+    more inconsistent faces.
 
     steps: the steps to perform. 'join' removes degenerate and duplicate faces and closes cracks;
         'orient' orients faces consistently and outward; 'fill' fills holes; 'resolve' removes
@@ -177,7 +178,7 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
         'positive' if all shells are oriented outward, otherwise 'nonzero'; if faces are
         inconsistent, inside and outside are determined by a minimum cut.
     max_loss: Losing more than this share of the volume gives the status `excessive_loss`; if there
-        were holes, of the area. Faces that are still there or hidden in the solid are not lost. 1
+        were holes, of the area. Faces that remain, or are inside the solid, do not count as lost. 1
         allows any loss.
     sheet: The mesh is an open surface: keep its border, and fill nothing.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
@@ -240,9 +241,9 @@ def rounded(points: ArrayLike, precision: str = "float32", *, progress: Progress
 
 def find_rounding_defects(mesh: MeshLike, placed: ArrayLike, *,
                           progress: Progress = None) -> tuple[int, int]:
-    """What breaks when the points of `mesh` become `placed`, exactly. The mesh may have been moved
-    and turned, too: distances are not compared, only how faces lie to each other: `collapsed` and
-    `meeting` are found, the latter of all kinds except touching and degenerate.
+    """The faces that become degenerate (`collapsed`), and the number of pairs of faces that newly
+    meet (`meeting`; all kinds except touching and degenerate), when the points of `mesh` become
+    `placed`. Exact. Distances are not compared, so `placed` may also be moved and rotated.
 
     Returns the number of faces that became degenerate, and the number of pairs of faces that
     intersect only after rounding.
@@ -251,7 +252,8 @@ def find_rounding_defects(mesh: MeshLike, placed: ArrayLike, *,
 
     Raises ValueError as `self_intersections` for either, or for another number of points.
 
-    Cost: `self_intersections` of the mesh at the new points, and at the old ones only if any meet.
+    Cost: `self_intersections` of the mesh at the new points; also at the old points if any faces
+    meet.
 
     >>> import treeform
     >>> m = treeform.read("data/sphere.ply")

@@ -25,7 +25,7 @@ __all__ = ["Joint", "Robot", "read_urdf"]
 class Joint(NamedTuple):
     """A joint, which connects two links.
 
-    name: As in the file.
+    name: Name in the file.
     kind: 'fixed', 'revolute', 'continuous' or 'prismatic'.
     parent: Name of the parent link.
     child: Name of the child link.

@@ -33,7 +33,7 @@ def drains_of(drains: ArrayLike) -> Floats:
 #   Isolines
 @dataclass(frozen=True, repr=False)
 class Isolines(Result):
-    """Lines of all levels, in the given order of levels.
+    """The isolines of all levels, in the given order of levels.
 
     lines: One after the other.
     points: (n, 3) on edges of the mesh, rounded.
@@ -67,19 +67,20 @@ class OffsetResult(MadeMesh):
     """The result of `offset`, `hollow`, `thicken` or `wrap`.
 
     blind_drains: (n,) For `hollow`: numbers of drains that do not lead from outside into a cavity,
-        as far as the ends of their axes show.
-    distance: Asked for, without its sign; of `wrap`, that of its vertices.
-    resolution: That was used; of `wrap`, its size.
+        judged by the ends of their axes.
+    distance: The given distance, without its sign; for `wrap`, the offset used.
+    resolution: The resolution used; for `wrap`, its `size`.
     cells: Cells that the surface may pass through.
     sealed_cavities: For `hollow`: cavities without an opening, those of the input included.
-    tetrahedra: Of `wrap`: at the end.
-    tetrahedra_points: Of `wrap`: of the tetrahedra that were made.
-    filled_tetrahedra: Of `wrap`: filled so that it is a manifold.
-    least_distance: Bounds of the distance from any point of the surface made, in its faces too, to
-        the mesh that it is the offset of, the lower one here; of `hollow`, of the cavities'
-        surface; of `thicken`, to the moved surface. Found by branch and bound: each is within a
-        sixteenth of the resolution of the true extreme. 0 where there is no surface, and of `wrap`.
-    greatest_distance: The upper bound.
+    tetrahedra: For `wrap`: tetrahedra at the end.
+    tetrahedra_points: For `wrap`: points of the tetrahedra.
+    filled_tetrahedra: For `wrap`: tetrahedra filled to make the surface manifold.
+    least_distance: Lower bound of the distance from any point of the new surface, also inside its
+        faces, to the input surface. For `hollow`, the new surface is that of the cavities; for
+        `thicken`, the distance is to the moved surface. By branch and bound: this and
+        `greatest_distance` are within a sixteenth of the resolution of the true extremes. 0 if
+        there is no surface, and for `wrap`.
+    greatest_distance: Upper bound of the same distances.
     """
 
     blind_drains: Ids
@@ -135,8 +136,8 @@ def offset(mesh: MeshLike, distance: float, *, resolution: float | None = None,
 def hollow(mesh: MeshLike, wall: float, *, drains: ArrayLike = (), resolution: float | None = None,
            precision: str = "float64", check: bool = True,
            progress: Progress = None) -> OffsetResult:
-    """The solid without its points deeper inside than `wall`: the surface stays bit for bit, around
-    new cavities. The status is `vanished` if there is no cavity.
+    """Hollows the solid: its points deeper inside than `wall` become cavities; the outer surface
+    stays bit for bit. The status is `vanished` if there is no cavity.
 
     `drains` are holes through the wall: a point and a diameter. Each runs from the nearest point of
     the surface along the shortest segment to a cavity, as a regular prism of 32 sides; the diameter
@@ -176,10 +177,10 @@ def thicken(mesh: MeshLike, thickness: float, *, resolution: float | None = None
             progress: Progress = None) -> OffsetResult:
     """A solid around any surface: all points at most half of `thickness` away. Its rim is round.
 
-    With a `shift` the surface is first moved to its front, from where faces are counter-clockwise:
-    each vertex so that the planes of its faces move that far, on average. This is exact where the
-    surface is flat, and rounds it where it bends. Vertices of sharp folds move by at most twice
-    that. Faces must be consistently oriented.
+    With a `shift` the surface is first moved toward its front, from where faces are
+    counter-clockwise. Each vertex moves so that the planes of its faces move by the shift, on
+    average. This is exact where the surface is flat, and rounds it where it bends. Vertices of
+    sharp folds move by at most twice the shift. Faces must be consistently oriented.
 
     resolution: Edge length of the cells from which the surface is made, in the mesh's length unit;
         at most half of the distance. Every point whose distance differs from the given one by more
@@ -214,14 +215,14 @@ def thicken(mesh: MeshLike, thickness: float, *, resolution: float | None = None
 
 def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision: str = "float64",
          check: bool = True, progress: Progress = None) -> OffsetResult:
-    """A solid that holds all faces of `mesh`, whatever they are: open, crossing, turned any way, of
-    no area. A ball of diameter 2 `size` is rolled over them from outside, so to speak: it enters no
-    hole or gap that is narrower. So the wrap closes these, rounds what is sharp, and fills cavities
-    that nothing leads to. A smaller size follows the mesh more closely, with more faces, some area
-    / `size`^2 of them.
+    """Alpha wrapping: a solid that contains all faces of `mesh`, which may be open, intersecting,
+    inconsistently oriented or degenerate. The wrap is the surface that a ball of radius `size`
+    cannot pass when rolled over the mesh from outside: holes and gaps narrower than the ball are
+    closed, sharp edges are rounded, and cavities without an opening for the ball are filled. A
+    smaller size follows the mesh more closely, with more faces: about area / `size`^2.
 
     No face of the mesh meets the wrap or is outside of it: this is verified exactly, on the
-    coordinates of both. Its vertices are at the offset up to rounding.
+    coordinates of both. The wrap's vertices are at the offset from the mesh, up to rounding.
 
     offset: `wrap`: how far the vertices of the wrap are from the mesh, in its length unit. None: a
         thirtieth of the size.
@@ -287,7 +288,7 @@ def simplify(mesh: MeshLike, max_distance: float, *, face_groups: ArrayLike | No
     Input and result are within `max_distance` of each other: this is proven for each face, not
     sampled. No collapse makes faces meet, exactly, on the coordinates returned; faces of the input
     that meet may still meet. A closed, oriented manifold stays one. The nesting of components is
-    only checked at the end; the certificate tells if it changed.
+    only checked at the end, in the certificate.
 
     Borders, features, and borders of groups are simplified as polylines on their own vertices,
     within the same distance. Vertices stay where such lines end, branch or cross, at nonmanifold or
@@ -329,10 +330,10 @@ def simplify(mesh: MeshLike, max_distance: float, *, face_groups: ArrayLike | No
 
 @dataclass(frozen=True, repr=False)
 class Thickness(Result):
-    """The thickness at each face, and the least.
+    """The thickness at each face, and the least thickness.
 
     of_face: (F,) Infinite if there is nothing behind a face, or the face has no area.
-    least: Of all faces.
+    least: Least thickness of all faces.
     thinnest: The lowest face with the least thickness.
     """
 

@@ -235,8 +235,8 @@ def weld(mesh_or_points: Body, tolerance: float = 0.0, *, chain: bool = False,
 
 
 def count_nearly_equal(points: ArrayLike, distance: float, *, progress: Progress = None) -> int:
-    """By how much the number of points would shrink if points within `distance` of each other were
-    joined, compared with joining equal points only.
+    """The number of points that joining points within `distance` of each other would remove, beyond
+    those that joining equal points removes.
 
     >>> import treeform
     >>> treeform.count_nearly_equal([[0, 0, 0], [0, 0, 0], [0, 0, 0.5]], 1.0)
@@ -287,10 +287,10 @@ def weld_stream(files: Path | Iterable[Path], out: Path, tolerance: float = 0.0,
                 mixed: bool = False, communicator: Communicator | None = None,
                 progress: Progress = None) -> WeldStreamResult:
     """Welds the cloud in the files `files` (PLY without faces, PCD, LAS, LAZ, PTS, XYZ, CSV), and
-    writes the outputs. Each output appears whole or not at all. One PLY or binary STL alone may be
-    a mesh: as `weld` would, faces get their new corners, and those that collapse are left out. Each
-    rank has a share of points and of faces. Meshes need `out` as PLY or OBJ; an STL no tolerance,
-    or `chain`.
+    writes the outputs. Each output file is written completely or not at all. A single PLY or binary
+    STL may be a mesh: then faces get their new corners, and collapsed faces are dropped, as by
+    `weld`. `out` must then be PLY or OBJ, and an STL needs tolerance 0 or `chain`. Ranks share
+    points and faces.
 
     The outputs are the same, byte for byte, as those of `weld` for the whole input.
 
@@ -329,12 +329,13 @@ def weld_stream(files: Path | Iterable[Path], out: Path, tolerance: float = 0.0,
         call. If one fails or is interrupted, all others raise an error at their next collective
         call.
 
-    Raises FileError when an input cannot be read or an output cannot be written, or for the folder;
-    ValueError for a tolerance below 0 or not finite, and as `weld`.
+    Raises FileError if an input cannot be read, an output cannot be written, or the folder cannot
+    be used; ValueError for a tolerance that is negative or not finite, and as `weld`.
 
-    Cost: O(V log V) time; memory as the options say; 34 bytes a point on the disk, 8 more for each
-    condition, 48 for an order, and points as in memory for a choice of what is kept; of a mesh up
-    to 56 more, and 48 a triangle; the points of a compressed PCD also unpacked.
+    Cost: O(V log V) time; memory as in the options; on the disk 34 bytes a point, 8 more for each
+    condition, 48 for `order_by`, and the size of the points in memory for a `keep` other than
+    `first`; for a mesh up to 56 more, and 48 a triangle; for a compressed PCD also its unpacked
+    points.
 
     >>> import os, tempfile, treeform
     >>> with tempfile.TemporaryDirectory() as home:

@@ -41,31 +41,32 @@ enum class align_method : std::uint8_t {
 /// How to align.
 struct align_options {
     align_method method = align_method::automatic;
-    /// Share of the moving points that have a partner, in (0, 1]. Each step uses this share of
-    /// nearest points, and ignores the rest.
+    /// Share of the moving points that have a partner, in (0, 1]. Each step uses this share of the
+    /// points, those with the nearest partners.
     double overlap = 1.0;
-    /// Partners count less the further apart they are: by exp(-d^2 / 2 v^2) (Welsch). From 3
-    /// medians of the distances at the start, v is halved down to where a third of the points is
-    /// within 2 v; at the end it is 4.5 medians of what is near. Up to half of the points may have
-    /// no partner, and nobody needs to say how many. Otherwise all count alike.
+    /// Weight partners at distance d by exp(-d^2 / (2 v^2)) (Welsch), so that up to half of the
+    /// points may have no partner, without a given `overlap`. v starts at 3 times the median
+    /// distance, and is halved while at least a third of the points are within v; finally it is 4.5
+    /// times the median of the near distances. If false, all partners have the same weight.
     bool robust = true;
     /// Ignore partners further apart. Not squared, not negative.
     double max_distance = std::numeric_limits<double>::infinity();
-    /// Also find a uniform scale. The search starts from the scale of `start` and from the one that
-    /// makes both sides equally large, and tries up to twice and down to half of each. The better
-    /// one is that with smaller distances between both sides, relative to their sizes.
+    /// Also find a uniform scale. The search starts from the scale of `start`, and from the scale
+    /// that makes both sides equally large, and tries from half to twice of each. It compares
+    /// results by the distances between both sides, relative to their sizes.
     bool scale = false;
     /// Bounds of `align_result::scale` if `scale` is set: positive, or 0 and infinity for none. A
-    /// start outside begins at the nearest bound. Equal bounds fix the scale.
+    /// start outside the bounds is moved to the nearest bound. Equal bounds fix the scale.
     double least_scale = 0.0;
     double most_scale = std::numeric_limits<double>::infinity();
     unsigned max_iterations = 100;  ///< from each start
-    /// Converged if the cost falls by less than this share in 5 steps in a row, or if a step moves
-    /// no point near the fixed mesh by more than 1e-11 of the diagonal of its box.
+    /// Converged if the cost falls by less than this share in each of 5 consecutive steps, or if a
+    /// step moves no point near the fixed mesh by more than 1e-11 of the diagonal of the fixed
+    /// mesh's box.
     double tolerance = 1e-6;
     /// Number of starts, at least 1. The first is the present position; then the principal axes of
     /// both sides aligned, in their 4 ways; then rotations spread evenly over all rotations, small
-    /// ones first, with aligned centers. The best end is returned; of equal ends the first.
+    /// ones first, with aligned centers. The best result is returned; of equal results the first.
     unsigned starts = 1;
     /// Anderson acceleration with the 5 previous steps.
     bool accelerate = true;
@@ -79,27 +80,27 @@ struct align_options {
 
 /// How the search ended.
 enum class align_end : std::uint8_t {
-    converged,          ///< no test of the place failed
+    converged,          ///< converged, and no test of the result failed
     out_of_iterations,  ///< `max_iterations` steps were not enough
     /// Converged, but residuals are more than noise: neighboring points deviate to the same side by
-    /// more than at a right place. Often a wrong local optimum, or parts without a partner.
+    /// more than in a correct alignment. Often a wrong local optimum, or parts without a partner.
     ///
-    /// Or the scale is at its bound, or the points of a cloud do not determine the place:
-    /// `uncertainty` is above 0.2% of the diagonal of the fixed box, or the points that were held
-    /// out would move all by more than that, or some motion is undetermined.
+    /// Or the scale is at its bound, or the points of a cloud do not determine the position:
+    /// `uncertainty` is above 0.2% of the diagonal of the fixed box, or a fit to the held-out
+    /// points would move all points by more than that, or some motion is undetermined.
     doubtful,
-    nothing_to_align,  ///< no points, or none has a partner
+    nothing_to_align,  ///< there are no points, or no point has a partner
 };
 /// "converged", "out-of-iterations", "doubtful", "nothing-to-align"
 [[nodiscard]] TREEFORM_API const char* name_of(align_end end);
 
-/// A small motion of the moving points, and how well the distances determine it: a rotation about
-/// `align_result::pivot_moved` and a shift, scaled so that the root mean square over the points is
-/// 1.
+/// A small motion of the moving points, and how well the distances determine it. It is a rotation
+/// about `align_result::pivot_moved` and a shift, scaled so that the root mean square of the motion
+/// over the points is 1.
 struct align_freedom {
     point3 turn{};   ///< axis times angle, about `pivot_moved`
     point3 shift{};  ///< after the turn
-    /// Share of the squared motion that is along the normals, 0 to 1: near 0 if points slide on the
+    /// Share of the squared motion along the normals, 0 to 1: near 0 if points slide on the
     /// surface, like a plane on a plane.
     double stiffness = 0.0;
 };
@@ -107,39 +108,39 @@ struct align_freedom {
 /// The motion found.
 struct align_result {
     std::vector<point3> points{};  ///< [V] the moving points, moved by `matrix` and rounded
-    /// new = M * old, with `start` included. Far from the origin its last column is large, and so
-    /// is its rounding. There, new = `pivot_moved` + (linear part of M) * (old - `pivot`) is more
-    /// accurate.
+    /// new = M * old, with `start` included. Far from the origin its last column is large and has a
+    /// large rounding error; then new = `pivot_moved` + (linear part of M) * (old - `pivot`) is
+    /// more accurate.
     transform<3> matrix{};
     point3 pivot{};        ///< center of the box of the moving points
-    point3 pivot_moved{};  ///< where the pivot goes
+    point3 pivot_moved{};  ///< the pivot, moved by `matrix`
     double scale = 1.0;    ///< the scale found, in addition to that of `start`
     /// Root mean square of the distances at the end, weighted if weights are used; 0 without
-    /// partners. For two clouds with `plane_to_plane`, of the distances to the planes, by the
-    /// agreement of both sides.
+    /// partners. For two clouds with `plane_to_plane`: of the distances to the planes, weighted by
+    /// the agreement of both planes.
     double rms = 0.0;
     double rms_at_start = 0.0;  ///< the same at the start, unweighted
     /// Share of all moving points whose nearest fixed point is within `max_distance`, at the end.
     double overlap = 0.0;
-    /// Number of moving points within 4.5 medians of the distances used.
+    /// Number of moving points within 4.5 times the median of the distances used.
     std::uint64_t inliers = 0;
     /// Correlation of the signed distances of neighbors, in [-1, 1]: near 0 for noise, near 1 if
     /// whole regions deviate to one side.
     double correlation = 0.0;
-    /// Estimated error of the place, as a root mean square over the points: the standard deviation
-    /// from the residuals and the stiffness of the motions, without those that `undetermined`
-    /// counts.
+    /// Estimated error of the position, as a root mean square over the points: the standard
+    /// deviation, from the residuals and the stiffness of the motions, except those that
+    /// `undetermined` counts.
     double uncertainty = 0.0;
-    /// The independent motions, by increasing stiffness; none without partners.
+    /// The independent motions, ascending by stiffness; none without partners.
     std::vector<align_freedom> freedoms{};
     align_end end = align_end::nothing_to_align;  ///< how the search ended
     bool converged = false;                       ///< `end` is `converged`
     unsigned iterations = 0;                      ///< steps from the best start
-    unsigned start = 0;  ///< which start that was: 0 is the present position
+    unsigned start = 0;  ///< number of the best start; 0 is the present position
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: then the rest is invalid
 
-    /// Number of `freedoms`, from the first, with a stiffness below 1e-4: the data do not determine
-    /// these motions.
+    /// Number of `freedoms` with a stiffness below 1e-4; these come first. The data do not
+    /// determine these motions.
     [[nodiscard]] TREEFORM_API std::size_t undetermined() const;
     /// For people: "after 12 steps; rms 0.01, from 0.3; overlap 1".
     [[nodiscard]] TREEFORM_API std::string message() const;
@@ -153,22 +154,23 @@ struct align_result {
 /// From each start this is a local optimum: the right one if the motion is small compared with the
 /// features of the shape. The result is never worse than the present position; if nothing better is
 /// found, it is `start`, scaled about its center to the bounds of the scale. Results are compared
-/// by the mean of the squared distances to the nearest fixed points, cut off at `max_distance`
-/// squared, over the nearest `overlap` share. With weights, and with an overlap below 1, it is the
+/// by the mean, over the nearest `overlap` share, of the squared distances to the nearest fixed
+/// points, each at most `max_distance` squared. If `robust`, or with an overlap below 1, it is the
 /// mean of Welsch's function with the final v, so that an overlap somewhat too large does no harm.
 /// Motions in which points slide freely (a plane on a plane) are not changed. Equal points of a
 /// cloud count once.
 ///
-/// Along motions with a stiffness below 0.02, such as a cogwheel about its axis, places up to 6% of
-/// the diagonal away are also tried.
+/// Along motions with a stiffness below 0.02, such as the rotation of a gear about its axis,
+/// positions up to 6% of the diagonal away are also tried.
 ///
-/// Distances alone do not tell whether a place is right. At the right place residuals are noise; at
-/// a wrong one, regions deviate to one side. From 4000 moving points on, every fourth is held out
-/// of the fit and used for this test. If its residuals are more than noise, places around the start
-/// are tried: shifts by 8% of the diagonal, rotations by 14 degrees. If they still are, a cloud is
-/// doubtful if they exceed 0.6 times the thickness of both sides around their planes. On a mesh,
-/// `converged` requires that other starts, tried with few points, do not end better, and that the
-/// deviation is below 0.2% of the diagonal.
+/// Small distances alone do not prove that a result is correct. In a correct alignment residuals
+/// are noise; in a wrong one, whole regions deviate to one side. With 4000 moving points or more,
+/// every fourth is held out of the fit and used for this test. If its residuals are more than
+/// noise, other starts around `start` are tried: shifts by 8% of the diagonal, rotations by 14
+/// degrees. If residuals are still more than noise, a fixed cloud gives `doubtful` if they exceed
+/// 0.6 times the thickness of both sides around their planes. On a fixed mesh, `converged` then
+/// requires that other starts, tried with few points, do not end better, and that the deviation is
+/// below 0.2% of the diagonal.
 ///
 /// If either side has no points, the result is `start`, not converged.
 ///

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Converts files to meshes for all operations: drops unusable faces, joins equal points, joins
-/// several files.
+/// Converts files to meshes for the operations: drops unusable faces, joins equal points,
+/// concatenates files.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
@@ -19,22 +19,23 @@ namespace treeform {
 /// A mesh without NaN or infinite coordinates, and the file's number of each face.
 struct usable_mesh {
     treeform::mesh mesh{};
-    /// [F] the triangle in the file of each face; empty: the same numbers.
+    /// [F] number of each face's triangle in the file; empty: the same numbers.
     std::vector<std::uint32_t> triangle_of_face{};
-    /// [triangles] the face in the file of each triangle; empty: the same numbers.
+    /// [triangles] number of each triangle's face in the file; empty: the same numbers.
     std::vector<std::uint32_t> stored_face{};
     std::uint64_t non_finite = 0;  ///< triangles with a coordinate that is not finite
     /// From `usable_part`: [F] the connected component of the whole mesh that each face is in.
     std::vector<std::uint32_t> component{};
-    std::uint64_t degenerate = 0;             ///< likewise: triangles that are a segment or a point
-    std::optional<std::uint64_t> distinct{};  ///< likewise: different points, where they are known
-    std::uint64_t joined = 0;                 ///< likewise: points merged by tolerance
+    std::uint64_t degenerate = 0;  ///< from `usable_part`: triangles that are a segment or a point
+    /// from `usable_part` with `details`: number of different points
+    std::optional<std::uint64_t> distinct{};
+    std::uint64_t joined = 0;  ///< from `usable_part`: points merged by tolerance
 
-    /// The triangle of the file.
+    /// The triangle in the file of face `f`.
     [[nodiscard]] std::uint32_t triangle(std::uint32_t f) const {
         return triangle_of_face.empty() ? f : triangle_of_face[f];
     }
-    /// The number in the file.
+    /// The number of face `f` in the file.
     [[nodiscard]] std::uint32_t face_in_file(std::uint32_t f) const {
         const std::uint32_t t = triangle(f);
         return stored_face.empty() ? t : stored_face[t];
@@ -54,21 +55,21 @@ struct usable_mesh {
 /// The mesh of a file: `as_mesh(read(path))`.
 [[nodiscard]] TREEFORM_API usable_mesh read_mesh(const std::filesystem::path& path);
 
-/// Which part of a mesh.
+/// Options of `usable_part`.
 struct part_options {
     /// Whether points with equal coordinates are one vertex.
     vertex_identity vertices = vertex_identity::by_coordinates;
     /// If greater than 0, points within this distance are joined, as by `weld`, after equal points.
     double tolerance = 0.0;
-    std::optional<box3> box{};  ///< only faces that meet it
+    std::optional<box3> box{};  ///< only faces that have a point in the box
     bool details = false;       ///< also compute `component` and `distinct`
 };
 
 /// The usable part of a file's mesh: its finite faces; with a box, only those that meet the box.
 /// The result has the number of each face in the file. Points that only dropped faces use are
-/// dropped, too.
+/// dropped as well.
 ///
-/// `stored_face` is the file's.
+/// `stored_face` is that of the file (`mesh_file::stored_face`).
 ///
 /// \throws std::invalid_argument as `faces_in_box`, `weld`
 /// \cost   O(V + F); with a tolerance, as `group_points`
@@ -77,24 +78,24 @@ struct part_options {
                                                    std::vector<std::uint32_t> stored_face,
                                                    const part_options& options = {});
 
-/// Drops the faces of `mesh` with a corner that is not finite or out of range. Returns [F] the
-/// previous number of each kept face; empty if all are kept.
+/// Drops the faces of `mesh` with a corner that is not finite or out of range. Returns the previous
+/// number of each kept face [F]; empty if all are kept.
 TREEFORM_API std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh);
 
-/// One file with the points and faces of all `files`, one after the other, in the format of the
-/// first.
+/// Concatenates files: all points and faces of `files`, one file after the other, in the format of
+/// the first.
 ///
 /// Columns of "vertex" and "face" are matched by name. If a file lacks a column, its rows get NaN,
 /// 0 or empty lists. Types are widened until they hold every value. Corners keep their texture
 /// coordinates, normals and texture files. Other elements are dropped (warning "left-out"). `names`
 /// has one name for each file, for the warnings.
 ///
-/// Columns of points that formats call by different names get that of the first file's format
-/// (`normal_x` of PCD, `nx` of PLY). The header of LAS is that of the first file. Where scales or
-/// offsets differ, it gets the finest of the scales that holds the points of all, as their headers
-/// say where these are; extra bytes are described as in the first file that has them. LAS files of
-/// different reference systems, or whose GPS time is counted in different ways, are joined only if
-/// `mixed`: what the first one says of it is written.
+/// Columns of points whose names depend on the format (`normal_x` in PCD, `nx` in PLY) get the
+/// names of the first file's format. The LAS header is that of the first file. If scales or offsets
+/// differ, it gets the finest of the scales with which 32 bits hold the bounds of all headers;
+/// extra bytes are described as in the first file that has them. LAS files with different
+/// coordinate systems or different types of GPS time are joined only with `mixed`; the result then
+/// states those of the first file.
 ///
 /// \throws std::invalid_argument for such LAS files unless `mixed`, when a column holds
 ///         lists in one file and single values in another, when no type holds all values, or when
@@ -104,12 +105,12 @@ TREEFORM_API std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh);
 [[nodiscard]] TREEFORM_API mesh_file join(std::vector<mesh_file> files,
                                           std::span<const std::string> names, bool mixed = false);
 
-/// All files in one, with their parts, texture coordinates, normals, materials and textures. Other
-/// properties are left out. `warnings` says what could not be kept of textures. The format, and the
-/// type of its numbers, are those of the first. `names` are those of the faces of files that have a
-/// single part; `labels` are for warnings.
+/// One file with all `files` as parts of a scene, with texture coordinates, normals, materials and
+/// textures. Other properties are omitted. `warnings` lists textures that could not be kept.
+/// `format` and `stored_as` are those of the first file. `names` has, for each file, the name of
+/// its part if it has only one; `labels` has the name of each file in warnings.
 ///
-/// \pre  there is a file, and as many names and labels as files
+/// \pre  there is at least one file, and one name and one label for each file
 /// \cost O(size of all files)
 [[nodiscard]] TREEFORM_API mesh_file scene_of(std::span<const mesh_file* const> files,
                                               std::span<const std::string> names,

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Attributes: all that a mesh has besides points and faces. Columns of values for vertices,
-/// faces and other elements; values of corners; names of parts; files of materials and textures;
+/// Attributes: all data of a mesh besides points and faces. Columns of values for vertices, faces
+/// and other elements; values of corners; names of parts; files of materials and textures;
 /// comments.
 
 #include <treeform/mesh/mesh.hpp>
@@ -29,7 +29,7 @@ struct corner_values {
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
     std::vector<std::array<double, 3>> texture{};  ///< u, v, w
-    bool has_w = false;                            ///< else every w is 0 and is not written
+    bool has_w = false;                            ///< otherwise every w is 0 and is not written
     std::vector<point3> normals{};
     std::vector<face> texture_of_corner{};  ///< [F] numbers in `texture`; empty: no corner has any
     std::vector<face> normal_of_corner{};   ///< [F] numbers in `normals`; empty: no corner has any
@@ -37,17 +37,18 @@ struct corner_values {
     /// The values of the corners of some triangles, in the order of `triangles`. `texture` and
     /// `normals` stay complete.
     ///
-    /// \pre each of `triangles` is one of those that have these values
+    /// \pre each of `triangles` is less than the number of triangles of these values
     [[nodiscard]] TREEFORM_API corner_values
     gathered(std::span<const std::uint32_t> triangles) const;
 
-    /// Appends the values of `more_triangles` triangles to these of `triangles` triangles.
+    /// Appends `more`, the values of `more_triangles` triangles, to these values of `triangles`
+    /// triangles.
     ///
     /// \pre together, both have fewer texture coordinates, and fewer normals, than `none`
     TREEFORM_API void append(std::size_t triangles, const corner_values& more,
                              std::size_t more_triangles);
 
-    /// What is wrong with them as values of `triangles` triangles; empty when they are valid.
+    /// Why these are not valid values of `triangles` triangles; empty if they are valid.
     [[nodiscard]] TREEFORM_API std::string fault(std::size_t triangles) const;
 
     friend bool operator==(const corner_values&, const corner_values&) = default;
@@ -67,7 +68,7 @@ enum class scalar_type : std::uint8_t {
     float64
 };
 
-/// Bytes that one value takes.
+/// Size of one value in bytes.
 [[nodiscard]] constexpr std::size_t size_of(scalar_type type) {
     constexpr std::size_t sizes[] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
     return sizes[static_cast<std::size_t>(type)];
@@ -128,16 +129,16 @@ decltype(auto) with_type(scalar_type type, F&& f) {
     return f(double{});
 }
 
-/// What a column stands for. Only `data` columns hold values. The others say with which type and at
-/// which place among the columns a file has what is stored in `mesh::points`, `mesh::faces` and,
-/// for `texture`, `attributes::corners`.
+/// What a column contains. Only `data` columns have values. The others record the type, and the
+/// position among the columns, with which a file stores `mesh::points` (x, y, z), `mesh::faces`
+/// (corners) and `attributes::corners` (texture).
 enum class column_role : std::uint8_t { data, x, y, z, corners, texture };
 
 /// One named property: a value, or a list of values, for each row of its element.
 struct column {
     std::string name{};
     scalar_type type = scalar_type::float64;
-    /// Type of the length before each list; none when each row has exactly one value.
+    /// Type of the length before each list; none if each row has exactly one value.
     std::optional<scalar_type> list_length{};
     column_role role = column_role::data;
     std::vector<std::byte> values{};          ///< in the machine's byte order, row after row
@@ -172,19 +173,19 @@ struct element {
     /// The column of that name; null when there is none.
     [[nodiscard]] TREEFORM_API const column* find(std::string_view column_name) const;
 
-    /// Names of the columns with values that a name stands for: the one of that name, or else those
-    /// of a kind, "normal", "uv" or "color", whatever formats call them. Empty where there are
-    /// none.
+    /// The names of the data columns that `column_name` means: the column of that name, or else,
+    /// for "normal", "uv" or "color", the columns of that kind, under the names of any format.
+    /// Empty if there are none.
     [[nodiscard]] TREEFORM_API std::vector<std::string> columns_called(
         std::string_view column_name) const;
 
-    /// Replaces the column with the name of `c`, or appends `c` when there is none. Returns whether
-    /// there was one.
+    /// Replaces the column of the same name by `c`, or appends `c`. Returns whether a column was
+    /// replaced.
     ///
     /// \pre `c` has a value for each row
     TREEFORM_API bool set(column c);
 
-    /// Some rows, in the order of `which`; a row may come several times.
+    /// The rows `which`, in this order; a row may occur several times.
     ///
     /// \pre each of `which` is less than `rows`
     [[nodiscard]] TREEFORM_API element gathered(std::span<const std::uint32_t> which) const;
@@ -192,7 +193,7 @@ struct element {
     friend bool operator==(const element&, const element&) = default;
 };
 
-/// Consecutive faces that a file puts under one name. A part ends where the next one starts.
+/// Consecutive faces to which a file gives the same names. A part ends where the next one starts.
 struct part {
     std::string object{};          ///< OBJ `o`, the name of an STL solid or of a scene's node
     std::string group{};           ///< OBJ `g`
@@ -207,10 +208,10 @@ struct attributes {
     /// In the order of the file. "vertex" has a row for each point, "face" one for each face as
     /// stored.
     std::vector<element> elements{};
-    /// By triangles of the mesh, even where faces as stored are polygons. The triangles of a
-    /// polygon have equal values at the corners that they share.
+    /// Values of the corners of the mesh's triangles, even if the stored faces are polygons. The
+    /// triangles of a polygon have equal values at shared corners.
     corner_values corners{};
-    std::vector<part> parts{};  ///< by ascending first face; empty when nothing is named
+    std::vector<part> parts{};  ///< ascending by first face; empty if nothing is named
     std::vector<std::string> material_files{};  ///< OBJ `mtllib`, as in the file
     /// PLY: the names in the lines `comment TextureFile NAME`. The property "texnumber" of faces is
     /// a number in this list, from 0; without it, faces use the first.

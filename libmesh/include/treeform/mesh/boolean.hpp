@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Set operations on solids bounded by triangle meshes, and formulas of them.
+/// Set operations (booleans) on solids bounded by triangle meshes, and formulas of several.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -83,14 +83,14 @@ struct boolean_options {
     /// negative.
     double max_displacement = std::numeric_limits<double>::infinity();
     /// Do not merge coplanar faces that were cut, or that overlap. By default they are merged,
-    /// exactly and before rounding: this removes vertices inside a flat part, and on a straight
-    /// edge between two flat parts. Uncut faces stay as they are. `split` keeps all cuts.
+    /// exactly and before rounding, which removes vertices inside a flat region, and on a straight
+    /// edge between two flat regions. Uncut faces stay as they are. `split` keeps all cuts.
     bool keep_cuts = false;
     bool simplify = false;  ///< merge all coplanar faces of the result, also those not cut
     /// [faces of all operands, one after the other] or empty: only faces with equal numbers are
     /// merged.
     std::span<const std::uint32_t> face_groups{};
-    /// Compute `boolean_result::volumes`, for two operands and without filled gaps.
+    /// Compute `boolean_result::volumes`; only for two operands, without filled gaps.
     bool volumes = false;
     /// Parts of the result with a smaller volume, in cubic units, are removed: small solids are
     /// dropped, and small voids are filled, with all that is in them. A part is a component
@@ -119,20 +119,20 @@ struct operand_volumes {
 /// Counts of the steps of a set operation, for reports. If a `gap` was filled, counts of pairs and
 /// cut faces include the filling.
 struct boolean_statistics {
-    std::uint64_t pairs = 0;          ///< of tested faces that meet beyond their shared corners
+    std::uint64_t pairs = 0;          ///< pairs of tested faces that meet beyond shared corners
     std::uint64_t cut_faces = 0;      ///< input faces that were cut or covered by others
     std::uint64_t degenerate = 0;     ///< input faces without area
     std::uint64_t skipped_faces = 0;  ///< input faces skipped, since the result cannot contain them
     /// For `split`: input faces that are entirely covered by faces with lower numbers.
     std::uint64_t covered = 0;
-    /// Faces of the exact result, before rounding. If there are some and `mesh` has none, all of
-    /// the result was too thin for the coordinates, or removed as `small_parts`.
+    /// Faces of the exact result, before rounding. If not 0 while `mesh` has no faces, all of the
+    /// result was too thin for the coordinates, or removed as `small_parts`.
     std::uint64_t exact_faces = 0;
     std::uint64_t split_vertices = 0;  ///< added where parts touch, so that edges have two faces
-    /// Changes that joined points and removed thin faces where rounding made faces meet.
+    /// Number of changes that joined points or removed thin faces where rounding made faces meet.
     std::uint64_t slivers = 0;
     int rounding_rounds = 0;         ///< how often faces that still met were cut and rounded again
-    std::uint64_t small_parts = 0;   ///< removed solids and voids below `min_volume`
+    std::uint64_t small_parts = 0;   ///< number of solids and voids removed by `min_volume`
     double small_volume = 0.0;       ///< their total volume, in cubic units
     std::uint64_t filled_faces = 0;  ///< faces of operands at filled gaps (`gap`)
 };
@@ -148,7 +148,7 @@ struct TREEFORM_API boolean_result {
     std::vector<operand_element> face_source;
     /// [V] the lowest operand vertex equal to each vertex, or none
     std::vector<operand_element> vertex_source;
-    /// [V] for each new vertex, an operand face that contains it, or in a filled `gap` as in
+    /// [V] for each new vertex, an operand face that contains it; in a filled `gap`, as in
     /// `face_source`. Empty with `keep_cuts`.
     std::vector<operand_element> face_of_cut_vertex{};
     /// Status ok means, verified on the coordinates of `mesh`: any two faces share a corner, an
@@ -162,7 +162,7 @@ struct TREEFORM_API boolean_result {
     /// The largest distance from `mesh` of a vertex of the exact result that was removed. It is
     /// large if a component lost a part too thin for the coordinates.
     double vanished_reach = 0.0;
-    std::vector<point3> vanished_at{};  ///< a point of each, at most 100
+    std::vector<point3> vanished_at{};  ///< a point of each of these components, at most 100
     std::optional<operand_volumes> volumes{};
     boolean_statistics statistics{};
 

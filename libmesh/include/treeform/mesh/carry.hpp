@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Transfers attributes of input files to results of operations; marks faces that meet, in their
-/// file.
+/// Transfers attributes of input files to results of operations. Repairs files, and splits them
+/// into parts. Marks the faces that meet.
 
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/certificate.hpp>
@@ -25,7 +25,8 @@ namespace treeform {
 /// `file->mesh`.
 struct carry_source {
     const mesh_file* file = nullptr;
-    /// [F] the triangle in the file of each face of `file->mesh`; empty: the same numbers.
+    /// [F] number in the file of the triangle of each face of `file->mesh`; empty: the same
+    /// numbers.
     std::span<const std::uint32_t> triangle_of_face{};
 
     /// The triangle in the file of face `f`.
@@ -37,18 +38,18 @@ struct carry_source {
         const std::uint32_t t = triangle(f);
         return file->stored_face.empty() ? t : file->stored_face[t];
     }
-    /// Gives corners of caps (`cut_piece::cap`) planar texture coordinates, if this source, the
-    /// mesh that was cut, has texture coordinates. The axes are those of `oriented_plane::axes`
-    /// for the mean normal of a cap, signed so that its largest component is positive: so both
-    /// sides of a cut have the same. The scale is the average of this source, in texture units per
-    /// length.
+    /// Gives the corners of caps (`cut_piece::cap`) planar texture coordinates, if this source, the
+    /// mesh that was cut, has texture coordinates. The axes are those of `oriented_plane::axes` for
+    /// the mean normal of a cap, signed so that its largest component is positive, so that both
+    /// sides of a cut have the same axes. The scale is the average of this source, in texture units
+    /// per length.
     ///
     /// \pre `cap` has a number for each face of `piece`, or is empty
     TREEFORM_API void texture_caps(mesh_file& piece, std::span<const std::uint32_t> cap) const;
 };
 
-/// The inputs of an operation, whose attributes its result gets. Files are not copied: they must
-/// live as long.
+/// The inputs of an operation, whose attributes its result gets. Files are not copied; they must
+/// outlive this object.
 class carry_sources {
   public:
     carry_sources(const carry_source& one) : all_{one} {}  // NOLINT: one is many, too
@@ -73,7 +74,7 @@ class carry_sources {
                             std::span<const operand_element> vertex_source,
                             std::span<const operand_element> face_of_cut_vertex = {}) const;
 
-    /// The same for what was made of a single input, with sources as in `repair_result`:
+    /// The same for a result of a single input, with sources as in `repair_result`:
     /// `operand_element::none` stands for no source.
     ///
     /// With sources of `simplify_result`, faces may reach beyond their sources. Values of corners
@@ -135,9 +136,9 @@ struct file_part {
     std::vector<std::uint32_t> stored_face{};  ///< [F] the number of each face in the given file
 };
 
-/// The parts of a file by its objects, groups or nodes, each with the points and faces that are its
-/// own, and with their attributes (`carry_sources`). Parts whose open edges coincide are patches of
-/// one surface, and one part; solids that touch are not.
+/// The parts of a file, by its objects, groups or nodes, each with its own points and faces and
+/// their attributes (`carry_sources`). Parts whose open edges coincide are patches of one surface,
+/// and are combined into one part; solids that touch are not combined.
 ///
 /// \throws std::invalid_argument naming the lowest face with a corner out of range
 /// \cost   O(V log V + F log F), and O(V + F) for each part and column
@@ -145,10 +146,12 @@ struct file_part {
 
 /// A repaired part of a file.
 struct repaired_part {
-    std::string name{};            ///< "object", "object/group", "group" or empty
-    std::uint32_t first_face = 0;  ///< in the mended mesh; its faces follow one another
+    std::string name{};  ///< "object", "object/group", "group" or empty
+    /// number of its first face in the repaired mesh; its faces are consecutive
+    std::uint32_t first_face = 0;
     std::uint32_t faces = 0;
-    treeform::certificate certificate{};  ///< with numbers of the repaired mesh and the input file
+    /// face numbers are those of the repaired mesh, or of the input file
+    treeform::certificate certificate{};
     repair_statistics statistics{};
 };
 
@@ -157,21 +160,21 @@ struct repaired_file {
     mesh_file file{};  ///< in the format of the input, with its attributes (`carry_sources`)
     /// [F'] the number in the input file of the source of each face, or `repair_result::none`.
     std::vector<std::uint32_t> face_source{};
-    std::vector<std::uint8_t> is_left{};  ///< [F] of the input's mesh, as in `repair_result`
-    /// That of the first part that failed; if none failed, of all together. Numbers in `open_faces`
-    /// are those of the input file.
+    std::vector<std::uint8_t> is_left{};  ///< [F of the input's mesh] as in `repair_result`
+    /// The certificate of the first part that failed; if none failed, of all parts together.
+    /// Numbers in `open_faces` are those of the input file.
     treeform::certificate certificate{};
-    repair_statistics statistics{};      ///< of all parts
+    repair_statistics statistics{};      ///< sums over all parts
     std::vector<repaired_part> parts{};  ///< empty if all was repaired as one mesh
 };
 
 /// `repair` of each part of a file; with `repair_options::as_one`, of all parts as one mesh.
 ///
-/// Each part becomes a solid; parts may overlap before and after. They are the objects, groups or
-/// nodes, with the vertices as the file numbers them; those whose open edges coincide are patches
-/// of one surface, and one part. What `repair_options` says of the mesh, such as `max_loss`, holds
-/// of each part. Cuts are kept where merging would mix values
-/// (`carry_sources::merging_mixes_values`), of faces within a part.
+/// Each part becomes a solid; parts may overlap before and after. Parts are the objects, groups or
+/// nodes of the file, with its vertex numbers; those whose open edges coincide are patches of one
+/// surface, and are combined into one part. Limits in `repair_options`, such as `max_loss`, apply
+/// to each part. Within a part, cuts are kept where merging faces would mix values
+/// (`carry_sources::merging_mixes_values`).
 ///
 /// \throws std::invalid_argument as `repair`
 /// \cost   as `repair` and `carry_sources::carry`
@@ -179,8 +182,8 @@ struct repaired_file {
 [[nodiscard]] TREEFORM_API repaired_file repair_file(const carry_source& input,
                                                      const repair_options& options = {});
 
-/// The defects of all parts together; faces that the input left out are not counted. Changes
-/// nothing.
+/// The defects of all parts, which are those of `repair_file`. Faces of the file that are not in
+/// `input` do not count.
 ///
 /// \throws std::invalid_argument as `self_intersections`
 /// \cost   as `find_solid_defects` of a mesh
@@ -216,16 +219,16 @@ struct face_marks {
     TREEFORM_API face_marks(std::size_t face_count, std::span<const face_pair> pairs,
                             std::span<const intersection_region> regions);
 
-    /// Gives `file` these marks of `looked_at`, the searched faces of the file: colors of faces and
-    /// vertices (a vertex gets the color of its first face in a pair), and the properties tf_class
-    /// and tf_region of faces. Polygons become triangles. A file that does not number its vertices
-    /// is indexed, and its other properties are dropped.
+    /// Writes these marks, which are those of the faces of `looked_at`, to `file`: colors of faces
+    /// and vertices (a vertex gets the color of its first face in a pair), and the properties
+    /// tf_class and tf_region of faces. Polygons become triangles. A file that does not number its
+    /// vertices is indexed, and its other properties are dropped.
     ///
-    /// \pre    `looked_at` is a part of this file, and the marks are those of its faces
+    /// \pre    `looked_at` is a part of `file`, and the marks are those of its faces
     /// \cost O(V + F)
     TREEFORM_API void color(mesh_file& file, const usable_mesh& looked_at) const;
 
-    /// Faces in at least one pair.
+    /// Number of faces in at least one pair.
     [[nodiscard]] std::uint64_t marked() const {
         return kind.size() - static_cast<std::uint64_t>(std::count(kind.begin(), kind.end(), 0));
     }

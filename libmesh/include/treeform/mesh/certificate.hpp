@@ -22,15 +22,16 @@ enum class status : std::uint8_t {
     ok,              ///< everything that the operation guarantees was verified
     open_input,      ///< an operand is not closed; `open_edges` lists where; no mesh is returned
     sheet,           ///< the mesh has a border, as requested; all other guarantees hold
-    excessive_loss,  ///< more was lost than the caller allows
+    excessive_loss,  ///< more volume or area was lost than the options allow
     not_manifold,    ///< with equal coordinates joined, an edge has more than two faces, or a
                      ///< vertex more than one fan
     not_certified,   ///< faces still meet in the returned coordinates; `meeting` lists them
-    vanished,        ///< no face is left: the result is thinner than the coordinates can show, or
-                     ///< faces cancel each other out
-    out_of_range,    ///< a coordinate of the result overflows the requested precision
-    no_placement,    ///< of a placement: there is none; `placement::end` tells why
-    cancelled        ///< stopped by `progress`; there is no result
+    /// no face is left: the result is thinner than the coordinates can represent, or its faces
+    /// cancel each other out
+    vanished,
+    out_of_range,  ///< a coordinate of the result overflows the requested precision
+    no_placement,      ///< a placement found no position; `placement::end` has the reason
+    cancelled      ///< stopped by `progress`; there is no result
 };
 
 /// The work of a bounded search, in pairs of faces tested. It depends on the input alone. A result
@@ -38,8 +39,8 @@ enum class status : std::uint8_t {
 struct search_effort {
     std::uint64_t pairs = 0;  ///< pairs of faces tested; a pair in motion counts as two
     std::uint64_t bound = 0;  ///< the limit of `pairs`
-    /// Number of candidates skipped, since each would take more than 1/32 of the bound, or more
-    /// than the rest of it. If not 0, a better result may exist.
+    /// Number of candidates skipped because testing one would take more than 1/32 of the bound, or
+    /// more than what is left of it. If not 0, a better result may exist.
     std::uint64_t cut = 0;
     friend bool operator==(const search_effort&, const search_effort&) = default;
 };
@@ -57,7 +58,7 @@ struct operand_element {
 struct TREEFORM_API certificate {
     treeform::status status = treeform::status::ok;
     /// Number of pairs of faces that meet where they should not. A face paired with itself is
-    /// degenerate, or has the outside behind it. `meeting` lists the first 100.
+    /// degenerate, or has the outside of the solid behind it. `meeting` lists the first 100.
     std::uint64_t meeting_count = 0;
     std::vector<std::array<std::uint32_t, 2>> meeting{};
     std::vector<point3> meeting_at{};  ///< a corner of the first face of each pair in `meeting`
@@ -67,10 +68,10 @@ struct TREEFORM_API certificate {
     /// Ends of the open part of each edge; rounded if the edge is cut.
     std::vector<std::array<point3, 2>> open_edges{};
     std::vector<operand_element> open_faces{};  ///< a face at each of these edges
-    /// The same edges in the operands, after joining equal coordinates: edges of an odd number of
-    /// faces, where the surface ends, and edges of an even number of faces, which are oriented
-    /// inconsistently. Both are 0 if a vertex lies inside such an edge, since edges may then match
-    /// piece by piece.
+    /// The open edges counted in the operands, after joining equal coordinates: `boundary_edges`
+    /// have an odd number of faces (the surface ends there), `misoriented_edges` an even number of
+    /// inconsistently oriented faces. Both are 0 if a vertex lies inside such an edge, since edges
+    /// may then match piece by piece.
     std::uint64_t boundary_edges = 0;
     std::uint64_t misoriented_edges = 0;
     /// The largest change of a coordinate by rounding, from the exact position of the vertex. For
@@ -103,45 +104,48 @@ class TREEFORM_API not_certified_error : public std::runtime_error {
     certificate why_;
 };
 
-/// The spacing of numbers of precision `of` at the largest finite coordinate of `points`. If there
-/// is none, or all are 0, the least positive number.
+/// The spacing of numbers of precision `of` at the finite coordinate of largest magnitude. The
+/// least positive number of that precision if no coordinate is finite, or all are 0.
 [[nodiscard]] TREEFORM_API double coordinate_step(points_view points, precision of);
 
 /// The points with each coordinate rounded to the nearest number of precision `to`; infinite beyond
 /// its range.
 [[nodiscard]] TREEFORM_API std::vector<point3> rounded(points_view points, precision to);
 
-/// How far rounding moved points, and what it has broken.
+/// How far rounding moved points, and the defects that it caused.
 struct rounding_effects {
-    double max_displacement = 0.0;  ///< largest change of a coordinate, beyond the move
+    double max_displacement = 0.0;  ///< largest change of a coordinate, after the transform
     double step = 0.0;              ///< spacing of numbers at the largest written coordinate
-    /// True if doubles became float32, or a change is more than a millionth of the size.
+    /// True if points moved and doubles became float32, or the change is more than a millionth of
+    /// the diagonal of the bounding box.
     bool noticeable = false;
-    bool compared = false;        ///< faces were compared, since coordinates became coarser
-    std::uint64_t collapsed = 0;  ///< faces that have lost their area
-    std::uint64_t meeting = 0;    ///< new pairs of faces that meet
-    treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest means nothing
+    /// `collapsed` and `meeting` were computed, since coordinates became coarser
+    bool compared = false;
+    std::uint64_t collapsed = 0;                     ///< faces that became degenerate
+    std::uint64_t meeting = 0;                       ///< new pairs of faces that meet
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is invalid
 
     /// Adds the effects on another mesh.
     TREEFORM_API rounding_effects& operator+=(const rounding_effects& other);
 };
 
-/// What breaks when the points of `mesh` become `placed`, exactly. The mesh may have been moved and
-/// turned, too: distances are not compared, only how faces lie to each other: `collapsed`
-/// and `meeting` are found, the latter of all kinds except touching and degenerate.
+/// The faces that become degenerate (`collapsed`), and the number of pairs of faces that newly meet
+/// (`meeting`; all kinds except touching and degenerate), when the points of `mesh` become
+/// `placed`. Exact. Distances are not compared, so `placed` may also be moved and rotated.
 ///
 /// \throws std::invalid_argument as `self_intersections` for either, or for another number of
 ///         points
-/// \cost   `self_intersections` of the mesh at the new points, and at the old ones only if any meet
+/// \cost   `self_intersections` of the mesh at the new points; also at the old points if any faces
+///         meet
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API rounding_effects
 find_rounding_defects(mesh_view mesh, points_view placed, const progress_callback& progress = {});
 
-/// Compares `placed` with the points of `moving` moved by `by`. Where coordinates are coarser than
-/// before, it also compares the faces (`find_rounding_defects`).
+/// Compares `placed` with the points of `moving` transformed by `by`. If coordinates became
+/// coarser, also finds defects of the faces (`find_rounding_defects`).
 ///
 /// \throws std::invalid_argument for another number of points
-/// \cost   O(V); where coordinates became coarser, at most two `self_intersections`
+/// \cost   O(V); if coordinates became coarser, also up to two `self_intersections`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API rounding_effects
 effects_of_rounding(const mesh_ref& moving, const transform<3>& by, points_view placed,

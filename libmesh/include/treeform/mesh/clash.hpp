@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Clashes: parts of an assembly that penetrate, touch, or are too close; where, and how deep. Also
-/// for many poses.
+/// Clash detection: the parts of an assembly that penetrate, touch, or are too close, with regions
+/// and depths. Also for many poses.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/intersections.hpp>
@@ -27,16 +27,17 @@ namespace treeform {
 /// Numbers of two parts.
 using part_pair = std::array<std::uint32_t, 2>;
 
-/// How to look for clashes. `volumes` to `limit` are of `clash` alone.
+/// Options of `clash` and `check_poses`. Only `clash` uses `volumes`, `depths`, `effort` and
+/// `limit`.
 struct clash_options {
-    double clearance = 0.0;  ///< parts that are nearer than this are too close
+    double clearance = 0.0;  ///< parts nearer than this are too close; not squared
     /// Compute the volume of the intersection of closed parts.
     bool volumes = true;
-    bool depths = true;                    ///< compute depths of penetrating parts
-    std::uint64_t effort = 0;              ///< for each depth, as in `measure_options`
-    std::size_t limit = 1000;              ///< faces listed for each region and part
-    bool first_only = false;               ///< `check_poses`: only the first clash of each pose
-    std::span<const part_pair> ignored{};  ///< pairs that are not looked at, in any order
+    bool depths = true;        ///< compute depths of penetrating parts
+    std::uint64_t effort = 0;  ///< limit for each depth, as in `measure_options`
+    std::size_t limit = 1000;  ///< largest number of faces listed for each region and part
+    bool first_only = false;   ///< `check_poses`: only the first clash of each pose
+    std::span<const part_pair> ignored{};  ///< pairs of parts to skip; any order
     vertex_identity vertices = vertex_identity::by_coordinates;  ///< as in `relation`
     progress_callback progress{};
 };
@@ -58,10 +59,10 @@ struct part_clash {
     bool a_inside_b = false;                      ///< as in `measure`
     bool b_inside_a = false;                      ///< the same with `a` and `b` swapped
     double distance = 0.0;                        ///< distance of the surfaces; 0 if they meet
-    /// Nearest points on a and on b, of parts that are too close.
+    /// For parts that are too close: the nearest points on a and on b.
     std::optional<std::array<point3, 2>> nearest{};
-    std::uint64_t face_pairs = 0;           ///< that meet
-    std::vector<contact_region> regions{};  ///< by their lowest faces
+    std::uint64_t face_pairs = 0;           ///< pairs of faces that meet
+    std::vector<contact_region> regions{};  ///< ordered by their lowest faces
     /// For closed parts that penetrate: the volume of their intersection, as
     /// `operand_volumes::both`.
     std::optional<double> volume{};
@@ -73,7 +74,7 @@ struct part_clash {
 
 /// All pairs that are not clear of each other.
 struct clash_result {
-    std::vector<part_clash> pairs{};        ///< that are not clear, ascending
+    std::vector<part_clash> pairs{};        ///< ascending
     std::array<std::uint64_t, 5> counts{};  ///< number of tested pairs, by `mesh_relation`
     std::uint64_t boxes_apart = 0;          ///< pairs excluded by their boxes
     std::uint64_t ignored = 0;              ///< ignored pairs that boxes do not exclude
@@ -103,8 +104,8 @@ struct clash_result {
 [[nodiscard]] TREEFORM_API clash_result clash(const mesh_refs& parts,
                                               const clash_options& options = {});
 
-/// All pairs of different parts such that the name of one part matches the first pattern, and that
-/// of the other the second; ascending, each once, with the lower number first.
+/// All pairs of different parts of which one matches the pattern `first` by its name, and the other
+/// the pattern `second`; ascending, each once, with the lower number first.
 [[nodiscard]] TREEFORM_API std::vector<part_pair> pairs_named(std::span<const std::string> names,
                                                               std::string_view first,
                                                               std::string_view second);
@@ -128,7 +129,7 @@ struct pose_clash {
     std::uint32_t a = 0;  ///< the lower number
     std::uint32_t b = 0;
     mesh_relation how = mesh_relation::touching;  ///< or penetrating, closer_than_clearance
-    double distance = 0.0;                        ///< of parts closer than the clearance; else 0
+    double distance = 0.0;                        ///< for parts closer than the clearance; else 0
     friend bool operator==(const pose_clash&, const pose_clash&) = default;
 };
 

@@ -23,7 +23,7 @@ struct hull_side {
     std::uint32_t face_count = 0;
     double area = 0.0;  ///< rounded; infinite on overflow
     point3 normal;      ///< outward, of length 1, rounded
-    point3 center;      ///< of area, rounded
+    point3 center;      ///< centroid of its area, rounded
     friend bool operator==(const hull_side&, const hull_side&) = default;
 };
 

@@ -58,10 +58,10 @@ struct TREEFORM_API cut_piece {
 
 /// The pieces, and their certificate.
 struct cut_result {
-    /// For K planes, K + 1 pieces in order along the normal, from the lowest up. Empty if the
-    /// certificate tells why.
+    /// For K planes, K + 1 pieces in order along the normal, from the lowest up. Empty if the mesh
+    /// cannot be cut; the certificate has the reason.
     std::vector<cut_piece> pieces{};
-    /// That of the first piece that is not ok, or of the mesh if it bounds no solid.
+    /// The certificate of the first piece that is not ok, or of the mesh if it bounds no solid.
     treeform::certificate certificate{};
     /// True if faces of the mesh meet. Then the solid that the mesh winds around was cut, with
     /// overlapping parts merged; without caps, the faces cut along each other. Not used by
@@ -115,7 +115,7 @@ struct cut_result {
 /// with common border points, and together cover the mesh. Only new points are rounded, by less
 /// than a step of their largest coordinate.
 ///
-/// The certificate tells whether faces of all pieces together meet beyond common corners and edges,
+/// The certificate lists faces of all pieces together that meet beyond common corners and edges,
 /// because faces of the mesh do, or by rounding. Its face numbers count through all pieces. `caps`,
 /// `precision` and `keep_cuts` of `options` are ignored.
 ///
@@ -127,7 +127,7 @@ struct cut_result {
                                                 std::span<const double> levels,
                                                 const cut_options& options = {});
 
-/// Some faces of a mesh, with the points that they use.
+/// A subset of the faces of a mesh, with the points that they use.
 struct mesh_part {
     treeform::mesh mesh;
     std::vector<std::uint32_t> face_source;  ///< [F] the number of each face in the given mesh
@@ -137,11 +137,12 @@ struct mesh_part {
     double area = 0.0;    ///< as `surface_area`
 };
 
-/// The faces that corners link, as meshes, in the order of their lowest faces. Corners with equal
-/// coordinates are one. A closed part that is inside out is a cavity, and goes with the smallest
-/// closed part that it is in, if any. Volumes count without their sign, those of open parts as 0.
-/// Parts with less than `min_volume`, in cubic units, are left out; `largest` parts of the greatest
-/// volume are kept, of equal ones those of the greatest area; 0: all.
+/// The connected components of a mesh (faces linked by common corners), in the order of their
+/// lowest faces. Corners with equal coordinates are one. A closed component that is inside out is a
+/// cavity; it is returned with the smallest closed component around it, if any. Parts with a volume
+/// below `min_volume`, in cubic units, are omitted; volumes count without sign, those of open parts
+/// as 0. If `largest` is not 0, only that many parts are returned: those of the greatest volume
+/// and, for equal volumes, the greatest area.
 ///
 /// \pre    every coordinate of a corner is finite
 /// \throws std::invalid_argument naming the lowest face with a corner out of range, and for a

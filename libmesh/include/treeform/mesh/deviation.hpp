@@ -30,7 +30,7 @@ struct deviation_options {
     progress_callback progress{};
 };
 
-/// How far points are from a surface.
+/// Distances of points from a surface, and their statistics.
 struct deviation_result {
     /// [V] of `a`: the distance of each point from the surface of `b`, negative inside the solid
     /// that `b` bounds, exactly 0 on its surface. Never negative if `b` bounds no solid.
@@ -66,8 +66,8 @@ struct deviation_result {
     std::vector<std::uint64_t> histogram{};
     /// With a band: points below, within and above it. Both ends are within.
     std::optional<std::array<std::uint64_t, 3>> band_counts{};
-    /// Number of points with a winding number of their own; for other points it follows from that
-    /// of a neighbor and the faces between.
+    /// Number of points whose winding number was computed; for the others it follows from that of a
+    /// neighbor and the faces between.
     std::uint64_t winding_numbers = 0;
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing else is set
 

@@ -18,11 +18,11 @@
 
 namespace treeform {
 
-/// Where each of two meshes is, and how far apart they may be.
+/// Transforms of two meshes, and a search radius.
 struct mesh_positions {
-    transform<3> move_a{};  ///< applied to the corners first; the moved ones are rounded to double
+    transform<3> move_a{};  ///< applied to the corners first; moved corners are rounded to double
     transform<3> move_b{};
-    /// Of distances: ignore everything further apart than this; inclusive.
+    /// For distances: ignore points further apart than this; inclusive, not squared.
     double radius = std::numeric_limits<double>::infinity();
 };
 
@@ -71,7 +71,7 @@ struct closest_point_result {
 };
 
 /// The point of the surface of `mesh` nearest to `query`; none if the mesh has no faces, or if all
-/// are further away than `radius` (inclusive).
+/// faces are further away than `radius` (inclusive).
 ///
 /// The error of the distance is at most 16 u L, where u = 2^-53 and L is the larger of the distance
 /// and the diagonal of the face's box, plus u times the coordinates. A degenerate face is treated
@@ -104,7 +104,7 @@ struct mesh_hit {
     friend bool operator==(const mesh_hit&, const mesh_hit&) = default;
 };
 
-/// The face that a ray hits first; none when it hits nothing. Of several faces at one point, the
+/// The first face that a ray hits; none if it hits no face. Of several faces at the same point, the
 /// lowest number.
 ///
 /// The faces that a ray hits, their order, and the corner, edge or interior hit are exact. Only the

@@ -29,21 +29,22 @@ namespace treeform {
 /// Exact on the coordinates as given, or as moved. The kinds are crossing, overlap, touching and
 /// degenerate: two meshes share no corners, so faces that meet in equal corners are `touching`, and
 /// equal faces `overlap`. Surfaces count, not solids: a mesh inside the other that does not touch
-/// it gives no pair. `a` and `b` may be the same mesh. Of meshes that are not prepared, only faces
-/// that reach, as moved, into the intersection of both bounding boxes are indexed.
+/// it gives no pair. `a` and `b` may be the same mesh. For meshes that are not prepared, only the
+/// faces that reach into the intersection of both bounding boxes (after the transforms) are
+/// indexed.
 ///
 /// \throws std::invalid_argument if a transform is not finite; naming the mesh and its face with a
-///         corner out of range or, after the move, not finite
+///         corner that is out of range or, after the transform, not finite
 /// \cost   O(F log F) for indexes that are not built yet; O(B) time for the B pairs whose boxes
-///         overlap and the nodes above them. Of prepared meshes up to twice as fast
+///         overlap and the nodes above them. Up to twice as fast for prepared meshes
 /// \same   on any number of threads
 /// \source candidate pairs: Sajovic, Knez and Korez, tf::tree, section III-C
 [[nodiscard]] TREEFORM_API intersection_result
 mesh_intersections(const mesh_ref& a, const mesh_ref& b, const intersection_options& options = {});
 
 /// Whether a face of `a` and a face of `b` have a common point; touching counts. Exact. Returns as
-/// soon as one pair is found. Of meshes that are not prepared, only faces that reach, as moved,
-/// into the intersection of both bounding boxes are indexed.
+/// soon as one pair is found. For meshes that are not prepared, only the faces that reach into the
+/// intersection of both bounding boxes (after the transforms) are indexed.
 ///
 /// \throws std::invalid_argument as `mesh_intersections`
 /// \same   in its answer, on any number of threads
@@ -118,18 +119,17 @@ struct curve_network {
 [[nodiscard]] TREEFORM_API curve_network intersection_paths(mesh_view mesh,
                                                             std::span<const face_pair> pairs);
 
-/// A name, and a whole number for each pair [P].
+/// The name of a column, and an integer for each pair [P].
 using pair_column = std::pair<std::string, std::vector<std::uint32_t>>;
 
-/// Writes the paths of `intersection_paths` as lines: OBJ `v` and `l`, or a text PLY with an
-/// element `edge`, whose segments have `numbers`: columns of
-/// these names, a value for each pair. Faces without area have no paths, but segments of
-/// their own (`intersection_curves`). The format, `obj` or `ply`, is that of the extension where
-/// none is given. "-" is standard output.
+/// Writes the paths of `intersection_paths` as polylines. `format` is `obj` (`v` and `l`) or `ply`
+/// (text, with an element `edge`); if empty, the extension of `path`. In a PLY, each segment has
+/// the values of its first pair in `numbers`, as columns. Faces without area have no paths; for
+/// their pairs, single segments are written (`intersection_curves`). "-" is standard output.
 ///
 /// \pre    faces of `pairs` and their corners are in range, coordinates finite
 /// \throws io_error for another format, or if the file cannot be written: then a previous file is
-///         unchanged; std::invalid_argument if `numbers` does not have one for each pair
+///         unchanged; std::invalid_argument unless each of `numbers` has one value for each pair
 /// \same   bytes on any number of threads
 TREEFORM_API void write_curves(const std::filesystem::path& path, mesh_view mesh,
                                std::span<const face_pair> pairs,

@@ -27,16 +27,18 @@ enum class mesh_relation : std::uint8_t {
     clear  ///< separate, by at least the clearance
 };
 
-/// How to look. What an operation has no use for, it ignores.
+/// Options of `relation`, `measure` and `penetration_depth`. Each ignores those that do not concern
+/// it.
 struct measure_options {
-    double radius = std::numeric_limits<double>::infinity();  ///< of `measure`; inclusive
+    /// for `measure`: ignore meshes further apart; inclusive
+    double radius = std::numeric_limits<double>::infinity();
     /// Only closed meshes have an inside; this decides whether a mesh is closed.
     vertex_identity vertices = vertex_identity::by_coordinates;
-    /// Of `penetration_depth`: directions spread over the sphere, tried besides normals of faces
-    /// that meet.
+    /// For `penetration_depth`: number of directions, spread over the sphere, to try besides the
+    /// normals of faces that meet.
     std::size_t directions = 256;
-    /// Of `penetration_depth`: pairs of faces that the search may test, a pair in motion counting
-    /// as two; 0: 20 million plus 200 for each face.
+    /// For `penetration_depth`: largest number of pairs of faces to test; a pair in motion counts
+    /// as two. 0: 20 million plus 200 for each face.
     std::uint64_t effort = 0;
     progress_callback progress{};
 };
@@ -51,7 +53,7 @@ struct surface_point {
     friend bool operator==(const surface_point&, const surface_point&) = default;
 };
 
-/// How two meshes lie to each other.
+/// The relation and distance of two meshes.
 struct mesh_measure {
     mesh_relation relation = mesh_relation::separate;
     /// Faces that prove the relation: two that cross, overlap with the inside on the same side, or
@@ -155,18 +157,19 @@ struct penetration_depth_result {
 [[nodiscard]] TREEFORM_API std::optional<penetration_depth_result> penetration_depth(
     const mesh_ref& a, const mesh_ref& b, const measure_options& options = {});
 
-/// How the thickness of a wall is measured at a face.
+/// How wall thickness is measured at a face.
 enum class thickness_by : std::uint8_t {
-    /// Along its normal, inward from its center, to the first face through which the ray leaves.
+    /// The length of the ray from the center of the face, against its normal, to the first face
+    /// through which it leaves the solid.
     ray,
-    sphere  ///< the diameter of the largest inscribed ball that touches its center
+    sphere  ///< the diameter of the largest inscribed ball that touches the center of the face
 };
 
-/// The thickness at each face, and the least.
+/// The thickness at each face, and the least thickness.
 struct thickness_result {
     /// [F] Infinite if there is nothing behind a face, or the face has no area.
     std::vector<double> of_face{};
-    double least = std::numeric_limits<double>::infinity();  ///< of all faces
+    double least = std::numeric_limits<double>::infinity();  ///< least thickness of all faces
     /// The lowest face with the least thickness.
     std::uint32_t thinnest = 0;
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is returned

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Points, triangle meshes, views of them, and bounding boxes; prepared meshes, which cache the
-/// indexes of queries; and the argument types of functions: any mesh, or several.
+/// Points, triangle meshes, mesh views and bounding boxes; prepared meshes, which cache the
+/// indexes of queries; and the argument types of functions: one mesh of any type, or several.
 
 #include <treeform/tree/detail/export.hpp>
 
@@ -124,7 +124,7 @@ class TREEFORM_API prepared_mesh {
     explicit prepared_mesh(const usable_mesh&) = delete;
     /// Refers to the caller's arrays, which must stay unchanged during the lifetime of the result.
     [[nodiscard]] static prepared_mesh borrow(mesh_view view);
-    static prepared_mesh borrow(mesh&&) = delete;  // gone before it is asked: let this own it
+    static prepared_mesh borrow(mesh&&) = delete;  // a temporary would dangle: let this own it
 
     /// A point cloud, which can be measured, slid and separated like a mesh. Each point is a
     /// degenerate face, so face numbers are point numbers. A cloud bounds no solid. It penetrates a

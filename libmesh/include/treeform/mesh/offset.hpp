@@ -21,7 +21,7 @@
 
 namespace treeform {
 
-/// How to make a surface at a distance. What an operation has no use for, it ignores.
+/// Options of the functions of this header. Each function ignores those that do not concern it.
 struct offset_options {
     /// Edge length of the cells from which the surface is made, in the mesh's length unit; at most
     /// half of the distance. Every point whose distance differs from the given one by more than
@@ -30,11 +30,12 @@ struct offset_options {
     /// to half of the distance, if there would be more than about 2^16 cells at the surface
     /// (170,000 faces). `offset_result` has the value used, and the error.
     std::optional<double> resolution{};
-    /// `wrap`: how far the vertices of the wrap are from the mesh, in its length unit. Not given: a
-    /// thirtieth of the size.
+    /// `wrap`: the distance of the wrap's vertices from the mesh, in its length unit. Default: a
+    /// thirtieth of `size`.
     std::optional<double> offset{};
-    /// `thicken`: how far the surface is first moved to its front, in its length unit; negative: to
-    /// its back. Half of the thickness leaves its back where it is.
+    /// `thicken`: distance by which the surface is first moved toward its front, in its length
+    /// unit; if negative, toward its back. With half of the thickness, the input surface becomes
+    /// the back of the solid.
     double shift = 0.0;
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
@@ -47,25 +48,27 @@ struct TREEFORM_API offset_result {
     /// Status ok means, verified on the coordinates of `mesh`: a closed manifold, oriented outward,
     /// whose faces meet only in common corners and edges. `open_input`: the input bounds no solid;
     /// `open_edges` lists where. `vanished`: nothing is left, since the solid is nowhere thick
-    /// enough, or only by less than a cell.
+    /// enough, or exceeds that thickness by less than a cell.
     treeform::certificate certificate{};
-    double distance = 0.0;    ///< asked for, without its sign; of `wrap`, that of its vertices
-    double resolution = 0.0;  ///< that was used; of `wrap`, its size
-    /// Bounds of the distance from any point of the surface made, in its faces too, to the mesh
-    /// that it is the offset of, the lower one here; of `hollow`, of the cavities' surface; of
-    /// `thicken`, to the moved surface. Found by branch and bound: each is within a sixteenth of
-    /// the resolution of the true extreme. 0 where there is no surface, and of `wrap`.
+    double distance = 0.0;    ///< the given distance, without its sign; for `wrap`, the offset used
+    double resolution = 0.0;  ///< the resolution used; for `wrap`, its `size`
+    /// Lower bound of the distance from any point of the new surface, also inside its faces, to the
+    /// input surface. For `hollow`, the new surface is that of the cavities; for `thicken`, the
+    /// distance is to the moved surface. By branch and bound: this and `greatest_distance` are
+    /// within a sixteenth of the resolution of the true extremes. 0 if there is no surface, and for
+    /// `wrap`.
     double least_distance = 0.0;
-    double greatest_distance = 0.0;  ///< the upper bound
+    double greatest_distance = 0.0;  ///< upper bound of the same distances
     std::uint64_t cells = 0;         ///< cells that the surface may pass through
     /// For `hollow`: cavities without an opening, those of the input included.
     std::uint64_t sealed_cavities = 0;
-    /// For `hollow`: numbers of drains that do not lead from outside into a cavity, as far as the
-    /// ends of their axes show.
+    /// For `hollow`: numbers of drains that do not lead from outside into a cavity, judged by the
+    /// ends of their axes.
     std::vector<std::uint32_t> blind_drains{};
-    std::uint64_t tetrahedra = 0;         ///< of `wrap`: at the end
-    std::uint64_t tetrahedra_points = 0;  ///< of `wrap`: of the tetrahedra that were made
-    std::uint64_t filled_tetrahedra = 0;  ///< of `wrap`: filled so that it is a manifold
+    std::uint64_t tetrahedra = 0;         ///< for `wrap`: tetrahedra at the end
+    std::uint64_t tetrahedra_points = 0;  ///< for `wrap`: points of the tetrahedra
+    /// for `wrap`: tetrahedra filled to make the surface manifold
+    std::uint64_t filled_tetrahedra = 0;
 
     /// The mesh.
     /// \throws not_certified_error unless the certificate's status is ok
@@ -90,8 +93,8 @@ struct TREEFORM_API offset_result {
 [[nodiscard]] TREEFORM_API offset_result offset(const mesh_ref& mesh, double distance,
                                                 const offset_options& options = {});
 
-/// The solid without its points deeper inside than `wall`: the surface stays bit for bit, around
-/// new cavities. The status is `vanished` if there is no cavity.
+/// Hollows the solid: its points deeper inside than `wall` become cavities; the outer surface stays
+/// bit for bit. The status is `vanished` if there is no cavity.
 ///
 /// `drains` are holes through the wall: a point and a diameter. Each runs from the nearest point of
 /// the surface along the shortest segment to a cavity, as a regular prism of 32 sides; the diameter
@@ -108,10 +111,10 @@ hollow(const mesh_ref& mesh, double wall, std::span<const std::pair<point3, doub
 
 /// A solid around any surface: all points at most half of `thickness` away. Its rim is round.
 ///
-/// With a `shift` the surface is first moved to its front, from where faces are counter-clockwise:
-/// each vertex so that the planes of its faces move that far, on average. This is exact where the
-/// surface is flat, and rounds it where it bends. Vertices of sharp folds move by at most twice
-/// that. Faces must be consistently oriented.
+/// With a `shift` the surface is first moved toward its front, from where faces are
+/// counter-clockwise. Each vertex moves so that the planes of its faces move by the shift, on
+/// average. This is exact where the surface is flat, and rounds it where it bends. Vertices of
+/// sharp folds move by at most twice the shift. Faces must be consistently oriented.
 ///
 /// \throws std::invalid_argument as `offset`, with half of the thickness as the distance; for a
 ///         mesh without faces; for a shift that is not finite; with a shift, naming a face that is
@@ -121,14 +124,14 @@ hollow(const mesh_ref& mesh, double wall, std::span<const std::pair<point3, doub
 [[nodiscard]] TREEFORM_API offset_result thicken(const mesh_ref& mesh, double thickness,
                                                  const offset_options& options = {});
 
-/// A solid that holds all faces of `mesh`, whatever they are: open, crossing, turned any way, of
-/// no area. A ball of diameter 2 `size` is rolled over them from outside, so to speak: it enters no
-/// hole or gap that is narrower. So the wrap closes these, rounds what is sharp, and fills cavities
-/// that nothing leads to. A smaller size follows the mesh more closely, with more faces, some
-/// area / `size`^2 of them.
+/// Alpha wrapping: a solid that contains all faces of `mesh`, which may be open, intersecting,
+/// inconsistently oriented or degenerate. The wrap is the surface that a ball of radius `size`
+/// cannot pass when rolled over the mesh from outside: holes and gaps narrower than the ball are
+/// closed, sharp edges are rounded, and cavities without an opening for the ball are filled. A
+/// smaller size follows the mesh more closely, with more faces: about area / `size`^2.
 ///
 /// No face of the mesh meets the wrap or is outside of it: this is verified exactly, on the
-/// coordinates of both. Its vertices are at the offset up to rounding.
+/// coordinates of both. The wrap's vertices are at the offset from the mesh, up to rounding.
 ///
 /// \throws std::invalid_argument naming a face with a corner out of range or not finite; for a mesh
 ///         without faces, larger than 2^150 or smaller than 2^-150; for a size or offset that is
@@ -138,8 +141,8 @@ hollow(const mesh_ref& mesh, double wall, std::span<const std::pair<point3, doub
 ///         about 400 bytes a point; serial
 /// \same   on every machine
 /// \source Portaneri, Rouxel-Labbe, Hemmer, Cohen-Steiner and Alliez, Alpha Wrapping with an
-///         Offset, ACM TOG 41 (2022). Tetrahedra are cut out by their circumspheres only where that
-///         keeps all of them oriented (`orient3d`), so that rounded circumspheres do no harm.
+///         Offset, ACM TOG 41 (2022). The cavity of a new point has only tetrahedra that keep all
+///         new ones positively oriented (`orient3d`), so that rounded circumspheres do no harm.
 [[nodiscard]] TREEFORM_API offset_result wrap(const mesh_ref& mesh, double size,
                                               const offset_options& options = {});
 

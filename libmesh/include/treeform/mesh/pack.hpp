@@ -65,15 +65,15 @@ struct laid_flat {
     /// `overhang_sides` sides and the chosen one, else NaN.
     std::vector<double> overhangs{};
     point3 center_of_mass{};  ///< before the rotation, rounded
-    /// The dimension of what has the mass: 3 for the solid that a closed mesh bounds; 2 for the
-    /// faces of a mesh that bounds none, as sheets of equal thickness; 0 for the points of a mesh
-    /// without a face of positive area.
+    /// What the mass is attributed to: 3 for the solid that a closed mesh bounds; 2 for the faces
+    /// of an open mesh, as sheets of equal thickness; 0 for the points of a mesh without a face of
+    /// positive area.
     int mass_dimension = 3;
     std::size_t chosen = 0;                      ///< number in `sides`
     std::vector<std::uint32_t> on_bed{};         ///< points of that side, ascending
     std::optional<placement_contact> contact{};  ///< the lowest face with the lowest point
-    /// The largest change of a z, beyond the rotation, that put a point on the bed or not below it:
-    /// a few units in the last place; with a tolerance, about the tolerance.
+    /// The largest change of a z, after the rotation, that put a point onto the bed: a few units in
+    /// the last place; with a tolerance, about the tolerance.
     double corrected = 0.0;
     /// ok, or `cancelled`: then the rest is empty. `max_displacement` includes `corrected`.
     treeform::certificate certificate{};
@@ -103,7 +103,7 @@ struct laid_flat {
 [[nodiscard]] TREEFORM_API std::optional<laid_flat> lay_flat(const mesh_ref& mesh,
                                                              const lay_flat_options& options = {});
 
-/// The plates, and how to fill them.
+/// The plates, and options of packing.
 struct pack_options {
     /// Length, depth and height of the plate or box. The height may be infinite.
     point3 size{0.0, 0.0, std::numeric_limits<double>::infinity()};
@@ -116,7 +116,7 @@ struct pack_options {
     /// Fill the box up to its height, which must be finite: parts may be above, below and inside
     /// one another, and hang in the air. Otherwise each part stands on the bed.
     bool stack = false;
-    unsigned plates = 1;  ///< largest number of plates; at least 1
+    unsigned plates = 1;  ///< largest number of plates to use; at least 1
     point3 plate_step{};  ///< from the corner of a plate to that of the next; its z is ignored
     bool tighten = true;  ///< close gaps left by the raster
     /// Seed of the orders and rotations that are tried if not all parts fit.
@@ -131,7 +131,7 @@ struct pack_options {
 
 /// A part on a plate.
 struct packed_part {
-    bool placed = false;  ///< whether it has a place
+    bool placed = false;  ///< whether a position was found
     unsigned plate = 0;   ///< number of its plate, from 0
     /// [V] the new points, rounded to the precision; unchanged if the part is not placed.
     std::vector<point3> points{};
@@ -143,7 +143,7 @@ struct packed_part {
 /// Filled plates.
 struct packing {
     std::vector<packed_part> parts{};         ///< [P] in the order of the input
-    std::vector<std::uint32_t> not_placed{};  ///< numbers of parts without a place, ascending
+    std::vector<std::uint32_t> not_placed{};  ///< numbers of parts without a position, ascending
     unsigned plates_used = 0;                 ///< plates with a part
     unsigned tries = 0;                       ///< number of tries made
     /// Share of the area of the used plates that their parts cover, by the raster; with `stack`,

@@ -93,7 +93,7 @@ class TREEFORM_API curve_locator {
     /// \cost   a tree over the edges
     curve_locator(std::span<const point2> points, std::span<const curve_edge> edges);
 
-    /// \throws std::invalid_argument if a coordinate is not finite; likewise below
+    /// \throws std::invalid_argument if a coordinate is not finite; so does the overload below
     /// \cost   O(log E + B) for the B edges whose boxes meet the ray from the point along +x
     [[nodiscard]] point_location locate(const point2& point) const;
 

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Reads and writes point files a block at a time, for clouds that are larger than memory; and the
-/// faces and other rows that a PLY or STL has behind its points.
+/// Reads and writes point files in blocks, for clouds that are larger than memory; and the faces
+/// and other rows that follow the points in a PLY or STL.
 
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/write.hpp>
@@ -26,39 +26,42 @@ namespace detail::io {
 /// Consecutive points with their properties.
 struct point_block {
     std::vector<point3> points{};
-    element properties{.name = "vertex"};  ///< a row a point
+    element properties{.name = "vertex"};  ///< one row for each point
 };
 
-/// Consecutive rows of an element behind the points, such as faces.
+/// Consecutive rows of an element that follows the points, such as faces.
 struct row_block {
-    element rows{};                        ///< with the element's name
-    std::vector<std::uint32_t> corners{};  ///< of faces: those of the first, then of the next, ...
-    std::vector<std::uint64_t> first_corner{};  ///< [rows + 1] in `corners`; of others empty
-    /// Faces of fewer than three corners that were among these: the header counts them.
+    element rows{};  ///< values, under the element's name
+    /// for faces: point numbers of the corners, face after face
+    std::vector<std::uint32_t> corners{};
+    /// for faces: [rows + 1] first corner of each in `corners`; else empty
+    std::vector<std::uint64_t> first_corner{};
+    /// Number of faces with fewer than three corners that were skipped in this block; the header
+    /// counts them.
     std::uint64_t left_out = 0;
 };
 
 }  // namespace detail::io
 
 /// Reads PLY without faces, PCD, LAS, LAZ, XYZ and CSV from the first point to the last. All blocks
-/// together are what `read` gives for the whole file.
+/// together equal the result of `read` for the whole file.
 class TREEFORM_API point_reader {
   public:
-    /// Reads the header. `path` and `format` as for `read`. Input that cannot be mapped (standard
-    /// input, a pipe) is copied to an unnamed file in /var/tmp first; the points of a compressed
-    /// PCD are unpacked to one before the first of them is read, so that damage is found then. The
-    /// `first` points, no more than there are, are passed over: unread in binary PLY without lists,
-    /// PCD except for text, LAS, and whole chunks of LAZ.
+    /// Opens the file and reads the header. `path` and `format` are as for `read`. Input that
+    /// cannot be mapped into memory (standard input, a pipe) is first copied to an unnamed file in
+    /// /var/tmp. The points of a compressed PCD are unpacked to such a file before the first block
+    /// is read, so that damage is found then. Reading starts at point `first`, which must not
+    /// exceed the number of points. The points before it need not be read in binary PLY without
+    /// lists, binary PCD and LAS, nor whole chunks of them in LAZ.
     ///
-    /// With `with_rows`, a PLY may have faces and other elements behind its points, and a binary
-    /// STL is read as the corners of its facets, with the facets behind them. The header says how
-    /// many rows there are. They can be read next. The facets of an STL have the column
-    /// "stl_attribute" also where all of it is zero.
+    /// With `with_rows`, a PLY may have faces and other elements after its points, and a binary STL
+    /// is read as the corners of its facets, followed by the facets. The header has the number of
+    /// rows of each element; they can be read after the points. The facets of an STL always have
+    /// the column "stl_attribute", even if all values are zero.
     ///
-    /// \throws io_error of `kind::blocks` for a format without points, for a file with
-    ///         faces or other elements that have rows; with `with_rows` for what is ahead of the
-    ///         points, for strips of triangles, and for faces with texture coordinates of corners;
-    ///         io_error as `read`
+    /// \throws io_error of `kind::blocks` for a format that is not supported, or a file with rows
+    ///         of faces or other elements; with `with_rows`, for rows before the points, triangle
+    ///         strips, and faces with texture coordinates of corners. io_error as `read`
     explicit point_reader(const std::filesystem::path& path, std::string_view format = {},
                           std::uint64_t first = 0, bool with_rows = false,
                           const read_options& options = {});
@@ -66,20 +69,21 @@ class TREEFORM_API point_reader {
     point_reader(point_reader&&) noexcept;
     point_reader& operator=(point_reader&&) noexcept;
 
-    /// The file without its points: format, precision, comments and columns (without rows).
-    /// `stored_as` is by the types in the file, `float64` for text. Text without a header (XYZ,
-    /// CSV) is read once to count its lines and to see whether they are alike. Warnings about the
-    /// end of the file are there once `read` has returned false.
+    /// The file without its points: format, precision, comments, and columns without values.
+    /// `stored_as` follows the types in the file; it is `float64` for text. Text without a header
+    /// (XYZ, CSV) is read once to count and check its lines. Warnings about the end of the file are
+    /// added before `read` returns false.
     [[nodiscard]] const mesh_file& header() const;
     /// Number of points in the file.
     [[nodiscard]] std::uint64_t count() const;
-    /// Replaces the content of `points`, and of `properties` with a row for each, by that of the
-    /// next points, at most `most`. Returns false, with both empty, when none are left.
+    /// Reads the next points, at most `most`: replaces the content of `points` by their
+    /// coordinates, and of `properties` by one row for each. Returns false, with both empty, if no
+    /// point is left.
     ///
     /// \throws io_error as `read`
     bool read(std::vector<point3>& points, element& properties, std::size_t most);
-    /// Likewise, with `with_rows`, the next rows of one element, in the order of the file; passes
-    /// over points that have not been read.
+    /// With `with_rows`: reads the next rows of one element, at most `most`, in the order of the
+    /// file. Points that have not been read are skipped. Returns false if no row is left.
     ///
     /// \throws io_error as `read`
     bool read(detail::io::row_block& block, std::size_t most);
@@ -91,34 +95,36 @@ class TREEFORM_API point_reader {
 
 namespace detail::io {
 
-/// A place that all parts see, as large as all values together. Parts put the values of their
-/// points there, field by field, and later get the bytes that they pack.
+/// Storage shared by the writers of all parts of a file, as large as the values of all points. A
+/// writer puts the values of its points there, field by field, and later gets the bytes that it
+/// compresses.
 struct shared_values {
-    std::uint64_t first_point = 0;  ///< of the part, by number in the whole
+    std::uint64_t first_point = 0;  ///< number, in the whole file, of this part's first point
     std::size_t part = 0;
     std::size_t parts = 1;
     std::function<void(std::uint64_t at, std::span<const std::byte> bytes)> put{};
     std::function<void(std::uint64_t at, std::span<std::byte> bytes)> get{};
 };
 
-/// The bytes of a part of a file.
+/// The sizes of the sections of a part of a file.
 struct written_part {
-    std::uint64_t head = 0;    ///< bytes ahead of its points
+    std::uint64_t head = 0;    ///< bytes before its points
     std::uint64_t points = 0;  ///< bytes of its points
     std::uint64_t rows = 0;    ///< bytes of rows that came after `end_part`
 };
 
 }  // namespace detail::io
 
-/// Writes the same file as `write` would for all blocks together. A compressed PCD (the input was
-/// one) is put together in an unnamed file in /var/tmp, or by parts where they say.
+/// Writes a point file in blocks; the same file as `write` for all blocks together. A compressed
+/// PCD (if the input was one) is assembled in an unnamed file in /var/tmp, or by parts in their
+/// `shared_values`.
 class TREEFORM_API point_writer {
   public:
-    /// `header` is that of `point_reader`, perhaps with columns added or removed. `count` is the
+    /// `header` is that of a `point_reader`, perhaps with columns added or removed. `count` is the
     /// number of points that will be written. Coordinates are written with the types of their
-    /// columns in "vertex"; in binary as doubles when these are at most float32 and `stored_as` is
-    /// float64. Of other elements, the header says how many rows will be written, and
-    /// `most_corners` how many a face has at most.
+    /// columns in "vertex"; in binary formats as doubles if no type is wider than float32 and
+    /// `stored_as` is float64. `header` also has the number of rows to be written of other
+    /// elements, and `most_corners` is the largest number of corners of a face.
     ///
     /// \throws io_error as `write`; also for a format other than ply, obj, pcd, las, laz, xyz
     ///         and csv, for LAS without `mesh_file::las` or to a pipe, and for rows of other
@@ -129,48 +135,50 @@ class TREEFORM_API point_writer {
     point_writer(point_writer&&) noexcept;
     point_writer& operator=(point_writer&&) noexcept;
 
-    /// The next points; `properties` has a row for each.
+    /// Writes the next points; `properties` has one row for each.
     ///
-    /// \throws io_error when the file cannot be written, std::invalid_argument for columns other
-    ///         than those of the header, more than `count` points, or a coordinate that the
-    ///         header's types do not hold unless `options.precision` says to round
+    /// \throws io_error if the file cannot be written; std::invalid_argument for columns other than
+    ///         those of the header, for more than `count` points, or for a coordinate that the
+    ///         header's types cannot represent, unless `options.precision` requests rounding
     void write(points_view points, const element& properties);
-    /// Rows of the other elements, behind all points, in the order of the header.
-    /// \throws io_error, std::invalid_argument for other columns or more rows than the header's
+    /// Writes rows of the other elements, after all points, in the order of the header.
+    /// \throws io_error; std::invalid_argument for other columns or more rows than in the header
     void write(const detail::io::row_block& block);
-    /// Finishes the file. Without this call, no file stays.
-    /// \throws io_error, also when fewer than `count` points, or other rows, were written
+    /// Finishes the file. Without this call, the file is removed.
+    /// \throws io_error, also if fewer than `count` points, or fewer rows than in the header, were
+    ///         written
     write_result commit();
 
-    /// Whether others can write the rest of the points.
+    /// Whether the file can be written in parts: each by another writer with some of the points.
     [[nodiscard]] bool has_parts() const;
-    /// Whether parts need such a place: those of a compressed PCD, whose values stand field by
-    /// field.
+    /// Whether parts need `share_values`: for a compressed PCD, which stores values field by field.
     [[nodiscard]] bool has_shared_values() const;
-    /// Names it, before the first point. When all parts have their points, and not before,
-    /// `commit_part` gets a share of the bytes of all and packs them.
-    /// \throws std::logic_error where there is no such place, or points were written
+    /// Sets the shared storage; call it before the first point. `commit_part` compresses this
+    /// part's share of the stored bytes; call it after the points of all parts were written.
+    /// \throws std::logic_error unless `has_shared_values`, or if points were written
     void share_values(const detail::io::shared_values& place);
-    /// All parts but the last must have a multiple of so many points: those of a chunk in LAZ, else
-    /// 1.
+    /// The number of points of every part but the last must be a multiple of this: the points of a
+    /// chunk for LAZ, else 1.
     [[nodiscard]] std::uint64_t part_granularity() const;
-    /// No more points come: the others are in other parts. Rows that are behind the points of all
-    /// parts may follow, those of earlier parts first. Returns the bytes of the points.
+    /// Ends the points of this part; the remaining points are in other parts. Rows that follow the
+    /// points of all parts may be written next, those of earlier parts first. Returns the number of
+    /// bytes of the points.
     std::uint64_t end_part();
-    /// Leaves so many bytes of the file to others.
+    /// Skips this many bytes of the file, which others write.
     /// \pre    a regular file, and `end_part` was called
     /// \throws io_error
     void skip_bytes(std::uint64_t bytes);
-    /// What must be known of a part to finish others; call it when all of its points are there.
+    /// Data of this part that other parts need for `commit_part`; call it after all points of this
+    /// part.
     [[nodiscard]] std::string part_summary();
-    /// Finishes a file that has only some of the points. The joined head, the points of all parts,
-    /// their rows, and what else is behind those of the last one are what one writer of all would
-    /// have written.
-    /// `summaries` is what `part_summary` gave for each part, in their order; LAZ needs it.
-    /// \throws io_error, std::logic_error where it has no parts
+    /// Finishes the file of a part. The file of a single writer consists of the head from
+    /// `join_heads`, the points of all parts, their rows, and the remaining bytes of the last part.
+    /// `summaries` are the results of `part_summary` of all parts, in order; needed for LAZ.
+    /// \throws io_error; std::logic_error unless `has_parts`
     detail::io::written_part commit_part(write_result& result,
                                          const std::vector<std::string>& summaries = {});
-    /// The head of the whole from those of all parts that have points; if none has, from one.
+    /// The head of the whole file, from the heads of all parts with points; if no part has points,
+    /// from the head of one part.
     [[nodiscard]] static std::string join_heads(const std::vector<std::string>& heads);
 
   private:
@@ -178,7 +186,7 @@ class TREEFORM_API point_writer {
     std::unique_ptr<state> state_;
 };
 
-/// Files that are one cloud, all points of the first before those of the next.
+/// Input files that form one cloud, or one mesh; points are numbered file after file.
 struct cloud_inputs {
     std::vector<std::filesystem::path> paths{};
     std::string format{};  ///< as for `read`
@@ -187,14 +195,13 @@ struct cloud_inputs {
     std::vector<std::string> names{};  ///< for warnings; empty: the paths
     bool mixed = false;                ///< as in `join`
 
-    /// What is in the files, before their points are read: the header, as that of a `point_reader`,
-    /// whose elements have no values, but as many rows as there are; those of "vertex" are the
-    /// points. One file alone may be a mesh, as `point_reader` reads it with rows. Text is read
-    /// once, shared by the ranks; every rank must call this.
+    /// The joined header of the files, without reading points: as `point_reader::header`, with the
+    /// number of rows of each element; the rows of "vertex" are the points. A single file may be a
+    /// mesh (`with_rows` of `point_reader`). Text is read once, shared by the ranks. Collective:
+    /// every rank must call it.
     ///
-    /// \throws io_error of `kind::blocks` for what is no file of points, as
-    ///         `point_reader`, io_error for what cannot be read; std::invalid_argument for columns
-    ///         that `join` cannot unite
+    /// \throws io_error of `kind::blocks` as `point_reader`; io_error if a file cannot be read;
+    ///         std::invalid_argument for columns that `join` cannot unite
     [[nodiscard]] TREEFORM_API mesh_file outline(const communicator& ranks = {}) const;
 };
 

@@ -8,13 +8,12 @@
 /// the coordinates of that call. No tolerance, no state, no allocation, no exception; safe to call
 /// from any thread, in any rounding mode, with denormals flushed or not.
 ///
-/// \pre for all: coordinates are finite. An optional `counters` collects what the call cost.
+/// \pre for all: coordinates are finite. An optional `counters` counts the calls and their stages.
 /// \source filters: Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust
 ///         Geometric Predicates, DCG 18 (1997), section 4; permanents as in Burnikel, Funke and
 ///         Seel, Exact Geometric Computation Using Cascading, IJCGA 11 (2001)
 ///
-/// Triangles, exactly: what two of them have in common, and where a ray hits one. Triangles include
-/// their edges.
+/// Exact intersection of two triangles, and the type of rays. Triangles include their edges.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -81,15 +80,15 @@ using triangle3 = std::array<point3, 3>;
 /// `interior` is the triangle without its edges.
 enum class feature : std::uint8_t { v0, v1, v2, e0, e1, e2, interior };
 
-/// A point of both triangles, named by the lowest-dimensional feature of each that it lies on.
-/// An end of the common set is on a corner or an edge of at least one of the two.
+/// A point of both triangles, named by the lowest-dimensional feature of each that it lies on. An
+/// end of the intersection is on a corner or an edge of at least one of the two.
 struct contact {
     feature on_a;
     feature on_b;
     friend constexpr bool operator==(const contact&, const contact&) = default;
 };
 
-/// What two triangles have in common.
+/// The intersection of two triangles.
 struct triangle_contact {
     /// All six corners lie in one plane. Degenerate triangles count: two collinear ones are
     /// coplanar when their lines meet or are parallel, a point is coplanar with any segment.
@@ -97,9 +96,9 @@ struct triangle_contact {
     /// Both triangles have a plane, each has corners strictly on both sides of the other's, and
     /// the common segment has length: the triangles pass through each other.
     bool crossing = false;
-    /// Ends of the common set, which tell its dimension: 0 where they have nothing in common, 1
-    /// point, 2 ends of a segment, or the 3 to 6 corners of a convex area in counter-clockwise
-    /// order, seen from the side that the normal of `a` points to.
+    /// Number of `ends` of the intersection: 0 if it is empty, 1 for a point, 2 for a segment, 3 to
+    /// 6 for the corners of a convex area, counter-clockwise seen from the side to which the normal
+    /// of `a` points.
     std::uint8_t count = 0;
     std::array<contact, 6> ends{};  ///< the first `count` are set; no two are equal
 };

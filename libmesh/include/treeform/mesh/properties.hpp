@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Properties of a mesh: defects, counts of edges and components, whether it is closed, its volume;
-/// its flat and cylindrical regions.
+/// Properties of a mesh: defects, counts of edges and components, whether it is closed,
+/// volume, mass properties; flat and cylindrical regions.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -114,7 +114,7 @@ struct mass_properties {
 
 /// Volume, center of mass and inertia of the solid that a closed mesh bounds. If the mesh is inside
 /// out, volume and inertia have the opposite sign. A region counts as often as the surface winds
-/// around it. None if the volume is 0, as for an empty mesh, not finite, or so small compared with
+/// around it. None if the volume is 0 (as for an empty mesh), not finite, or so small compared with
 /// the terms of its sum that the center would be noise. Meaningless for an open mesh.
 ///
 /// Coordinates are first taken relative to the center of the box, which rounds them by at most
@@ -128,11 +128,12 @@ struct mass_properties {
 [[nodiscard]] TREEFORM_API std::optional<mass_properties> find_mass_properties(
     const mesh_ref& mesh);
 
-/// Whether two meshes have the same faces, by the coordinates of their corners (-0 equals +0, NaN
-/// equals nothing), turned the same way; in their order, each from its first corner on, or in any.
+/// Whether two meshes have the same faces with the same orientation. Corners are compared by
+/// coordinates (-0 equals +0, NaN equals nothing). With `any_order`, faces may come in any order
+/// and start at any corner; otherwise both must agree.
 ///
 /// \pre    every corner is in range
-/// \cost O(F), and O(F log F) in any order
+/// \cost O(F); with `any_order` O(F log F)
 [[nodiscard]] TREEFORM_API bool same_triangles(mesh_view a, mesh_view b, bool any_order);
 
 /// The kind of a region.
@@ -142,9 +143,10 @@ enum class feature_kind : std::uint8_t { plane, axis };
 struct mesh_feature {
     feature_kind kind = feature_kind::plane;  ///< plane or axis
     point3 origin{};                          ///< center of the faces, on the plane or the axis
-    point3 direction{};      ///< of length 1: the normal, outward; along the axis, either way
+    /// of length 1: the outward normal of a plane; along an axis, in either sense
+    point3 direction{};
     double radius = 0.0;     ///< of the cylinder
-    bool hollow = false;     ///< for a cylinder: the faces point to the axis, as in a hole
+    bool hollow = false;     ///< for a cylinder: the faces point toward the axis, as in a hole
     double area = 0.0;       ///< of the faces
     double deviation = 0.0;  ///< largest distance of a corner from the plane or cylinder
     std::vector<std::uint32_t> faces{};  ///< ascending
@@ -161,9 +163,10 @@ struct feature_options {
     progress_callback progress{};  ///< for `find_features`, which returns nothing if stopped
 };
 
-/// The flat or cylindrical regions of `mesh`, largest area first. A region grows over edges, from
-/// the largest face, or pair of faces with an angle between them, that is not yet in a region. Join
-/// points with equal coordinates first (`join_equal_points`). Cones are not found.
+/// The flat or cylindrical regions of `mesh`, largest area first. Regions grow across edges, each
+/// from the largest face (for an axis, the largest pair of faces with an angle between them) that
+/// is not yet in a region. Join points with equal coordinates first (`join_equal_points`). Cones
+/// are not found.
 ///
 /// \throws std::invalid_argument naming a point that is not finite or a face with a corner out of
 ///         range; for options that are negative or NaN

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Reading mesh and point files of all formats. Robots in URDF files.
+/// Reads mesh and point files of all formats, and robots from URDF files.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
@@ -50,27 +50,28 @@ namespace treeform {
 ///   "num_rows 480", "viewpoint 0 0 0 1 0 0 0".
 /// - LAS and LAZ: columns as in `las_header`. LAZ of LASzip 1 to 3, COPC included; extra bytes as
 ///   described in the file.
-/// - 3MF: the build. Each mesh of an item, directly or through components, is a part with a unique
-///   name ("gear", "gear (2)"), transformed; faces of mirrored parts are flipped, so that they are
-///   not inside out. Supports and surfaces are read like models; objects of type "other" and
-///   objects outside the build are not read. Items and components may be in other model parts of
-///   the package. Base materials are materials of parts, and their colors and those of color groups
-///   become columns red, green, blue and alpha of faces, or of points where corners have colors of
-///   their own. Texture coordinates are in `attributes::corners`; images are not read. Coordinates
-///   are in the unit of the file, which is a line of `attributes::obj_info`: "unit millimeter".
-///   Extensions that a file requires and that would change its shape are refused.
-/// - glTF 2.0 and GLB, also packed by draco where treeform was built with it: the default scene.
-///   Each mesh of a node, also as an instance of EXT_mesh_gpu_instancing, is a part with a unique
-///   name, from the node or the mesh, transformed by matrices composed in double; faces of mirrored
-///   parts are flipped. Strips and fans are triangles. COLOR_0 becomes columns red, green, blue and
-///   alpha of points, in the type and with the numbers of the file; NORMAL nx, ny and nz, turned
-///   with the node; the texture coordinates that the color of the material takes, with
-///   KHR_texture_transform, s and t = 1 - v, since t counts from the lower edge elsewhere. Colors
-///   of materials become columns red, green, blue and alpha of faces, of 8 bits. Textures, other
-///   attributes and lines are not read, morph targets and skins not applied. Files that a glTF
-///   names are read from its folder and those in it. Extensions that a file requires are refused by
-///   name, except for KHR_mesh_quantization and those that only change how a surface looks. glTF
-///   1.0 is left to assimp.
+/// - 3MF: the items of the build. Each mesh of an item, directly or through components, is a part
+///   with a unique name ("gear", "gear (2)"), transformed; faces of mirrored parts are flipped, so
+///   that they are not inside out. Supports and surfaces are read like models; objects of type
+///   "other" and objects outside the build are not read. Items and components may be in other model
+///   parts of the package. Base materials are materials of parts, and their colors and those of
+///   color groups become columns red, green, blue and alpha of faces, or of points where corners
+///   have colors of their own. Texture coordinates are in `attributes::corners`; images are not
+///   read. Coordinates are in the unit of the file, which is a line of `attributes::obj_info`:
+///   "unit millimeter". Extensions that a file requires and that would change its shape are
+///   refused.
+/// - glTF 2.0 and GLB: the default scene. Draco compression is supported if treeform was built with
+///   it. Each mesh of a node, also as an instance of EXT_mesh_gpu_instancing, is a part with a
+///   unique name, from the node or the mesh, transformed by matrices composed in double; faces of
+///   mirrored parts are flipped. Strips and fans are triangles. COLOR_0 becomes columns red, green,
+///   blue and alpha of points, in the type and with the numbers of the file; NORMAL becomes nx, ny
+///   and nz, rotated with the node. The texture coordinates of the material's base color, with
+///   KHR_texture_transform applied, become s and t = 1 - v, since other formats count t from the
+///   lower edge. Colors of materials become columns red, green, blue and alpha of faces, of 8 bits.
+///   Textures, other attributes and lines are not read; morph targets and skins are not applied.
+///   Files that a glTF refers to are read only from its folder and subfolders. Extensions that a
+///   file requires are refused by name, except for KHR_mesh_quantization and those that only change
+///   how a surface looks. glTF 1.0 is read by assimp.
 ///
 /// \throws io_error naming path, line or byte, and reason
 [[nodiscard]] TREEFORM_API mesh_file read(const std::filesystem::path& path,
@@ -82,8 +83,8 @@ namespace treeform {
                                           std::string_view format,
                                           const read_options& options = {});
 
-/// Whether other scenes than glTF and GLB (DAE, FBX, ...) can be read: true unless treeform was
-/// built without assimp.
+/// Whether scene formats other than glTF and GLB (DAE, FBX, ...) can be read: true unless treeform
+/// was built without assimp.
 [[nodiscard]] TREEFORM_API bool reads_scenes();
 
 enum class urdf_joint_kind : std::uint8_t { fixed, revolute, continuous, prismatic };
@@ -95,38 +96,41 @@ struct urdf_joint {
     std::uint32_t parent = 0;  ///< numbers of links
     std::uint32_t child = 0;
     transform<3> origin{};
-    point3 axis{1.0, 0.0, 0.0};                     ///< of length 1, in the joint's frame
-    std::optional<std::array<double, 2>> limits{};  ///< of revolute and prismatic ones
+    point3 axis{1.0, 0.0, 0.0};  ///< of length 1, in the joint's frame
+    /// least and greatest value; of revolute and prismatic joints
+    std::optional<std::array<double, 2>> limits{};
     /// The joint that this one mimics, and the coefficients: value = first * (value of that joint)
     /// + second.
     std::string mimics{};
     std::array<double, 2> mimic_line{1.0, 0.0};
 };
 
-/// A mesh of a link, from a file or a shape; `place` maps its points to the link's frame.
+/// A mesh of a link, from a file or a geometric shape. `place` maps its points to the link's frame.
 struct urdf_mesh {
     std::uint32_t link = 0;
     std::filesystem::path file{};  ///< empty for a box, a cylinder, a sphere
     transform<3> place{};          ///< the origin, and the scale of the mesh
-    /// A box is exact. A cylinder or sphere is replaced by triangles around it, so that no clash is
-    /// missed: 96 sides, at most 0.054 % of the radius too large; 5,120 triangles, at most 0.13 %.
+    /// A box is exact. A cylinder or sphere is replaced by a triangle mesh that contains it, so
+    /// that no clash is missed: a cylinder has 96 sides and exceeds the radius by at most 0.054 %,
+    /// a sphere has 5,120 triangles and exceeds it by at most 0.13 %.
     mesh shape{};
 };
 
 /// A robot.
 struct urdf_robot {
     std::string name{};
-    std::vector<std::string> links{};         ///< [L] names, in the order of the file
-    std::vector<urdf_joint> joints{};         ///< parents ahead of their children
-    std::vector<urdf_mesh> meshes{};          ///< by links
-    std::vector<std::string> approximated{};  ///< cylinders and spheres, one sentence each
-    std::vector<std::string> skipped{};       ///< what else is no mesh, one sentence each
+    std::vector<std::string> links{};  ///< [L] names, in the order of the file
+    std::vector<urdf_joint> joints{};  ///< parents before their children
+    std::vector<urdf_mesh> meshes{};   ///< ordered by link
+    /// cylinders and spheres replaced by triangles, one sentence each
+    std::vector<std::string> approximated{};
+    std::vector<std::string> skipped{};  ///< geometry that is not read, one sentence each
 
     /// Pairs of links connected by a joint, or by joints and links without meshes; the lower number
     /// first, ascending.
     [[nodiscard]] TREEFORM_API std::vector<std::array<std::uint32_t, 2>> adjacent() const;
 
-    /// The same as numbers of `parts`, of those of which both links are among them.
+    /// The same pairs as numbers in `parts`; pairs with a link that has no part are omitted.
     [[nodiscard]] TREEFORM_API std::vector<std::array<std::uint32_t, 2>> adjacent(
         std::span<const urdf_mesh> parts) const;
 
@@ -136,9 +140,9 @@ struct urdf_robot {
     [[nodiscard]] TREEFORM_API std::vector<urdf_mesh> parts(
         const std::function<mesh(const std::filesystem::path&)>& mesh_of_file) const;
 
-    /// [L] Where each link is: from its own frame to that of the robot. Joints without a value are
-    /// at 0, fixed ones stay, and those that mimic another follow it unless they have a value of
-    /// their own. `values` are angles in radians, or lengths, by joint. Limits are not looked at.
+    /// [L] The transform from each link's frame to the robot's frame. `values` maps names of joints
+    /// to angles in radians, or lengths. Joints without a value are at 0; a joint that mimics
+    /// another follows it unless it has a value of its own. Limits are not checked.
     ///
     /// \throws std::invalid_argument for a joint that does not exist or is fixed, or a value that
     ///         is not finite
@@ -147,9 +151,10 @@ struct urdf_robot {
 };
 
 /// Reads the robot at `path`. Joints are fixed, revolute, continuous or prismatic. Boxes, cylinders
-/// and spheres become meshes. Mesh files are not read, but must exist. `package://name/rest` is
-/// FOLDER/name/rest or FOLDER/rest for one of `package_folders`, else for the file's folder or one
-/// above it. With `visual`, visual meshes are used instead of collision meshes.
+/// and spheres become meshes. Mesh files are not read, but must exist. `package://name/rest`
+/// resolves to FOLDER/name/rest or FOLDER/rest, where FOLDER is one of `package_folders`, else the
+/// folder of the file or one above it. With `visual`, visual meshes are used instead of collision
+/// meshes.
 ///
 /// \throws io_error naming the path and the reason: not XML, no robot, an unsupported joint, a link
 ///         that is missing, has two parents or is its own ancestor, repeated names, invalid

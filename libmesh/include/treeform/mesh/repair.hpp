@@ -33,8 +33,8 @@ struct resolve_options {
     /// For `split` and `outer`: as in `boolean_options`.
     double max_displacement = std::numeric_limits<double>::infinity();
     bool keep_cuts = false;   ///< for `outer`: as in `boolean_options`; `split` keeps all cuts
-    bool touching = false;    ///< for `remove`: delete faces that only touch, too; else they stay
-    int removal_rounds = 16;  ///< for `remove`: give up after making or widening holes this often
+    bool touching = false;    ///< for `remove`: also delete faces that only touch
+    int removal_rounds = 16;  ///< for `remove`: largest number of rounds that make or widen holes
     /// For `outer` and `remove`: losing more than this share gives the status `excessive_loss`. The
     /// share is of the volume of the solid, or of the area if the mesh bounds none. 1 allows any
     /// loss. The solid before is that of `repair` without filling holes.
@@ -60,58 +60,61 @@ struct repair_options {
     /// `max_loss` is 1.
     double strays = 0.001;
     /// What is solid. By default `positive` if each shell is outward after `orient`, else `nonzero`
-    /// or labels.
+    /// or the labels of cells (see `repair`).
     std::optional<fill_rule> inside{};
     /// Losing more than this share of the volume gives the status `excessive_loss`; if there were
-    /// holes, of the area. Faces that are still there or hidden in the solid are not lost. 1 allows
-    /// any loss.
+    /// holes, of the area. Faces that remain, or are inside the solid, do not count as lost. 1
+    /// allows any loss.
     double max_loss = 0.05;
     bool sheet = false;   ///< the mesh is an open surface: keep its border, and fill nothing
-    bool as_one = false;  ///< of `repair_file`: all parts of a scene become one solid
+    bool as_one = false;  ///< for `repair_file`: all parts of a scene become one solid
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
     /// As in `boolean_options`.
     double max_displacement = std::numeric_limits<double>::infinity();
-    bool keep_cuts = false;  ///< likewise; filled faces only merge with each other
+    /// as in `boolean_options`; faces that fill holes only merge with each other
+    bool keep_cuts = false;
     progress_callback progress{};
 };
 
 /// Counts of each step's changes. Closed gaps, chosen orientations and filled holes are heuristic.
 struct repair_statistics {
-    std::uint64_t tetrahedra = 0;      ///< tetrahedra that the faces were; their boundary was kept
-    std::uint64_t degenerate = 0;      ///< faces without area, dropped; with such, slivers
-    std::uint64_t repeated = 0;        ///< faces on others, dropped
-    std::uint64_t closed_edges = 0;    ///< pairs of border edges that became one
+    std::uint64_t tetrahedra = 0;      ///< tetrahedra formed by faces; only their boundary was kept
+    std::uint64_t degenerate = 0;      ///< faces without area, and slivers beside them, dropped
+    std::uint64_t repeated = 0;        ///< faces that repeat another, dropped
+    std::uint64_t closed_edges = 0;    ///< pairs of border edges joined into one edge
     std::uint64_t split_edges = 0;     ///< border edges split at vertices that lie on them
-    double gap_limit = 0.0;            ///< widest crack that was looked for
+    double gap_limit = 0.0;            ///< largest width of cracks searched for
     double widest_closed = 0.0;        ///< widest crack that was closed
-    std::uint64_t flipped = 0;         ///< faces turned to agree with their neighbors
-    std::uint64_t turned_outward = 0;  ///< components turned outward
-    std::uint64_t strays = 0;          ///< faces of loose and of inner pieces, dropped
+    std::uint64_t flipped = 0;         ///< faces flipped to agree with their neighbors
+    std::uint64_t turned_outward = 0;  ///< components flipped outward
+    std::uint64_t strays = 0;          ///< faces of loose and inner pieces, dropped
     std::uint64_t holes = 0;           ///< holes filled
     std::uint64_t hole_edges = 0;      ///< edges around them
     std::uint64_t filled = 0;          ///< faces that fill them
-    std::uint64_t sheets = 0;          ///< rims not filled, since they end sheets
-    std::uint64_t open_edges = 0;      ///< left after these steps
-    bool resolved = false;             ///< faces met and were cut
+    std::uint64_t sheets = 0;          ///< rims not filled, since they are borders of sheets
+    std::uint64_t open_edges = 0;      ///< open edges left after these steps
+    bool resolved = false;             ///< whether faces met and were cut
     std::uint64_t pairs = 0;           ///< pairs of faces that met
     std::uint64_t labeled_cells = 0;   ///< cells labeled inside or outside, since faces disagreed
-    double dropped_area = 0.0;         ///< area of faces with one label on both sides
-    double flipped_area = 0.0;         ///< area of faces that their labels turned over
-    std::uint64_t removed = 0;         ///< faces that resolving left nothing of
-    /// Of `resolve_self_intersections` by `split`: input faces that lie entirely on faces of lower
-    /// numbers. One piece stands for all of them, so they are not counted as removed.
+    double dropped_area = 0.0;         ///< area of dropped faces, with one label on both sides
+    double flipped_area = 0.0;         ///< area of faces flipped by the labels
+    std::uint64_t removed = 0;         ///< input faces of which resolving left nothing
+    /// For `resolve_self_intersections` with `split`: input faces that lie entirely on faces of
+    /// lower numbers. Their pieces are those of the lower faces, so they do not count as removed.
     std::uint64_t covered = 0;
-    std::uint64_t left_open = 0;       ///< of it by `remove`: edges that lost their second face
-    std::uint64_t exact_faces = 0;     ///< of it, as in `boolean_statistics`
+    std::uint64_t left_open = 0;  ///< the same with `remove`: edges that lost their second face
+    /// for `resolve_self_intersections`: as in `boolean_statistics`
+    std::uint64_t exact_faces = 0;
     std::uint64_t split_vertices = 0;  ///< vertices split where parts of the solid touch
     std::uint64_t detached = 0;        ///< vertices moved apart
-    std::uint64_t touching = 0;        ///< vertices that still have a twin at their place
-    /// Components, by vertices, that have no face left; of `repair`, larger than
-    /// `repair_options::strays`.
+    std::uint64_t touching = 0;        ///< vertices that still have the coordinates of another
+    /// Components (faces linked by vertices) of which no face is left; for `repair`, those larger
+    /// than `repair_options::strays`.
     std::uint64_t vanished_components = 0;
-    std::uint64_t dropped_shells = 0;  ///< closed, within the solid; `odd` makes cavities of them
-    double volume_before = 0.0;        ///< after `join`, `orient`, `fill`; 0 where it is no solid
+    /// closed shells inside the solid, dropped; `odd` makes them cavities
+    std::uint64_t dropped_shells = 0;
+    double volume_before = 0.0;  ///< after `join`, `orient` and `fill`; 0 if that is no solid
     double volume_after = 0.0;
     double area_before = 0.0;
     double area_after = 0.0;
@@ -120,18 +123,20 @@ struct repair_statistics {
 
 /// The repaired mesh, its sources, and its certificate.
 struct TREEFORM_API repair_result {
-    /// Instead of a source: the face fills a hole, or the vertex is new.
+    /// No source: the face fills a hole, or the vertex is new.
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
     treeform::mesh mesh;
-    std::vector<std::uint32_t> face_source;    ///< [F'] input face, lowest of those merged, or none
-    std::vector<std::uint32_t> vertex_source;  ///< [V'] input vertex that each is, or none
-    std::vector<std::uint8_t> is_left{};       ///< [F] 1 where something is left of an input face
-    /// Status ok says, checked on the coordinates above: a closed manifold, the inside behind every
-    /// face, and any two faces have a corner, an edge or nothing in common. Status sheet says the
-    /// same of a surface with a border. Of `resolve_self_intersections` by `split` and `remove`:
-    /// only the latter, and that no face is degenerate; with `remove`, closed parts are still
-    /// closed, and faces that touched before may still touch (`resolve_options::touching`).
+    /// [F'] input face of each face, lowest of those merged; or none
+    std::vector<std::uint32_t> face_source;
+    std::vector<std::uint32_t> vertex_source;  ///< [V'] input vertex of each vertex, or none
+    std::vector<std::uint8_t> is_left{};  ///< [F] 1 if a part of the input face is left, else 0
+    /// Status ok means, verified on the coordinates of `mesh`: a closed manifold, the inside behind
+    /// every face, and any two faces share a corner, an edge or nothing. Status sheet means the
+    /// same for a surface with a border. For `resolve_self_intersections` with `split` and
+    /// `remove`, ok only means that any two faces share a corner, an edge or nothing, and that no
+    /// face is degenerate; with `remove`, closed parts are still closed, and faces that touched
+    /// before may still touch (`resolve_options::touching`).
     treeform::certificate certificate{};
     repair_statistics statistics{};
 
@@ -141,45 +146,47 @@ struct TREEFORM_API repair_result {
     [[nodiscard]] treeform::mesh value() &&;
 };
 
-/// `mesh` without self-intersections. Look at the certificate: it says whether this was possible.
+/// `mesh` without self-intersections. Check the certificate: its status says whether this was
+/// possible.
 ///
 /// `split` and `outer` decide exactly, on the coordinates as given, what is cut and what is inside.
-/// Then they round the points on cuts. Faces that meet nothing stay as they are.
+/// Then they round the points on cuts. Faces that meet no other face do not change.
 ///
-/// `remove` is for surfaces that bound no solid. It works locally. It
-/// deletes the faces that meet or are degenerate. It closes each hole by triangles of the least
-/// total area between the vertices of its rim, but not beyond where the mesh ended. Where the new
-/// triangles meet other faces, the hole is made wider. A part is a set of faces linked by edges:
-/// - In a part that has a border, a hole stays open (`left_open`) where widening does not help, or
-///   where the hole would surround the border. Then of each pair only one face is deleted.
-/// - A closed part stays as it is where a part with a border passes through it.
-/// - Where every face of a part has a copy, as in a sheet with a back, one copy stays.
+/// `remove` is for surfaces that bound no solid, and works locally. It deletes the faces that meet
+/// or are degenerate. It closes each hole by triangles of the least total area between the vertices
+/// of its rim, but not beyond the former border of the mesh. Where the new triangles meet other
+/// faces, the hole is widened. A part is a set of faces linked by edges:
+/// - In a part that has a border, a hole stays open (`left_open`) if widening does not help, or if
+///   the hole would surround the border. Then only one face of each pair is deleted.
+/// - A closed part is not changed where a part with a border passes through it.
+/// - If every face of a part has a copy, as in a sheet with a back, one copy stays.
 ///
 /// \throws std::invalid_argument as `boolean`; for `remove`, a coordinate may be beyond 2^1000
-/// \cost   as `boolean`, and as `repair` where a loss is looked for: in `remove`, and in `outer`
-///         where a component is inward; for `remove`, one `self_intersections` a round, and for a
-///         hole of n vertices O(n^3) when n <= 200, else O(n^2)
+/// \cost   as `boolean`; plus `repair` to measure the loss, for `remove`, and for `outer` if a
+///         component is inside out; for `remove`, one `self_intersections` a round, and for a hole
+///         of n vertices O(n^3) if n <= 200, else O(n^2)
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API repair_result
 resolve_self_intersections(const mesh_ref& mesh, resolve_mode mode = resolve_mode::outer,
                            const resolve_options& options = {});
 
-/// A solid made of a dirty mesh: closed, oriented, manifold and free of self-intersections. Look at
-/// the certificate: it says whether this was possible, and where not.
+/// A solid made of a dirty mesh: closed, oriented, manifold and free of self-intersections. Check
+/// the certificate: its status says whether this was possible, and it lists where it was not.
 ///
 /// The steps are those of `repair_options`, in this order. Each changes only what is defective: a
 /// mesh that is a solid is returned bit for bit. Which faces meet and what is inside is decided
-/// exactly. Which cracks are closed, how faces are oriented, and what fills a hole are heuristics,
-/// and counted. Points with equal coordinates are one. Faces that are the sides of tetrahedra are
-/// replaced by the boundary of the tetrahedra. If faces remain inconsistent, a minimum cut labels
-/// cells inside or outside, by the orientations of faces and generalized winding numbers; the
-/// result is used if it loses less.
+/// exactly. Which cracks are closed, how faces are oriented, and how holes are filled is decided by
+/// heuristics, and counted in `statistics`. Points with equal coordinates are one. If faces are the
+/// sides of tetrahedra, only the boundary of the tetrahedra is kept. If faces remain inconsistent,
+/// a minimum cut labels cells inside or outside, by the orientations of faces and generalized
+/// winding numbers; the result is used if it loses less.
 ///
 /// Holes are filled with triangles between their vertices; large holes in smooth surfaces also with
 /// new points, which continue the surface smoothly. Sheets are not filled, but reported as open,
 /// unless any loss is allowed. A sheet is a part with an area below 1 / 0.6 of the area that would
-/// close it, unless its border is in a plane and it is on one side of the plane. Nor is a mesh
-/// filled with more than one edge for 10 faces where three or more faces are inconsistent.
+/// close it, unless its border is in a plane and it is on one side of the plane. No hole is filled
+/// in a mesh of more than 1000 faces in which more than one edge for every 10 faces has three or
+/// more inconsistent faces.
 ///
 /// \throws std::invalid_argument as `boolean`; if a gap or share is negative or not finite
 /// \cost   O(V log V + F log F), plus `resolve_self_intersections` if faces meet; for a hole of n
@@ -190,18 +197,19 @@ resolve_self_intersections(const mesh_ref& mesh, resolve_mode mode = resolve_mod
 
 /// The defects that keep a mesh from being a solid. Points with equal coordinates are one.
 struct TREEFORM_API solid_defects {
-    std::uint64_t nonfinite_vertices = 0;    ///< with a NaN or infinite coordinate, used or not
-    std::uint64_t unusable_faces = 0;        ///< with an invalid corner; not counted below
-    bool without_faces = false;              ///< there are points, but no usable face
-    std::uint64_t tetrahedra = 0;            ///< whose sides are faces, as in a volume mesh
-    std::uint64_t degenerate = 0;            ///< faces without area
-    std::uint64_t repeated = 0;              ///< faces with the same corners as another
-    std::uint64_t open_edges = 0;            ///< edges of one face
-    std::uint64_t nonmanifold_edges = 0;     ///< edges of more than two faces
-    std::uint64_t misoriented_edges = 0;     ///< edges of two inconsistently oriented faces
+    std::uint64_t nonfinite_vertices = 0;  ///< with a NaN or infinite coordinate, used or not
+    std::uint64_t unusable_faces = 0;      ///< with an invalid corner; ignored by the counts below
+    bool without_faces = false;            ///< the mesh has points, but no usable face
+    std::uint64_t tetrahedra = 0;         ///< tetrahedra whose sides are faces, as in a volume mesh
+    std::uint64_t degenerate = 0;         ///< faces without area
+    std::uint64_t repeated = 0;           ///< faces with the same corners as another
+    std::uint64_t open_edges = 0;         ///< edges of one face
+    std::uint64_t nonmanifold_edges = 0;  ///< edges of more than two faces
+    std::uint64_t misoriented_edges = 0;  ///< edges of two inconsistently oriented faces
     std::uint64_t nonmanifold_vertices = 0;  ///< with more than one fan of faces
     std::uint64_t meeting_pairs = 0;         ///< pairs of faces that meet beyond common corners
-    std::uint64_t inverted = 0;  ///< closed components that are inside out, and inside no other one
+    /// closed components that are inside out, without being inside another
+    std::uint64_t inverted = 0;
     /// Disjoint closed components are nested, but not as a solid and its cavities.
     bool wrongly_nested = false;
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is known
@@ -212,7 +220,7 @@ struct TREEFORM_API solid_defects {
 
 /// The defects that `repair` would mend or refuse. A mesh without points is a solid.
 ///
-/// \throws std::invalid_argument as `self_intersections`, but not for corners
+/// \throws std::invalid_argument as `self_intersections`, except that invalid corners are counted
 /// \cost   O(V log V + F log F), plus `self_intersections`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API solid_defects find_solid_defects(const mesh_ref& mesh,

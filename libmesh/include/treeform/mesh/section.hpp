@@ -69,7 +69,7 @@ struct section_loop {
 struct section_layer {
     double height = 0.0;
     point3 at{};                   ///< a point of its plane
-    std::uint32_t first_loop = 0;  ///< its loops are consecutive
+    std::uint32_t first_loop = 0;  ///< number of its first loop; its loops are consecutive
     std::uint32_t loop_count = 0;
     std::uint32_t open_count = 0;  ///< open polylines among the loops
     double area = 0.0;             ///< sum over the loops: the area inside a solid
@@ -85,7 +85,7 @@ struct section_result {
     std::vector<point2> points{};
     /// [points] the face in which the segment from each point begins
     std::vector<std::uint32_t> faces{};
-    /// x, y and the normal, as of `oriented_plane::axes`
+    /// the axes x and y, and the normal, as of `oriented_plane::axes`
     std::array<point3, 3> axes{point3{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is returned
 
@@ -141,7 +141,7 @@ struct isoline {
     double length = 0.0;  ///< sum of its segments
 };
 
-/// Lines of all levels, in the given order of levels.
+/// The isolines of all levels, in the given order of levels.
 struct isolines_result {
     std::vector<isoline> lines{};  ///< one after the other
     std::vector<point3> points{};  ///< on edges of the mesh, rounded

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Self-intersections: the pairs of faces that meet, and the regions they form; of meshes, and of
-/// files larger than memory.
+/// Self-intersections: the pairs of faces that meet, and the regions that they form; for meshes,
+/// and for files larger than memory.
 
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/certificate.hpp>
@@ -25,7 +25,7 @@
 
 namespace treeform {
 
-/// How two faces meet. Each pair has exactly one kind. A shared corner is one that both faces have;
+/// How two faces meet. Each pair has exactly one kind. A shared corner is a corner of both faces;
 /// see `vertex_identity`.
 enum class pair_kind : std::uint8_t {
     crossing,   ///< no shared corner; the interiors pass through each other
@@ -33,8 +33,8 @@ enum class pair_kind : std::uint8_t {
     fold,       ///< a shared edge; coplanar, on the same side of it
     duplicate,  ///< the same three corners, in either orientation
     pierce,     ///< one shared corner; the interiors pass through each other
-    touching,   ///< contact without crossing: a point or a segment on the rim of one of them
-    degenerate  ///< they meet, and one of them has no area
+    touching,   ///< contact without crossing: a point or a segment on the rim of one face
+    degenerate  ///< the faces meet, and one of them has no area
 };
 inline constexpr std::size_t pair_kind_count = 7;
 
@@ -77,33 +77,37 @@ struct face_pair {
     friend auto operator<=>(const face_pair&, const face_pair&) = default;
 };
 
-/// Which pairs to look for, and where meshes are. What an operation has no use for, it ignores.
+/// Which pairs to search for, and the positions of meshes. Each function ignores the options that
+/// do not concern it.
 struct intersection_options {
-    /// `self_intersections`: which corners two faces share.
+    /// `self_intersections`: which corners count as shared.
     vertex_identity vertices = vertex_identity::by_coordinates;
-    /// `mesh_intersections`: applied to each mesh first. The answer is exact for moved corners as
-    /// `transform::operator()` gives them, rounded to double. A prepared mesh is not changed.
+    /// `mesh_intersections`: applied to each mesh first. The answer is exact for the moved corners,
+    /// which `transform::operator()` rounds to double. A prepared mesh is not changed.
     transform<3> move_a{};
     transform<3> move_b{};
-    bool first_only = false;  ///< stop at the first pair: the same on any number of threads
-    pair_kinds kinds = pair_kinds::all;  ///< the others are neither counted nor listed
+    bool first_only = false;  ///< only the first pair; the same on any number of threads
+    /// kinds to find; other pairs are neither counted nor listed
+    pair_kinds kinds = pair_kinds::all;
     /// `self_intersections`: [F] component of each face, for `between` and `within`; or empty.
     std::span<const std::uint32_t> component_of_face{};
     bool between = false;  ///< only pairs of faces of different components
     bool within = false;   ///< only pairs of faces of one component
-    std::size_t limit = static_cast<std::size_t>(-1);  ///< lowest pairs listed; all are counted
+    /// list at most this many pairs, the lowest; all are counted
+    std::size_t limit = static_cast<std::size_t>(-1);
     progress_callback progress{};
 };
 
 /// Pairs of faces that meet.
 struct intersection_result {
-    std::vector<face_pair> pairs;  ///< ascending by (a, b); of two meshes, `a` is of the first
+    /// ascending by (a, b); for two meshes, `a` is a face of the first
+    std::vector<face_pair> pairs;
     std::array<std::uint64_t, pair_kind_count> counts{};  ///< by kind
     std::uint64_t box_pairs = 0;      ///< pairs of faces whose boxes overlap, as moved
     std::uint64_t exact_pairs = 0;    ///< of these, undecided by the filter
-    predicate_counters predicates{};  ///< what the undecided pairs cost
-    double tree_seconds = 0.0;        ///< of one mesh: to build the tree
-    double pair_seconds = 0.0;        ///< to find and decide pairs
+    predicate_counters predicates{};  ///< predicate calls for the undecided pairs
+    double tree_seconds = 0.0;        ///< for one mesh: time to build the tree
+    double pair_seconds = 0.0;        ///< time to find and decide pairs
     treeform::status status = treeform::status::ok;  ///< or `cancelled`
 };
 
@@ -129,9 +133,9 @@ struct intersection_region {
     std::vector<std::uint32_t> faces;  ///< ascending
     point3 min;                        ///< box of these faces
     point3 max;
-    std::vector<std::uint32_t> pairs{};  ///< their numbers in the list of pairs, ascending
+    std::vector<std::uint32_t> pairs{};  ///< numbers of its pairs in the list of pairs, ascending
 
-    [[nodiscard]] point3 center() const {  ///< half-way between the corners of the box
+    [[nodiscard]] point3 center() const {  ///< center of the box
         return {0.5 * min.x + 0.5 * max.x, 0.5 * min.y + 0.5 * max.y, 0.5 * min.z + 0.5 * max.z};
     }
     friend bool operator==(const intersection_region&, const intersection_region&) = default;
@@ -150,14 +154,14 @@ struct intersection_region {
 [[nodiscard]] TREEFORM_API std::vector<intersection_region> group_pairs(
     mesh_view mesh, std::span<const face_pair> pairs);
 
-/// How to search a file that is larger than memory.
+/// Options of `self_intersections_of_file` and `stream_search`.
 struct stream_search_options {
     std::optional<vertex_identity> vertices{};  ///< none: by coordinates for STL, else by index
     pair_kinds kinds = pair_kinds::all;
-    std::optional<box3> box{};       ///< only faces that meet it
-    std::string format{};            ///< of the input, as for `read`
+    std::optional<box3> box{};       ///< only faces that have a point in the box
+    std::string format{};            ///< format of the input, as for `read`
     std::uint64_t memory = 0;        ///< limit in bytes; 0: three quarters of the machine's memory
-    std::filesystem::path folder{};  ///< of the tiles; empty: the input's name and ".search-tiles"
+    std::filesystem::path folder{};  ///< for the tiles; empty: the input's name and ".search-tiles"
     std::uint64_t faces_per_tile = 0;       ///< approximate limit; 0: as the memory allows
     treeform::communicator communicator{};  ///< not for `shared_search`
     /// Called with the step ("scatter", "pairs") and its completed share, 0 to 1. Returning false
@@ -166,7 +170,7 @@ struct stream_search_options {
     std::function<void()> step_done{};  ///< called after each step that a restart would skip
 };
 
-/// What was found in the file.
+/// The pairs found in a file.
 struct stream_search_result {
     /// Only the faces that meet others, in the order of the file; `degenerate` and `non_finite`
     /// count all faces.
@@ -177,11 +181,12 @@ struct stream_search_result {
     std::uint64_t triangles = 0;     ///< triangles of these faces
     std::uint64_t searched = 0;      ///< finite triangles that meet the box
     std::uint64_t points = 0;        ///< points of the file; for STL three for each face
-    std::optional<box3> bounds{};    ///< of all finite points of the file
+    std::optional<box3> bounds{};    ///< box of all finite points of the file
     mesh_file header{};              ///< format, precision and warnings; no mesh
     std::size_t tiles = 0;
     std::size_t finished_tiles = 0;  ///< tiles finished by an earlier run
-    bool started_anew = false;       ///< the folder held tiles of other options or another input
+    /// the folder had tiles of other options or another input, which were discarded
+    bool started_anew = false;
 };
 
 /// The pairs that `self_intersections` finds in the usable part of a file, for files larger than
@@ -192,8 +197,8 @@ struct stream_search_result {
 /// If the process is killed, the folder stays, and the same call resumes there. With several ranks,
 /// rank 0 makes the tiles, all ranks search them, and rank 0 gets the result.
 ///
-/// \throws io_error if the file cannot be read or has another format, or for the folder;
-///         std::length_error for more than 2^32 - 1 triangles
+/// \throws io_error if the file cannot be read or has another format, or if the folder cannot be
+///         used; std::length_error for more than 2^32 - 1 triangles
 /// \cost   time as `self_intersections`; memory as in the options, plus the result; on the disk 60
 ///         to 100 bytes for each tile that a face reaches into, and 24 bytes for each vertex of a
 ///         PLY
@@ -201,10 +206,10 @@ struct stream_search_result {
 [[nodiscard]] TREEFORM_API stream_search_result self_intersections_of_file(
     const std::filesystem::path& input, const stream_search_options& options = {});
 
-/// The same step by step, for many processes on one machine or on several that share the folder:
-/// one process calls `scatter`; then each calls `search_tile` for its share of the tiles; after all
-/// have ended, one calls `finish` and `remove_folder`. Steps are idempotent: finished tiles are
-/// skipped, and two processes that search the same tile write the same bytes.
+/// `self_intersections_of_file` step by step, for many processes on one or more machines that share
+/// the folder: one process calls `scatter`; then each calls `search_tile` for its share of the
+/// tiles; after all have ended, one calls `finish` and `remove_folder`. Steps are idempotent:
+/// finished tiles are skipped, and two processes that search the same tile write the same bytes.
 ///
 /// All processes must use the same input and options. Steps throw as `self_intersections_of_file`.
 /// They return status::cancelled if `progress` returned false, else status::ok.
@@ -225,7 +230,7 @@ class TREEFORM_API shared_search {
     [[nodiscard]] status scatter();
     /// Number of tiles.
     ///
-    /// \throws io_error before `scatter` has ended in any process; likewise the steps below
+    /// \throws io_error if no process has completed `scatter`; so do the functions below
     [[nodiscard]] std::size_t tiles();
     [[nodiscard]] std::vector<std::size_t> unfinished();  ///< tiles
     /// \throws std::out_of_range for a tile out of range

@@ -16,11 +16,12 @@
 
 namespace treeform {
 
-/// How a mesh is placed. What an operation has no use for, it ignores.
+/// Options of the placement functions. Each function ignores those that do not concern it.
 struct placement_options {
-    double clearance = 0.0;              ///< the gap to leave, a distance; 0: until contact
-    std::optional<double> max_travel{};  ///< a length; whatever is further along is ignored
-    /// `mate_features`: planes look the same way rather than at each other; axes are turned around.
+    double clearance = 0.0;              ///< gap to leave, a distance; 0: contact
+    std::optional<double> max_travel{};  ///< largest distance to move; obstacles beyond are ignored
+    /// `mate_features`: planes face the same way instead of each other; the axis of `moving` is
+    /// reversed.
     bool flip = false;
     double max_angle = 360.0;  ///< `turn`: in degrees; greater than 0, up to 360
     /// `turn`: the gap, beyond the clearance, that counts as contact; greater than 0. Default:
@@ -34,12 +35,14 @@ struct placement_options {
     std::optional<double> bed{};
     /// `slide`: close a gap that rounding leaves at a contact, by units in the last place.
     bool close_in = true;
-    std::size_t normals = 24;     ///< `separate`: try at most this many normals of faces
-    std::size_t face_pairs = 64;  ///< take them from this many pairs of faces for each mesh
-    /// `separate`: pairs of faces that the search may look at, a pair in motion counting as two; 0:
-    /// 20 million and 200 for each face. Distances for a clearance do not count.
+    std::size_t normals = 24;  ///< `separate`: try at most this many normals of faces
+    /// `separate`: take the normals from at most this many pairs of faces for each fixed mesh
+    std::size_t face_pairs = 64;
+    /// `separate`: largest number of pairs of faces to test; a pair in motion counts as two. 0: 20
+    /// million plus 200 for each face. Distances for a clearance do not count.
     std::uint64_t effort = 0;
-    std::size_t limit = 1000;  ///< contacts listed; of `separate`, of each fixed mesh
+    /// largest number of contacts listed; for `separate`, for each fixed mesh
+    std::size_t limit = 1000;
     vertex_identity vertices = vertex_identity::by_coordinates;  ///< as in `relation`
     progress_callback progress{};
 };
@@ -99,8 +102,8 @@ struct placement_options {
 /// meet, and others around the best. The nearest of the places found is returned, if its
 /// coordinates pass the check of `slide`. It need not be the globally nearest place, which is on
 /// the boundary of a set with O(n^2 m^2) faces. The search is limited by `effort`, and skips
-/// candidates that would take much of it, as in `penetration_depth`; `placement::effort` tells how
-/// many.
+/// candidates that would take much of it, as in `penetration_depth`; `placement::effort` has their
+/// number (`cut`).
 ///
 /// \throws std::invalid_argument as `slide`
 /// \cost   for each direction up to about 12 `intersects` or `distance`, a tree over `moving` and a
@@ -111,8 +114,8 @@ struct placement_options {
 [[nodiscard]] TREEFORM_API placement separate(const mesh_ref& moving, const mesh_refs& fixed,
                                               const placement_options& options = {});
 
-/// How `moving` lies to all of `fixed` where it is. Moves nothing: distances below the
-/// clearance are `closer_than_clearance`.
+/// The relation of `moving` to all of `fixed` at its present position. Moves nothing. Meshes nearer
+/// than the clearance are `closer_than_clearance`.
 ///
 /// \throws std::invalid_argument as `slide`
 /// \cost   `measure` for the fixed meshes that may be the nearest, and the pairs of faces that meet
@@ -127,8 +130,8 @@ struct placement_options {
 /// is.
 ///
 /// A shaft may go through its bore and meet nothing: then its center stays at that of the bore, if
-/// that penetrates nothing and keeps the clearance. The place is looked at exactly, in the
-/// coordinates returned. `travel` is 0.
+/// that penetrates nothing and keeps the clearance. The place is checked exactly, on the returned
+/// coordinates. `travel` is 0.
 ///
 /// \throws std::invalid_argument as `slide`; for features of different kinds, with a direction that
 ///         is not of length 1, or with an origin that is not finite

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// How far a mesh can be moved in a direction, or rotated about an axis, until it meets another or
-/// comes within a distance.
+/// How far a mesh can move in a direction, or rotate about an axis, until it meets another or comes
+/// within a distance.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -38,23 +38,24 @@ struct impact_options {
 struct face_contact {
     std::uint32_t face_a = 0;
     std::uint32_t face_b = 0;
-    contact at{feature::v0, feature::v0};  ///< features that meet; there may be others
+    contact at{feature::v0, feature::v0};  ///< features that meet; other features may meet, too
     point3 point{};                        ///< a common point, on `b`, rounded
     friend bool operator==(const face_contact&, const face_contact&) = default;
 };
 
 /// The first contact of two meshes.
 struct impact {
-    /// `contact`: they meet at a time greater than 0; `starts_touching`: they have a common point
-    /// where they are; `nothing_met`.
+    /// `contact`: the meshes meet at a time greater than 0; `starts_touching`: they have a common
+    /// point at the start; `nothing_met`.
     placement_end end = placement_end::nothing_met;
     /// The greatest double that is not beyond the exact time t of the contact: `a` moved by
     /// `time` times the motion has not passed it. 0 when they meet at the start.
     double time = 0.0;
     std::vector<face_contact> contacts{};  ///< pairs that meet at t, ascending; empty at the start
     std::uint64_t contact_count = 0;       ///< all pairs that meet at t, listed or not
-    std::uint64_t pairs_tested = 0;        ///< pairs of faces tested; the rest was skipped
-    predicate_counters predicates{};       ///< used for these pairs, and to compare their times
+    std::uint64_t pairs_tested = 0;        ///< pairs of faces tested; the others were skipped
+    /// predicate calls for these pairs, and to compare their times
+    predicate_counters predicates{};
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is known
 };
 
@@ -81,9 +82,9 @@ struct impact {
 /// errors of that size along the motion, and larger ones if the motion nearly grazes. `slide`
 /// checks its result. For the distance 0, use `time_of_impact`, which is exact.
 ///
-/// The impact is a contact if they are nearer right after its time, and at the start if they are
-/// nearer there. Contacts are the pairs of faces at the distance, as computed: their points are on
-/// `b`, their features mean nothing.
+/// `end` is `contact` if the meshes are nearer than the distance right after `time`, and
+/// `starts_touching` if they are nearer at the start. `contacts` are the pairs of faces at the
+/// distance, as computed; their points are on `b`, their features have no meaning.
 ///
 /// The distance of two triangles is a convex function of t. So tangents from the left never pass
 /// the time at which it falls to a value, and Newton's method finds that time from below.
@@ -115,7 +116,7 @@ struct impact {
 /// coordinate. `contacts` are the pairs of faces within the tolerance, beyond the clearance.
 /// `at_place` is exact: separate, in general, by no more than the tolerance.
 ///
-/// Points that no face uses turn along and are otherwise ignored. Clouds are
+/// Points that no face uses turn along and are otherwise ignored. Make point clouds with
 /// `prepared_mesh::cloud`.
 ///
 /// \throws std::invalid_argument as `slide`; for an axis that is zero or not finite, an angle out

@@ -55,7 +55,7 @@ struct point_groups {
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API mesh join_equal_points(mesh_view mesh);
 
-/// What welding has done to points and faces.
+/// Counts of what welding changed.
 struct weld_statistics {
     std::uint64_t groups = 0;      ///< groups of two points or more
     std::uint64_t non_finite = 0;  ///< points with a NaN or infinite coordinate, left as they are
@@ -75,8 +75,9 @@ struct weld_result {
     treeform::attributes
         attributes{};       ///< rows of "vertex", "face" and corners match points and faces
     point_groups groups{};  ///< of the input points; group numbers are points of `mesh`
-    std::vector<std::uint32_t> point_of_group{};  ///< [G] input point that gave its properties
-    std::vector<std::uint32_t> face_of_new{};     ///< [F'] input face of each face
+    /// [G] input point whose properties each point has
+    std::vector<std::uint32_t> point_of_group{};
+    std::vector<std::uint32_t> face_of_new{};  ///< [F'] input face of each face
     weld_statistics statistics{};
     treeform::status status = status::ok;  ///< or cancelled; then the rest is empty
 };
@@ -85,10 +86,11 @@ struct weld_result {
 struct file_weld_result {
     mesh_file file{};       ///< like the input, with the kept points and faces
     point_groups groups{};  ///< of the input points; group numbers are points of `file`
-    std::vector<std::uint32_t> point_of_group{};  ///< [G] input point that gave its properties
-    std::vector<std::uint32_t> face_of_new{};     ///< [F'] input triangle of each triangle
-    weld_statistics statistics{};                 ///< of triangles
-    treeform::status status = status::ok;         ///< or cancelled; then the rest is empty
+    /// [G] input point whose properties each point has
+    std::vector<std::uint32_t> point_of_group{};
+    std::vector<std::uint32_t> face_of_new{};  ///< [F'] input triangle of each triangle
+    weld_statistics statistics{};              ///< of triangles
+    treeform::status status = status::ok;      ///< or cancelled; then the rest is empty
 
     /// Sets the flag "withheld" of LAS (a column of "vertex", added if missing) at the points of
     /// `input` that are not kept; other points keep their flag. `input` is the file that was
@@ -171,8 +173,8 @@ struct file_weld_result {
                                                                         const weld_options& options,
                                                                         precision written_as);
 
-/// Only the groups, for callers who merge their own arrays. Of `options`, it uses tolerance, chain,
-/// label, may_merge and progress.
+/// Only the groups of points to merge, for callers who merge their own arrays. Uses only these
+/// options: tolerance, chain, label, may_merge and progress.
 ///
 /// \throws std::invalid_argument as `weld`
 /// \cost   as `weld`
@@ -180,8 +182,8 @@ struct file_weld_result {
 [[nodiscard]] TREEFORM_API point_groups group_points(points_view points,
                                                      const weld_options& options = {});
 
-/// By how much the number of points would shrink if points within `distance` of each other were
-/// joined, compared with joining equal points only.
+/// The number of points that joining points within `distance` of each other would remove, beyond
+/// those that joining equal points removes.
 ///
 /// \cost as `group_points`
 [[nodiscard]] TREEFORM_API std::uint64_t count_nearly_equal(points_view points, double distance);

@@ -48,7 +48,7 @@ struct weld_options {
     bool chain = false;
     /// [V] or empty: points with different labels are never merged.
     std::span<const std::uint32_t> label{};
-    /// Empty, or a function that tells whether two points may be merged. Called for pairs within
+    /// Empty, or a function that returns whether two points may be merged. Called for pairs within
     /// the tolerance with equal labels, from several threads at once; must be symmetric.
     std::function<bool(std::uint32_t, std::uint32_t)> may_merge{};
     /// Properties that must agree, in addition to `label` and `may_merge`.
@@ -70,11 +70,11 @@ struct weld_options {
     bool keep_degenerate = false;  ///< keep faces that repeat a corner
     progress_callback progress{};
 
-    /// The conditions on single columns that these options imply: those of `same`, then those of
+    /// The conditions that these options imply, on single columns: those of `same`, then those of
     /// seams.
     ///
-    /// A name is that of a column, or else of a group of columns. `across` may name groups that the
-    /// vertices lack.
+    /// A property name is that of a column, or else of a group of columns. `across` may name groups
+    /// that the vertices lack.
     ///
     /// \throws weld_property_error for an unknown name, or a column of lists
     [[nodiscard]] TREEFORM_API std::vector<weld_condition> conditions(const attributes& properties,
@@ -84,13 +84,14 @@ struct weld_options {
 /// Thrown if `weld_options` names a property that the vertices lack, or that cannot be used.
 class TREEFORM_API weld_property_error : public std::invalid_argument {
   public:
-    /// `option` is the member of `weld_options`; `reason` half a sentence, empty for a property
-    /// that is missing.
+    /// `option` is the member of `weld_options`, `name` the property. `reason` is a clause, see
+    /// `reason()`; empty if the property is missing.
     weld_property_error(std::string option, std::string name, std::string reason);
 
     [[nodiscard]] const std::string& option() const { return option_; }
     [[nodiscard]] const std::string& name() const { return name_; }
-    /// "has lists of values", "is more than one property"; empty: there is none of that name.
+    /// "has lists of values", "is more than one property"; empty if there is no property of that
+    /// name.
     [[nodiscard]] const std::string& reason() const { return reason_; }
 
   private:

@@ -26,7 +26,7 @@ struct write_options {
     /// was read from a big-endian file. PCD is compressed only if it was read from a compressed
     /// file.
     bool ascii = false;
-    /// Precision of the coordinates; none: as they were stored. Binary STL and GLB only hold
+    /// Precision of the coordinates; none: the stored precision. Binary STL and GLB only hold
     /// float32. 3MF holds doubles, but most of its readers convert to float, so none means float32
     /// there.
     std::optional<treeform::precision> precision{};
@@ -35,7 +35,7 @@ struct write_options {
     /// Columns of points to omit; "normal", "uv" or "color" for all columns of that kind, also of
     /// corners.
     std::vector<std::string> drop{};
-    /// Of points: new names for columns, each with the one that the column has.
+    /// Renamed columns of points, as pairs (new name, present name).
     std::vector<std::pair<std::string, std::string>> rename{};
     /// For LAS and LAZ; none: those of the file, else chosen by `write`.
     std::optional<std::array<double, 3>> las_scale{};
@@ -64,44 +64,47 @@ struct write_result {
 /// Numbers in text are the shortest that read back as the same double, float32 values included.
 /// Polygons are written as polygons if the format has polygons. Newlines in names become blanks.
 ///
-/// Of `file.attributes`, each format takes what it can hold:
+/// Each format stores what it can of `file.attributes`:
 /// - PLY: all elements in their order; texture coordinates of corners, as the list "texcoord" of
 ///   faces with two numbers a corner, in float32 unless the file has that list as double (NaN where
-///   a corner has none); names of texture files, behind the comments.
-/// - OBJ: parts, material files, texture coordinates and normals of corners, or those of points,
-///   vertex colors.
+///   a corner has none); names of texture files, after the comments.
+/// - OBJ: parts, material files, texture coordinates and normals of corners (else those of points),
+///   colors of vertices.
 /// - OFF: normals, colors and texture coordinates of points.
-/// - STL: its header, without a leading "solid" and with a NUL as its last byte where it has none;
-///   the names of solids, the column "stl_attribute".
-/// - XYZ and CSV: further columns. PCD: these, and the lines "num_cols", "num_rows" and "viewpoint"
-///   of `obj_info`.
-/// - LAS and LAZ: what `las_header` says; further columns as extra bytes. Columns red, green and
-///   blue of 8 bits are multiplied by 256; points that no column says it of are returns 1 of 1;
-///   intensities that are no whole numbers are rounded, or multiplied by 65535 where all are from 0
-///   to 1; scan_angle_rank becomes scan_angle in formats from 6 on. Coordinates that the file's
-///   scale and offset do not hold are rounded (`max_displacement`). A file that was not LAS gets
-///   the smallest format that holds its columns, and for each axis the coarsest scale of 1, 0.1,
-///   0.01, ... that gives all coordinates back within two units in their last place, else the
-///   finest that 32 bits allow.
-/// - GLB: a node and a mesh with the points that they use for faces of one object and group in a
-///   row, with their name; in these, one primitive for each color of faces (columns red, green,
-///   blue and alpha, if any, of the element "face"), which materials have. Other columns of faces
-///   with whole numbers from 0 on become accessors that the primitive's `extras.face_properties`
-///   names. Columns of points: red, green, blue and alpha become COLOR_0, of 8 and 16 bits as they
-///   are, others as floats from 0 to 1; nx, ny and nz NORMAL, with length 1; s and t, u and v or
-///   texture_u and texture_v TEXCOORD_0, with v = 1 - t. Those of corners go ahead of these, and a
-///   point gets a copy for each that it has.
-/// - 3MF: an object and an item of the build for each part, as `split_parts` has them, with its
-///   name; materials of parts with the colors of their faces; else colors of faces, else of points;
-///   the line "unit ..." of `obj_info`, else millimeters. Polygons are written as triangles. A
-///   number in text is that of the double, so that readers of floats and of doubles get the same.
+/// - STL: the header, without a leading "solid", and with a NUL as its last byte if it contains
+///   none; the names of solids; the column "stl_attribute".
+/// - XYZ and CSV: the other columns of points. PCD: also the lines "num_cols", "num_rows" and
+///   "viewpoint" of `obj_info`.
+/// - LAS and LAZ: the dimensions listed at `las_header`; other columns as extra bytes. Columns red,
+///   green and blue of 8 bits are multiplied by 256. Without columns for them, return_number and
+///   number_of_returns are 1. Intensities that are not integers are rounded, or multiplied by 65535
+///   if all are from 0 to 1. scan_angle_rank becomes scan_angle in point formats 6 to 10.
+///   Coordinates that are not multiples of the file's scale are rounded (`max_displacement`). A
+///   file that was not LAS gets the smallest format that holds its columns, and for each axis the
+///   coarsest scale of 1, 0.1, 0.01, ... that gives all coordinates back within two units in their
+///   last place, else the finest that 32 bits allow.
+/// - GLB: one node and mesh for each run of faces of the same object and group, with its name and
+///   the points that it uses. Each mesh has one primitive, with a material, for each color of its
+///   faces (columns red, green, blue and, if present, alpha of the element "face"). Other columns
+///   of faces with nonnegative integers become accessors, listed in the primitive's
+///   `extras.face_properties`. Of the columns of points, red, green, blue and alpha become COLOR_0
+///   (8 and 16 bits unchanged, other types as floats from 0 to 1); nx, ny and nz become NORMAL,
+///   scaled to length 1; s and t, u and v, or texture_u and texture_v become TEXCOORD_0 (u = s, v =
+///   1-t). Normals and texture coordinates of corners take precedence over those of points; a point
+///   with several of them is repeated.
+/// - 3MF: one object and one item of the build for each part (`split_parts`), with its name;
+///   materials of parts with the colors of their faces; else colors of faces, else of points; the
+///   unit in the line "unit ..." of `obj_info`, else millimeters. Polygons are written as
+///   triangles. Numbers are written as the shortest text of the double, so that readers of floats
+///   and of doubles get the same value.
 ///
-/// Columns of points that several formats know have the names and types of the format that is
-/// written (`libmesh/attributes/known_columns.cpp` is the table): colors are red, green and blue of
-/// 8 bits, but in LAS of 16, in PCD the packed `rgb`, in OBJ numbers from 0 to 1; normals are nx,
-/// ny, nz, in PCD normal_x, ..., in OBJ `vn`. A file is not translated to its own format.
+/// Columns of points that several formats have get the name and type of the written format (table
+/// in `libmesh/attributes/known_columns.cpp`): colors are red, green and blue of 8 bits, but in LAS
+/// of 16, in PCD the packed `rgb`, in OBJ numbers from 0 to 1; normals are nx, ny, nz, in PCD
+/// normal_x, ..., in OBJ `vn`. If a file was read from the format that is written, its columns are
+/// unchanged.
 ///
-/// Warnings tell what is scaled, rounded or omitted.
+/// `write_result::warnings` lists what is scaled, rounded or omitted.
 ///
 /// An empty mesh can be written in every mesh format, and read again.
 ///
@@ -144,7 +147,7 @@ TREEFORM_API write_result write_certified(const std::filesystem::path& path, con
 /// `precision::float32`.
 ///
 /// \throws not_certified_error unless the certificate's status is ok
-/// \throws io_error as above; if a coordinate would be rounded and `options.round` is not set
+/// \throws io_error as for a file; if a coordinate would be rounded and `options.round` is not set
 template <certified_result Result>
 write_result write(const std::filesystem::path& path, const Result& result,
                    const write_options& options = {}) {
@@ -152,7 +155,7 @@ write_result write(const std::filesystem::path& path, const Result& result,
                          : detail::io::write_certified(path, result.value(), options);
 }
 
-/// The bytes of the file.
+/// The bytes that `write` writes.
 [[nodiscard]] TREEFORM_API std::string write_to_memory(const mesh_file& file,
                                                        const write_options& options);
 

@@ -49,12 +49,13 @@ TREEFORM_C_API treeform_code treeform_put_back(treeform_bodies* bodies, size_t b
                                                const double* matrix, treeform_precision written_as,
                                                treeform_file** file);
 
-/// How to look for clashes. `volumes` to `limit` are of `treeform_clash` alone.
+/// Options of `treeform_clash` and `treeform_check_poses`. Only `treeform_clash` uses `volumes`,
+/// `depths`, `effort` and `limit`.
 typedef struct treeform_clash_options {
     size_t size;
-    double clearance;    ///< parts that are nearer than this are too close
+    double clearance;    ///< parts nearer than this are too close; not squared
     int32_t first_only;  ///< `treeform_check_poses`: only the first clash of each pose
-    /// [ignored_count][2] pairs that are not looked at, in any order; or null
+    /// [ignored_count][2] pairs of parts to skip; any order; or null
     const uint32_t* ignored;
     size_t ignored_count;
     treeform_vertices vertices;  ///< as in `treeform_relation`
@@ -63,8 +64,9 @@ typedef struct treeform_clash_options {
     /// Compute the volume of the intersection of closed parts; default 1
     int32_t volumes;
     int32_t depths;   ///< compute depths of penetrating parts; default 1
-    uint64_t effort;  ///< for each depth, as in `treeform_measure_options`
-    uint64_t limit;   ///< faces listed for each region and part; default 1000
+    uint64_t effort;  ///< limit for each depth, as in `treeform_measure_options`
+    /// largest number of faces listed for each region and part; default 1000
+    uint64_t limit;
 } treeform_clash_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_clash_options_init(treeform_clash_options* options, size_t size);
@@ -90,8 +92,9 @@ typedef struct treeform_part_clash {
     double distance;             ///< distance of the surfaces; 0 if they meet
     double on_a[3];              ///< the nearest points if the parts are too close, otherwise NaN
     double on_b[3];
-    uint64_t face_pairs;                     ///< that meet
-    const treeform_contact_region* regions;  ///< [region_count] by their lowest faces
+    uint64_t face_pairs;  ///< pairs of faces that meet
+    /// [region_count] ordered by their lowest faces
+    const treeform_contact_region* regions;
     size_t region_count;
     /// For closed parts that penetrate: the volume of their intersection, as
     /// `operand_volumes::both`.
@@ -106,7 +109,7 @@ typedef struct treeform_part_clash {
 /// All pairs that are not clear of each other.
 typedef struct treeform_clashes {
     void* owner;
-    const treeform_part_clash* pairs;  ///< [count] that are not clear, ascending
+    const treeform_part_clash* pairs;  ///< [count] ascending
     size_t count;
     uint64_t counts[5];    ///< number of tested pairs, by `mesh_relation`
     uint64_t boxes_apart;  ///< pairs excluded by their boxes
@@ -139,7 +142,7 @@ typedef struct treeform_pose_clash {
     uint32_t b;
     /// or penetrating, closer_than_clearance (a `treeform_mesh_relation`)
     uint8_t how;
-    double distance;  ///< of parts closer than the clearance; else 0
+    double distance;  ///< for parts closer than the clearance; else 0
 } treeform_pose_clash;
 // end
 

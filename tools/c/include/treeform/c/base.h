@@ -198,20 +198,20 @@ enum {
     TREEFORM_STATUS_OPEN_INPUT = 1,
     /// the mesh has a border, as requested; all other guarantees hold
     TREEFORM_STATUS_SHEET = 2,
-    /// more was lost than the caller allows
+    /// more volume or area was lost than the options allow
     TREEFORM_STATUS_EXCESSIVE_LOSS = 3,
     /// with equal coordinates joined, an edge has more than two faces, or a vertex more than one
     /// fan
     TREEFORM_STATUS_NOT_MANIFOLD = 4,
     /// faces still meet in the returned coordinates; `meeting` lists them
     TREEFORM_STATUS_NOT_CERTIFIED = 5,
-    /// no face is left: the result is thinner than the coordinates can show, or faces cancel each
-    /// other out
+    /// no face is left: the result is thinner than the coordinates can represent, or its faces
+    /// cancel each other out
     TREEFORM_STATUS_VANISHED = 6,
     /// a coordinate of the result overflows the requested precision
     TREEFORM_STATUS_OUT_OF_RANGE = 7,
-    /// of a placement: there is none; `placement::end` tells why
-    TREEFORM_STATUS_NO_PLACEMENT = 8,
+    /// a placement found no position; `placement::end` has the reason
+    TREEFORM_STATUS_NO_PLACE = 8,
     /// stopped by `progress`; there is no result
     TREEFORM_STATUS_CANCELLED = 9
 };
@@ -224,7 +224,7 @@ typedef struct treeform_certificate {
     treeform_status status;
     const char* message;  ///< the result in words, without a full stop
     /// Number of pairs of faces that meet where they should not. A face paired with itself is
-    /// degenerate, or has the outside behind it. `meeting` lists the first 100.
+    /// degenerate, or has the outside of the solid behind it. `meeting` lists the first 100.
     uint64_t meeting_count;
     const uint32_t* meeting;   ///< [meeting_listed][2]
     const double* meeting_at;  ///< a corner of the first face of each pair in `meeting`
@@ -233,10 +233,10 @@ typedef struct treeform_certificate {
     /// `open_edges` and `open_faces` list the first 100.
     uint64_t open_count;
     size_t open_listed;
-    /// The same edges in the operands, after joining equal coordinates: edges of an odd number of
-    /// faces, where the surface ends, and edges of an even number of faces, which are oriented
-    /// inconsistently. Both are 0 if a vertex lies inside such an edge, since edges may then match
-    /// piece by piece.
+    /// The open edges counted in the operands, after joining equal coordinates: `boundary_edges`
+    /// have an odd number of faces (the surface ends there), `misoriented_edges` an even number of
+    /// inconsistently oriented faces. Both are 0 if a vertex lies inside such an edge, since edges
+    /// may then match piece by piece.
     uint64_t boundary_edges;
     uint64_t misoriented_edges;
     /// The largest change of a coordinate by rounding, from the exact position of the vertex. For
@@ -261,8 +261,8 @@ typedef struct treeform_certificate {
 typedef struct treeform_search_effort {
     uint64_t pairs;  ///< pairs of faces tested; a pair in motion counts as two
     uint64_t bound;  ///< the limit of `pairs`
-    /// Number of candidates skipped, since each would take more than 1/32 of the bound, or more
-    /// than the rest of it. If not 0, a better result may exist.
+    /// Number of candidates skipped because testing one would take more than 1/32 of the bound, or
+    /// more than what is left of it. If not 0, a better result may exist.
     uint64_t cut;
 } treeform_search_effort;
 // end

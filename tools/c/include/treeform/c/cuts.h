@@ -34,7 +34,7 @@ typedef struct treeform_section_loop {
 typedef struct treeform_section_layer {
     double height;
     double at[3];         ///< a point of its plane
-    uint32_t first_loop;  ///< its loops are consecutive
+    uint32_t first_loop;  ///< number of its first loop; its loops are consecutive
     uint32_t loop_count;
     uint32_t open_count;  ///< open polylines among the loops
     double area;          ///< sum over the loops: the area inside a solid
@@ -54,7 +54,8 @@ typedef struct treeform_section_result {
     /// [points] the face in which the segment from each point begins
     const uint32_t* faces;
     size_t point_count;
-    double axes[3][3];  ///< x, y and the normal, as of `oriented_plane::axes`
+    /// the axes x and y, and the normal, as of `oriented_plane::axes`
+    double axes[3][3];
 } treeform_section_result;
 
 /// Sections of a mesh by the planes at `heights` above `plane` (`oriented_plane::parallel`).
@@ -140,10 +141,10 @@ typedef struct treeform_cut_piece {
 typedef struct treeform_cut_result {
     void* owner;
     /// [count] For K planes, K + 1 pieces in order along the normal, from the lowest up. Empty if
-    /// the certificate tells why.
+    /// the mesh cannot be cut; the certificate has the reason.
     const treeform_cut_piece* pieces;
     size_t count;
-    /// That of the first piece that is not ok, or of the mesh if it bounds no solid.
+    /// The certificate of the first piece that is not ok, or of the mesh if it bounds no solid.
     const treeform_certificate* certificate;
     /// True if faces of the mesh meet. Then the solid that the mesh winds around was cut, with
     /// overlapping parts merged; without caps, the faces cut along each other. Not used by
@@ -181,7 +182,7 @@ TREEFORM_C_API treeform_code treeform_cut_to_fit(const treeform_mesh* mesh, cons
                                                  const treeform_cut_options* options,
                                                  treeform_cut_result** result);
 
-/// Some faces of a mesh, with the points that they use.
+/// A subset of the faces of a mesh, with the points that they use.
 typedef struct treeform_mesh_part {
     treeform_arrays mesh;
     const uint32_t* face_source;  ///< [F] the number of each face in the given mesh

@@ -30,12 +30,13 @@ TREEFORM_C_API treeform_code treeform_read_mesh(const char* path, treeform_mesh*
 /// How to read.
 typedef struct treeform_read_options {
     size_t size;
-    const char* format;  ///< null: determined by the content
-    /// [column_count] Of XYZ, PTS and CSV: names for columns, each with what the heading calls the
-    /// column, or its number, from 1: {"x", "easting"}. Those for x, y and z are the coordinates.
+    const char* format;  ///< null: by content
+    /// [column_count] For XYZ, PTS and CSV: names of columns, as pairs of the new name and the
+    /// name in the first line or the column number, from 1: {"x", "easting"}. Columns x, y and z
+    /// are the coordinates.
     const treeform_named_column* columns;
     size_t column_count;
-    /// `mesh_file::drop_non_finite`, which a warning says; of `treeform_read` alone
+    /// call `mesh_file::drop_non_finite`, and add a warning; only for `treeform_read`
     int32_t drop_non_finite;
 } treeform_read_options;
 /// Sets the defaults.
@@ -92,7 +93,7 @@ typedef struct treeform_rows {
     size_t column_count;
 } treeform_rows;
 
-/// Consecutive faces that a file puts under one name. A part ends where the next one starts.
+/// Consecutive faces to which a file gives the same names. A part ends where the next one starts.
 typedef struct treeform_named_faces {
     const char* object;    ///< OBJ `o`, the name of an STL solid or of a scene's node
     const char* group;     ///< OBJ `g`
@@ -100,24 +101,23 @@ typedef struct treeform_named_faces {
     uint32_t first_face;   ///< number in the file
 } treeform_named_faces;
 
-/// Something that a person should know about a file that was read or written.
+/// A remark about a file that was read or written.
 typedef struct treeform_warning {
     const char* code;  ///< stable, for scripts: "trailing-bytes", "precision"
     const char* text;  ///< for people
 } treeform_warning;
 
-/// The content of a file. Points and faces keep the order and the numbers that they have in it:
-/// nothing is joined, split, reordered or dropped.
+/// The content of a file. Points and faces have the order and numbers of the file: nothing is
+/// joined, split, reordered or dropped.
 typedef struct treeform_file_view {
     void* owner;
     treeform_arrays mesh;  ///< polygons are cut into a fan from their first corner
-    /// [F] the file's number of the face that each triangle comes from; empty when all faces are
-    /// triangles.
+    /// [F] the number in the file of the face that each triangle comes from; empty if all faces
+    /// are triangles.
     const uint32_t* stored_face;
     size_t stored_faces;  ///< faces in the file
     int32_t indexed;      ///< the format numbers its vertices (STL does not)
-    /// float32 when every coordinate is a float32 value, or was one before the transform of its
-    /// node.
+    /// float32 if every coordinate is a float32 value, or was one before its node's transform.
     treeform_precision stored_as;
     const char* format;                ///< "stl-binary", "ply-ascii", "obj", ...
     const treeform_warning* warnings;  ///< [warning_count]
@@ -126,7 +126,7 @@ typedef struct treeform_file_view {
     /// each face as stored.
     const treeform_rows* elements;
     size_t element_count;
-    /// [part_count] by ascending first face; empty when nothing is named
+    /// [part_count] ascending by first face; empty if nothing is named
     const treeform_named_faces* parts;
     size_t part_count;
     const double* texture;  ///< [texture_count][3] u, v, w
@@ -224,9 +224,9 @@ typedef struct treeform_write_options {
     /// was read from a big-endian file. PCD is compressed only if it was read from a compressed
     /// file.
     int32_t ascii;
-    /// Precision of the coordinates; `TREEFORM_NONE`: as they were stored. Binary STL and GLB only
-    /// hold float32. 3MF holds doubles, but most of its readers convert to float, so none means
-    /// float32 there; a `treeform_precision`, or -1
+    /// Precision of the coordinates; `TREEFORM_NONE`: the stored precision. Binary STL and GLB
+    /// only hold float32. 3MF holds doubles, but most of its readers convert to float, so none
+    /// means float32 there; a `treeform_precision`, or -1
     int32_t precision;
     /// the coordinates are certified: fail instead of rounding them. For `treeform_write_mesh`
     int32_t certified;
@@ -238,7 +238,7 @@ typedef struct treeform_write_options {
     /// kind, also of corners.
     const char* const* drop;
     size_t drop_count;
-    /// [rename_count] Of points: new names for columns, each with the one that the column has.
+    /// [rename_count] Renamed columns of points, as pairs (new name, present name).
     const treeform_named_column* rename;
     size_t rename_count;
     /// [3] For LAS and LAZ; `TREEFORM_NONE`: those of the file, else chosen by `treeform_write`;
@@ -293,14 +293,14 @@ typedef struct treeform_part {
     /// [F] for each face, the number of its triangle in the file; null: the same number
     const uint32_t* triangle_of_face;
     const uint32_t* face_in_file;  ///< [F] the number in the file, counting polygons
-    /// [F] with `details`: the component of each face; otherwise null
-    const uint32_t* component;
-    uint64_t degenerate;  ///< likewise: triangles that are a segment or a point
-    uint64_t joined;      ///< likewise: points merged by tolerance
+    const uint32_t* component;     ///< [F] with `details`: the component; else null
+    /// from `treeform_usable_part`: triangles that are a segment or a point
+    uint64_t degenerate;
+    uint64_t joined;      ///< from `treeform_usable_part`: points merged by tolerance
     uint64_t non_finite;  ///< triangles with a coordinate that is not finite
 } treeform_part;
 
-/// Which part of a mesh.
+/// Options of `treeform_usable_part`.
 typedef struct treeform_part_options {
     size_t size;
     /// Whether points with equal coordinates are one vertex.
@@ -308,7 +308,7 @@ typedef struct treeform_part_options {
     /// If greater than 0, points within this distance are joined, as by `treeform_weld`, after
     /// equal points.
     double tolerance;
-    const treeform_box* box;  ///< only faces that meet it; or null
+    const treeform_box* box;  ///< only faces that have a point in the box; or null
     int32_t details;          ///< also compute `component` and `distinct`
 } treeform_part_options;
 /// Sets the defaults.
@@ -368,14 +368,15 @@ typedef struct treeform_robot treeform_robot;
 //   read_urdf() urdf_mesh urdf_joint urdf_robot robot_look()
 /// Reads the robot at `path`. Joints are fixed, revolute, continuous or prismatic. Boxes,
 /// cylinders and spheres become meshes. Mesh files are not read, but must exist.
-/// `package://name/rest` is FOLDER/name/rest or FOLDER/rest for one of `package_folders`, else for
-/// the file's folder or one above it. With `visual`, visual meshes are used instead of collision
-/// meshes.
+/// `package://name/rest` resolves to FOLDER/name/rest or FOLDER/rest, where FOLDER is one of
+/// `package_folders`, else the folder of the file or one above it. With `visual`, visual meshes
+/// are used instead of collision meshes.
 TREEFORM_C_API treeform_code treeform_read_urdf(const char* path,
                                                 const char* const* package_folders, size_t count,
                                                 int32_t visual, treeform_robot** robot);
 
-/// A mesh of a link, from a file or a shape; `place` maps its points to the link's frame.
+/// A mesh of a link, from a file or a geometric shape. `place` maps its points to the link's
+/// frame.
 typedef struct treeform_robot_mesh {
     uint32_t link;
     const char* file;      ///< "" if it was generated
@@ -403,10 +404,10 @@ typedef struct treeform_robot_view {
     const char* name;
     const char* const* links;  ///< [L] names, in the order of the file
     size_t link_count;
-    /// [joint_count] parents ahead of their children
+    /// [joint_count] parents before their children
     const treeform_robot_joint* joints;
     size_t joint_count;
-    const treeform_robot_mesh* meshes;  ///< [mesh_count] by links
+    const treeform_robot_mesh* meshes;  ///< [mesh_count] ordered by link
     size_t mesh_count;
     /// [adjacent_count][2] pairs of links that are connected by a joint, and always touch
     const uint32_t* adjacent;

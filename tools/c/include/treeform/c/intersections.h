@@ -15,8 +15,8 @@ typedef struct treeform_segments {
 
 // made of the headers of C++:
 //   pair_kind
-/// How two faces meet. Each pair has exactly one kind. A shared corner is one that both faces
-/// have; see `vertex_identity`.
+/// How two faces meet. Each pair has exactly one kind. A shared corner is a corner of both faces;
+/// see `vertex_identity`.
 typedef int32_t treeform_pair_kind;
 enum {
     /// no shared corner; the interiors pass through each other
@@ -29,9 +29,9 @@ enum {
     TREEFORM_DUPLICATE = 3,
     /// one shared corner; the interiors pass through each other
     TREEFORM_PIERCE = 4,
-    /// contact without crossing: a point or a segment on the rim of one of them
+    /// contact without crossing: a point or a segment on the rim of one face
     TREEFORM_TOUCHING = 5,
-    /// they meet, and one of them has no area
+    /// the faces meet, and one of them has no area
     TREEFORM_DEGENERATE = 6
 };
 // end
@@ -55,27 +55,29 @@ typedef struct treeform_face_pair {
 /// Pairs of faces that meet.
 typedef struct treeform_pairs {
     void* owner;
-    /// [count] ascending by (a, b); of two meshes, `a` is of the first
+    /// [count] ascending by (a, b); for two meshes, `a` is a face of the first
     const treeform_face_pair* pairs;
     size_t count;
     uint64_t counts[7];  ///< by kind
     uint64_t box_pairs;  ///< pairs of faces whose boxes overlap, as moved
 } treeform_pairs;
 
-/// Which pairs to look for, and where meshes are. What an operation has no use for, it ignores.
+/// Which pairs to search for, and the positions of meshes. Each function ignores the options that
+/// do not concern it.
 typedef struct treeform_intersections_options {
     size_t size;
-    /// [12] `mesh_intersections`: applied to each mesh first. The answer is exact for moved
-    /// corners as `transform::operator()` gives them, rounded to double. A prepared mesh is not
-    /// changed; or null
+    /// [12] `mesh_intersections`: applied to each mesh first. The answer is exact for the moved
+    /// corners, which `transform::operator()` rounds to double. A prepared mesh is not changed; or
+    /// null
     const double* move_a;
     const double* move_b;  ///< [12]; or null
-    int32_t first_only;    ///< stop at the first pair: the same on any number of threads
-    uint32_t kinds;        ///< the others are neither counted nor listed
-    uint64_t limit;        ///< lowest pairs listed; all are counted; default all
+    int32_t first_only;    ///< only the first pair; the same on any number of threads
+    uint32_t kinds;        ///< kinds to find; other pairs are neither counted nor listed
+    /// list at most this many pairs, the lowest; all are counted; default all
+    uint64_t limit;
     treeform_progress progress;
     void* progress_data;
-    /// `treeform_self_intersections`: which corners two faces share.
+    /// `treeform_self_intersections`: which corners count as shared.
     treeform_vertices vertices;
     const uint32_t* component_of_face;  ///< [F] for `between` and `within`; or null
     int32_t between;                    ///< only pairs of faces of different components
@@ -97,7 +99,7 @@ typedef struct treeform_region {
     size_t face_count;
     double min[3];  ///< box of these faces
     double max[3];
-    /// [pair_count] their numbers in the list of pairs, ascending
+    /// [pair_count] numbers of its pairs in the list of pairs, ascending
     const uint32_t* pairs;
     size_t pair_count;
 } treeform_region;
@@ -121,8 +123,9 @@ TREEFORM_C_API treeform_code treeform_group_pairs(const treeform_mesh* mesh,
 /// Exact on the coordinates as given, or as moved. The kinds are crossing, overlap, touching and
 /// degenerate: two meshes share no corners, so faces that meet in equal corners are `touching`,
 /// and equal faces `overlap`. Surfaces count, not solids: a mesh inside the other that does not
-/// touch it gives no pair. `a` and `b` may be the same mesh. Of meshes that are not prepared, only
-/// faces that reach, as moved, into the intersection of both bounding boxes are indexed.
+/// touch it gives no pair. `a` and `b` may be the same mesh. For meshes that are not prepared,
+/// only the faces that reach into the intersection of both bounding boxes (after the transforms)
+/// are indexed.
 TREEFORM_C_API treeform_code treeform_intersections(const treeform_mesh* a, const treeform_mesh* b,
                                                     const treeform_intersections_options* options,
                                                     treeform_pairs** pairs);
@@ -193,16 +196,16 @@ TREEFORM_C_API treeform_code treeform_write_curves(const char* path, const treef
 TREEFORM_C_API treeform_code treeform_color_pairs(treeform_file* file, const treeform_part* part,
                                                   const treeform_face_pair* pairs, size_t count);
 
-/// How to search a file that is larger than memory.
-typedef struct treeform_stream_search_options {
+/// Options of `treeform_self_intersections_of_file` and `shared_search`.
+typedef struct treeform_search_file_options {
     size_t size;
     /// none: by coordinates for STL, else by index; a `treeform_vertices`, or -1
     int32_t vertices;
     uint32_t kinds;
-    const treeform_box* box;  ///< only faces that meet it; or null
-    const char* format;       ///< of the input, as for `treeform_read`
+    const treeform_box* box;  ///< only faces that have a point in the box; or null
+    const char* format;       ///< format of the input, as for `treeform_read`
     uint64_t memory;          ///< limit in bytes; 0: three quarters of the machine's memory
-    const char* folder;       ///< of the tiles; empty: the input's name and ".search-tiles"
+    const char* folder;       ///< for the tiles; empty: the input's name and ".search-tiles"
     uint64_t faces_per_tile;  ///< approximate limit; 0: as the memory allows
     treeform_progress progress;
     void* progress_data;
@@ -212,8 +215,8 @@ typedef struct treeform_stream_search_options {
 TREEFORM_C_API void treeform_stream_search_options_init(treeform_stream_search_options* options,
                                                         size_t size);
 
-/// What was found in the file.
-typedef struct treeform_stream_search_result {
+/// The pairs found in a file.
+typedef struct treeform_search_result {
     void* owner;
     treeform_arrays mesh;  ///< only the intersecting faces
     /// [F] for each of these faces, its number in the file

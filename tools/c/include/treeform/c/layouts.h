@@ -55,8 +55,8 @@ typedef struct treeform_laid_flat {
     double center_of_mass[3];  ///< before the rotation, rounded
     const uint32_t* on_bed;    ///< [on_bed_count] points of that side, ascending
     size_t on_bed_count;
-    /// The largest change of a z, beyond the rotation, that put a point on the bed or not below
-    /// it: a few units in the last place; with a tolerance, about the tolerance.
+    /// The largest change of a z, after the rotation, that put a point onto the bed: a few units
+    /// in the last place; with a tolerance, about the tolerance.
     double corrected;
     /// [S] for each side the least tilt, in degrees, that brings the center of mass over an edge
     /// of it, so that the mesh tips over. 90 if the center is in the plane of the side. Negative
@@ -68,9 +68,9 @@ typedef struct treeform_laid_flat {
     /// down at more than `overhang_angle` from the vertical. Only computed for the first
     /// `overhang_sides` sides and the chosen one, else NaN.
     const double* overhangs;
-    /// The dimension of what has the mass: 3 for the solid that a closed mesh bounds; 2 for the
-    /// faces of a mesh that bounds none, as sheets of equal thickness; 0 for the points of a mesh
-    /// without a face of positive area.
+    /// What the mass is attributed to: 3 for the solid that a closed mesh bounds; 2 for the faces
+    /// of an open mesh, as sheets of equal thickness; 0 for the points of a mesh without a face of
+    /// positive area.
     int32_t mass_dimension;
 } treeform_laid_flat;
 
@@ -86,7 +86,7 @@ TREEFORM_C_API treeform_code treeform_lay_flat(const treeform_mesh* mesh,
                                                const treeform_lay_flat_options* options,
                                                treeform_laid_flat** flat);
 
-/// The plates, and how to fill them.
+/// The plates, and options of packing.
 typedef struct treeform_pack_options {
     size_t size;
     /// Length, depth and height of the plate or box. The height may be infinite; default infinite
@@ -101,7 +101,7 @@ typedef struct treeform_pack_options {
     /// Fill the box up to its height, which must be finite: parts may be above, below and inside
     /// one another, and hang in the air. Otherwise each part stands on the bed.
     int32_t stack;
-    uint32_t plates;  ///< largest number of plates; at least 1; default 1
+    uint32_t plates;  ///< largest number of plates to use; at least 1; default 1
     /// from the corner of a plate to that of the next; its z is ignored
     double plate_step[3];
     int32_t tighten;  ///< close gaps left by the raster; default 1
@@ -120,7 +120,7 @@ TREEFORM_C_API void treeform_pack_options_init(treeform_pack_options* options, s
 
 /// A part on a plate.
 typedef struct treeform_packed_part {
-    int32_t placed;  ///< whether it has a place
+    int32_t placed;  ///< whether a position was found
     uint32_t plate;  ///< number of its plate, from 0
     /// [V] the new points, rounded to the precision; unchanged if the part is not placed.
     const double* points;
@@ -139,7 +139,7 @@ typedef struct treeform_packing {
     const char* message;                ///< the result in words, without a full stop
     const treeform_packed_part* parts;  ///< [P] in the order of the input
     size_t part_count;
-    /// [not_placed_count] numbers of parts without a place, ascending
+    /// [not_placed_count] numbers of parts without a position, ascending
     const uint32_t* not_placed;
     size_t not_placed_count;
     uint32_t plates_used;  ///< plates with a part
@@ -210,22 +210,23 @@ enum {
 typedef struct treeform_align_options {
     size_t size;
     treeform_align_method method;  ///< default automatic
-    /// Share of the moving points that have a partner, in (0, 1]. Each step uses this share of
-    /// nearest points, and ignores the rest; default 1.0
+    /// Share of the moving points that have a partner, in (0, 1]. Each step uses this share of the
+    /// points, those with the nearest partners; default 1.0
     double overlap;
     /// Ignore partners further apart. Not squared, not negative; default infinite
     double max_distance;
-    /// Also find a uniform scale. The search starts from the scale of `start` and from the one
-    /// that makes both sides equally large, and tries up to twice and down to half of each. The
-    /// better one is that with smaller distances between both sides, relative to their sizes.
+    /// Also find a uniform scale. The search starts from the scale of `start`, and from the scale
+    /// that makes both sides equally large, and tries from half to twice of each. It compares
+    /// results by the distances between both sides, relative to their sizes.
     int32_t scale;
     uint32_t max_iterations;  ///< from each start; default 100
-    /// Converged if the cost falls by less than this share in 5 steps in a row, or if a step moves
-    /// no point near the fixed mesh by more than 1e-11 of the diagonal of its box; default 1e-6
+    /// Converged if the cost falls by less than this share in each of 5 consecutive steps, or if a
+    /// step moves no point near the fixed mesh by more than 1e-11 of the diagonal of the fixed
+    /// mesh's box; default 1e-6
     double tolerance;
     /// Number of starts, at least 1. The first is the present position; then the principal axes of
     /// both sides aligned, in their 4 ways; then rotations spread evenly over all rotations, small
-    /// ones first, with aligned centers. The best end is returned; of equal ends the first;
+    /// ones first, with aligned centers. The best result is returned; of equal results the first;
     /// default 1
     uint32_t starts;
     int32_t accelerate;  ///< Anderson acceleration with the 5 previous steps; default 1
@@ -238,43 +239,44 @@ typedef struct treeform_align_options {
     treeform_progress progress;
     void* progress_data;
     /// Bounds of `align_result::scale` if `scale` is set: positive, or 0 and infinity for none. A
-    /// start outside begins at the nearest bound. Equal bounds fix the scale.
+    /// start outside the bounds is moved to the nearest bound. Equal bounds fix the scale.
     double least_scale;
     double most_scale;  ///< default infinite
-    /// Partners count less the further apart they are: by exp(-d^2 / 2 v^2) (Welsch). From 3
-    /// medians of the distances at the start, v is halved down to where a third of the points is
-    /// within 2 v; at the end it is 4.5 medians of what is near. Up to half of the points may have
-    /// no partner, and nobody needs to say how many. Otherwise all count alike; default 1
+    /// Weight partners at distance d by exp(-d^2 / (2 v^2)) (Welsch), so that up to half of the
+    /// points may have no partner, without a given `overlap`. v starts at 3 times the median
+    /// distance, and is halved while at least a third of the points are within v; finally it is
+    /// 4.5 times the median of the near distances. If false, all partners have the same weight;
+    /// default 1
     int32_t robust;
 } treeform_align_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_align_options_init(treeform_align_options* options, size_t size);
 
-/// A small motion of the moving points, and how well the distances determine it: a rotation about
-/// `align_result::pivot_moved` and a shift, scaled so that the root mean square over the points is
-/// 1.
+/// A small motion of the moving points, and how well the distances determine it. It is a rotation
+/// about `align_result::pivot_moved` and a shift, scaled so that the root mean square of the
+/// motion over the points is 1.
 typedef struct treeform_freedom {
     double turn[3];   ///< axis times angle, about `pivot_moved`
     double shift[3];  ///< after the turn
-    /// Share of the squared motion that is along the normals, 0 to 1: near 0 if points slide on
-    /// the surface, like a plane on a plane.
+    /// Share of the squared motion along the normals, 0 to 1: near 0 if points slide on the
+    /// surface, like a plane on a plane.
     double stiffness;
 } treeform_freedom;
 
 /// How the search ended.
 typedef int32_t treeform_align_end;
 enum {
-    /// no test of the place failed
+    /// converged, and no test of the result failed
     TREEFORM_ALIGN_CONVERGED = 0,
     /// `max_iterations` steps were not enough
     TREEFORM_ALIGN_OUT_OF_ITERATIONS = 1,
     /// Converged, but residuals are more than noise: neighboring points deviate to the same side
-    /// by more than at a right place. Often a wrong local optimum, or parts without a partner.  Or
-    /// the scale is at its bound, or the points of a cloud do not determine the place:
-    /// `uncertainty` is above 0.2% of the diagonal of the fixed box, or the points that were held
-    /// out would move all by more than that, or some motion is undetermined.
+    /// by more than in a correct alignment. Often a wrong local optimum, or parts without a
+    /// partner.  Or the scale is at its bound, or the points of a cloud do not determine the
+    /// position: `uncertainty` is above 0.2% of the diagonal of the fixed box, or a fit to the
+    /// held-out points would move all points by more than that, or some motion is undetermined.
     TREEFORM_ALIGN_DOUBTFUL = 2,
-    /// no points, or none has a partner
+    /// there are no points, or no point has a partner
     TREEFORM_ALIGN_NOTHING = 3
 };
 
@@ -283,36 +285,36 @@ typedef struct treeform_align_result {
     void* owner;
     const double* points;  ///< [V] the moving points, moved by `matrix` and rounded
     size_t point_count;
-    /// new = M * old, with `start` included. Far from the origin its last column is large, and so
-    /// is its rounding. There, new = `pivot_moved` + (linear part of M) * (old - `pivot`) is more
-    /// accurate.
+    /// new = M * old, with `start` included. Far from the origin its last column is large and has
+    /// a large rounding error; then new = `pivot_moved` + (linear part of M) * (old - `pivot`) is
+    /// more accurate.
     double matrix[12];
     double pivot[3];        ///< center of the box of the moving points
-    double pivot_moved[3];  ///< where the pivot goes
+    double pivot_moved[3];  ///< the pivot, moved by `matrix`
     double scale;           ///< the scale found, in addition to that of `start`
     /// Root mean square of the distances at the end, weighted if weights are used; 0 without
-    /// partners. For two clouds with `plane_to_plane`, of the distances to the planes, by the
-    /// agreement of both sides.
+    /// partners. For two clouds with `plane_to_plane`: of the distances to the planes, weighted by
+    /// the agreement of both planes.
     double rms;
     double rms_at_start;  ///< the same at the start, unweighted
     /// Share of all moving points whose nearest fixed point is within `max_distance`, at the end.
     double overlap;
-    /// Number of moving points within 4.5 medians of the distances used.
+    /// Number of moving points within 4.5 times the median of the distances used.
     uint64_t inliers;
     /// Correlation of the signed distances of neighbors, in [-1, 1]: near 0 for noise, near 1 if
     /// whole regions deviate to one side.
     double correlation;
-    /// [freedom_count] The independent motions, by increasing stiffness; none without partners.
+    /// [freedom_count] The independent motions, ascending by stiffness; none without partners.
     const treeform_freedom* freedoms;
     size_t freedom_count;
     size_t undetermined;     ///< the number of `freedoms` that the data does not determine
     treeform_align_end end;  ///< how the search ended
     uint32_t iterations;     ///< steps from the best start
-    uint32_t start;          ///< which start that was: 0 is the present position
-    const char* message;     ///< the result in words, without a full stop
-    /// Estimated error of the place, as a root mean square over the points: the standard deviation
-    /// from the residuals and the stiffness of the motions, without those that `undetermined`
-    /// counts.
+    uint32_t start;          ///< number of the best start; 0 is the present position
+    const char* message;     ///< half a sentence for people
+    /// Estimated error of the position, as a root mean square over the points: the standard
+    /// deviation, from the residuals and the stiffness of the motions, except those that
+    /// `undetermined` counts.
     double uncertainty;
 } treeform_align_result;
 
@@ -322,22 +324,23 @@ typedef struct treeform_align_result {
 /// From each start this is a local optimum: the right one if the motion is small compared with the
 /// features of the shape. The result is never worse than the present position; if nothing better
 /// is found, it is `start`, scaled about its center to the bounds of the scale. Results are
-/// compared by the mean of the squared distances to the nearest fixed points, cut off at
-/// `max_distance` squared, over the nearest `overlap` share. With weights, and with an overlap
-/// below 1, it is the mean of Welsch's function with the final v, so that an overlap somewhat too
-/// large does no harm. Motions in which points slide freely (a plane on a plane) are not changed.
-/// Equal points of a cloud count once.
+/// compared by the mean, over the nearest `overlap` share, of the squared distances to the nearest
+/// fixed points, each at most `max_distance` squared. If `robust`, or with an overlap below 1, it
+/// is the mean of Welsch's function with the final v, so that an overlap somewhat too large does
+/// no harm. Motions in which points slide freely (a plane on a plane) are not changed. Equal
+/// points of a cloud count once.
 ///
-/// Along motions with a stiffness below 0.02, such as a cogwheel about its axis, places up to 6%
-/// of the diagonal away are also tried.
+/// Along motions with a stiffness below 0.02, such as the rotation of a gear about its axis,
+/// positions up to 6% of the diagonal away are also tried.
 ///
-/// Distances alone do not tell whether a place is right. At the right place residuals are noise;
-/// at a wrong one, regions deviate to one side. From 4000 moving points on, every fourth is held
-/// out of the fit and used for this test. If its residuals are more than noise, places around the
-/// start are tried: shifts by 8% of the diagonal, rotations by 14 degrees. If they still are, a
-/// cloud is doubtful if they exceed 0.6 times the thickness of both sides around their planes. On
-/// a mesh, `converged` requires that other starts, tried with few points, do not end better, and
-/// that the deviation is below 0.2% of the diagonal.
+/// Small distances alone do not prove that a result is correct. In a correct alignment residuals
+/// are noise; in a wrong one, whole regions deviate to one side. With 4000 moving points or more,
+/// every fourth is held out of the fit and used for this test. If its residuals are more than
+/// noise, other starts around `start` are tried: shifts by 8% of the diagonal, rotations by 14
+/// degrees. If residuals are still more than noise, a fixed cloud gives `doubtful` if they exceed
+/// 0.6 times the thickness of both sides around their planes. On a fixed mesh, `converged` then
+/// requires that other starts, tried with few points, do not end better, and that the deviation is
+/// below 0.2% of the diagonal.
 ///
 /// If either side has no points, the result is `start`, not converged.
 TREEFORM_C_API treeform_code treeform_align(const treeform_mesh* moving, const treeform_mesh* fixed,

@@ -102,20 +102,22 @@ TREEFORM_C_API treeform_code treeform_select_faces(const treeform_mesh* mesh, co
 TREEFORM_C_API treeform_code treeform_round(const treeform_mesh* mesh, treeform_precision precision,
                                             treeform_made_mesh** made);
 
-/// The spacing of numbers of precision `of` at the largest finite coordinate of `mesh`. If there
-/// is none, or all are 0, the least positive number.
+/// The spacing of numbers of precision `of` at the finite coordinate of largest magnitude. The
+/// least positive number of that precision if no coordinate is finite, or all are 0.
 TREEFORM_C_API treeform_code treeform_coordinate_step(const treeform_mesh* mesh,
                                                       treeform_precision of, double* result);
 
-/// How far rounding moved points, and what it has broken.
+/// How far rounding moved points, and the defects that it caused.
 typedef struct treeform_rounding {
     void* owner;
-    double max_displacement;  ///< largest change of a coordinate, beyond the move
+    double max_displacement;  ///< largest change of a coordinate, after the transform
     double step;              ///< spacing of numbers at the largest written coordinate
-    /// True if doubles became float32, or a change is more than a millionth of the size.
+    /// True if points moved and doubles became float32, or the change is more than a millionth of
+    /// the diagonal of the bounding box.
     int32_t noticeable;
-    int32_t compared;    ///< faces were compared, since coordinates became coarser
-    uint64_t collapsed;  ///< faces that have lost their area
+    /// `collapsed` and `meeting` were computed, since coordinates became coarser
+    int32_t compared;
+    uint64_t collapsed;  ///< faces that became degenerate
     uint64_t meeting;    ///< new pairs of faces that meet
 } treeform_rounding;
 

@@ -137,7 +137,7 @@ enum {
     TREEFORM_CLEAR = 4
 };
 
-/// How two meshes lie to each other.
+/// The relation and distance of two meshes.
 typedef struct treeform_relation {
     void* owner;
     treeform_mesh_relation how;
@@ -162,19 +162,21 @@ typedef struct treeform_relation {
     double barycentric_b[3];  ///< its barycentric coordinates in that face
 } treeform_relation;
 
-/// How to look. What an operation has no use for, it ignores.
+/// Options of `treeform_relation`, `treeform_measure` and `treeform_penetration_depth`. Each
+/// ignores those that do not concern it.
 typedef struct treeform_measure_options {
     size_t size;
-    double radius;  ///< of `treeform_measure`; inclusive; default infinite
+    /// for `treeform_measure`: ignore meshes further apart; inclusive; default infinite
+    double radius;
     /// Only closed meshes have an inside; this decides whether a mesh is closed.
     treeform_vertices vertices;
     treeform_progress progress;
     void* progress_data;
-    /// Of `treeform_penetration_depth`: directions spread over the sphere, tried besides normals
-    /// of faces that meet; default 256
+    /// For `treeform_penetration_depth`: number of directions, spread over the sphere, to try
+    /// besides the normals of faces that meet; default 256
     uint64_t directions;
-    /// Of `treeform_penetration_depth`: pairs of faces that the search may test, a pair in motion
-    /// counting as two; 0: 20 million plus 200 for each face.
+    /// For `treeform_penetration_depth`: largest number of pairs of faces to test; a pair in
+    /// motion counts as two. 0: 20 million plus 200 for each face.
     uint64_t effort;
 } treeform_measure_options;
 /// Sets the defaults.
@@ -233,7 +235,7 @@ typedef struct treeform_deviation_options {
 TREEFORM_C_API void treeform_deviation_options_init(treeform_deviation_options* options,
                                                     size_t size);
 
-/// How far points are from a surface.
+/// Distances of points from a surface, and their statistics.
 typedef struct treeform_deviation_result {
     void* owner;
     /// [V] of `a`: the distance of each point from the surface of `b`, negative inside the solid

@@ -21,25 +21,25 @@ enum {
     TREEFORM_END_CONTACT = 0,
     /// stopped by the bed, or at the clearance above it
     TREEFORM_END_BED = 1,
-    /// it need not move
+    /// no motion is needed
     TREEFORM_END_UNCHANGED = 2,
-    /// for `separate`: it was moved out of the fixed meshes
+    /// for `separate`: moved out of the fixed meshes
     TREEFORM_END_MOVED_APART = 3,
-    /// no place: it meets nothing, or nothing within `max_travel`
+    /// no place: meets nothing, or nothing within `max_travel`
     TREEFORM_END_NOTHING_MET = 4,
-    /// no place: the place is further away than `max_travel`
+    /// no place: the nearest is further away than `max_travel`
     TREEFORM_END_TOO_FAR = 5,
-    /// no place: it penetrates a fixed mesh at the start
+    /// no place: penetrates a fixed mesh at the start
     TREEFORM_END_STARTS_PENETRATING = 6,
-    /// no place: it is nearer than the clearance at the start
+    /// no place: nearer than the clearance at the start
     TREEFORM_END_STARTS_TOO_NEAR = 7,
-    /// no place: it touches at the start, and a clearance is given
+    /// no place: touches a fixed mesh at the start, and a clearance is given
     TREEFORM_END_STARTS_TOUCHING = 8,
-    /// no place: it is below the bed at the start, and there are fixed meshes
+    /// no place: below the bed at the start, and there are fixed meshes
     TREEFORM_END_STARTS_BELOW_BED = 9,
     /// no place in coordinates of the precision
     TREEFORM_END_NOT_REPRESENTABLE = 10,
-    /// undecided, for `treeform_turn`: it passes a fixed mesh too closely
+    /// for `treeform_turn`: undecided, since the mesh passes a fixed mesh too closely
     TREEFORM_END_TOO_MANY_STEPS = 11,
     /// no place: coordinates overflow the precision
     TREEFORM_END_OUT_OF_RANGE = 12,
@@ -57,8 +57,8 @@ typedef struct treeform_contact {
     uint32_t fixed;       ///< number of the fixed mesh
 } treeform_contact;
 
-/// The result of a placement. "The place" is the new position, or the present one if the mesh does
-/// not move.
+/// The result of a placement. "The place" is the new position of the moving mesh, or the present
+/// one if it does not move.
 typedef struct treeform_placement {
     void* owner;
     /// ok: the mesh has a place, and `points` were checked exactly. Otherwise `no_placement`,
@@ -68,44 +68,47 @@ typedef struct treeform_placement {
     const char* message;   ///< the result in words, without a full stop
     const double* points;  ///< [V] at the place, as they are to be written
     size_t point_count;
-    /// new = M * old: a translation; of `treeform_turn` and `treeform_mate_features` a turn, too.
-    /// `points` are moved by it and rounded once, except for those that are set on the bed.
+    /// new = M * old: a translation; for `treeform_turn` and `treeform_mate_features` also a
+    /// rotation. `points` are moved by it and rounded once, except for points that are set on the
+    /// bed.
     double matrix[12];
     double direction[3];              ///< unit direction of the travel; 0 if there is none
-    double travel;                    ///< a length; for `too_far` the length needed
+    double travel;                    ///< distance moved; for `too_far` the distance needed
     double clearance;                 ///< the given clearance
     double bed;                       ///< least z allowed, rounded: the bed plus the clearance
     double below_bed;                 ///< how far the mesh was below `bed` at the start
     treeform_mesh_relation at_start;  ///< exact
     treeform_mesh_relation at_place;  ///< the same at the place
-    size_t nearest_fixed;             ///< number of that mesh; the lowest if several qualify
-    /// How the mesh, as `a`, lies at the place to the fixed mesh that it penetrates, else to one
-    /// that it touches, else to the nearest. None if all are too far away.
+    size_t nearest_fixed;             ///< number of that fixed mesh; the lowest if several qualify
+    /// The relation, at the place, of the moving mesh (`a`) to the fixed mesh that it penetrates,
+    /// else to one that it touches, else to the nearest. None if all are too far away.
     const treeform_relation* nearest;
     const treeform_contact* contacts;  ///< [contact_listed]
     size_t contact_listed;
     uint64_t contact_count;  ///< number of all contacts, listed or not
-    uint32_t backed_off;     ///< steps back, since rounding made the mesh penetrate
-    uint64_t fixed_culled;   ///< fixed meshes skipped because of their box
-    uint64_t pairs_tested;   ///< pairs of faces, in motion
-    /// of `treeform_turn` and `treeform_mate_features`: in degrees, of the turn
+    /// number of steps back, since rounding made the mesh penetrate
+    uint32_t backed_off;
+    uint64_t fixed_culled;  ///< fixed meshes skipped because of their box
+    uint64_t pairs_tested;  ///< pairs of faces tested in motion
+    /// for `treeform_turn` and `treeform_mate_features`: angle of the rotation, in degrees
     double angle;
-    /// of `treeform_turn`: the gap, beyond the clearance, that counts as contact
+    /// for `treeform_turn`: the gap, beyond the clearance, that counts as contact
     double tolerance;
     uint64_t steps;  ///< of `treeform_turn`
-    /// Of `treeform_mate_features`: how far the center of the moving feature ended from that of
-    /// the fixed one, along the direction of the fixed one. Of planes: their distance.
+    /// For `treeform_mate_features`: the distance of the moving feature's center from the fixed
+    /// feature's center at the place, along the direction of the fixed feature. For planes, their
+    /// distance.
     double offset;
     /// For `separate`: the effort of its search. If `treeform_cut` is not 0, a shorter translation
-    /// may exist; or, if no place was found, a place.
+    /// may exist or, if no place was found, a place.
     treeform_search_effort effort;
 } treeform_placement;
 
-/// How a mesh is placed. What an operation has no use for, it ignores.
+/// Options of the placement functions. Each function ignores those that do not concern it.
 typedef struct treeform_place_options {
     size_t size;
-    double clearance;  ///< the gap to leave, a distance; 0: until contact
-    /// a length; whatever is further along is ignored; NaN: not given
+    double clearance;  ///< gap to leave, a distance; 0: contact
+    /// largest distance to move; obstacles beyond are ignored; NaN: not given
     double max_travel;
     treeform_precision precision;  ///< of the points returned; default float64
     /// `treeform_slide` and `treeform_drop`: z of a bed, which also stops the mesh. Points that
@@ -115,15 +118,16 @@ typedef struct treeform_place_options {
     /// `treeform_slide`: close a gap that rounding leaves at a contact, by units in the last
     /// place; default 1
     int32_t close_in;
-    /// contacts listed; of `separate`, of each fixed mesh; default 1000
+    /// largest number of contacts listed; for `separate`, for each fixed mesh; default 1000
     uint64_t limit;
     treeform_vertices vertices;  ///< as in `treeform_relation`
     /// `separate`: try at most this many normals of faces; default 24
     uint64_t normals;
-    /// take them from this many pairs of faces for each mesh; default 64
+    /// `separate`: take the normals from at most this many pairs of faces for each fixed mesh;
+    /// default 64
     uint64_t face_pairs;
-    /// `separate`: pairs of faces that the search may look at, a pair in motion counting as two;
-    /// 0: 20 million and 200 for each face. Distances for a clearance do not count.
+    /// `separate`: largest number of pairs of faces to test; a pair in motion counts as two. 0: 20
+    /// million plus 200 for each face. Distances for a clearance do not count.
     uint64_t effort;
     /// `treeform_turn`: in degrees; greater than 0, up to 360; default 360.0
     double max_angle;
@@ -131,8 +135,8 @@ typedef struct treeform_place_options {
     /// Default: 2^-32 of the largest distance of a point from the axis; NaN: not given
     double tolerance;
     uint64_t max_steps;  ///< `treeform_turn`; default 20000
-    /// `treeform_mate_features`: planes look the same way rather than at each other; axes are
-    /// turned around.
+    /// `treeform_mate_features`: planes face the same way instead of each other; the axis of
+    /// `moving` is reversed.
     int32_t flip;
     treeform_progress progress;
     void* progress_data;
@@ -182,7 +186,7 @@ TREEFORM_C_API treeform_code treeform_mate(const treeform_mesh* moving,
 /// coordinates pass the check of `treeform_slide`. It need not be the globally nearest place,
 /// which is on the boundary of a set with O(n^2 m^2) faces. The search is limited by `effort`, and
 /// skips candidates that would take much of it, as in `treeform_penetration_depth`;
-/// `placement::effort` tells how many.
+/// `placement::effort` has their number (`treeform_cut`).
 TREEFORM_C_API treeform_code treeform_separate(const treeform_mesh* moving,
                                                const treeform_mesh* const* fixed, size_t count,
                                                const treeform_place_options* options,
@@ -204,7 +208,7 @@ TREEFORM_C_API treeform_code treeform_separate(const treeform_mesh* moving,
 /// largest coordinate. `contacts` are the pairs of faces within the tolerance, beyond the
 /// clearance. `at_place` is exact: separate, in general, by no more than the tolerance.
 ///
-/// Points that no face uses turn along and are otherwise ignored. Clouds are
+/// Points that no face uses turn along and are otherwise ignored. Make point clouds with
 /// `treeform_cloud_create`.
 TREEFORM_C_API treeform_code treeform_turn(const treeform_mesh* moving,
                                            const treeform_mesh* const* fixed, size_t count,
@@ -220,8 +224,8 @@ TREEFORM_C_API treeform_code treeform_mate_features(const treeform_mesh* moving,
                                                     const treeform_place_options* options,
                                                     treeform_placement** placement);
 
-/// How `moving` lies to all of `fixed` where it is. Moves nothing: distances below the clearance
-/// are `closer_than_clearance`.
+/// The relation of `moving` to all of `fixed` at its present position. Moves nothing. Meshes
+/// nearer than the clearance are `closer_than_clearance`.
 TREEFORM_C_API treeform_code treeform_measure_among(const treeform_mesh* moving,
                                                     const treeform_mesh* const* fixed, size_t count,
                                                     const treeform_place_options* options,
@@ -259,8 +263,8 @@ typedef struct treeform_impact_contact {
 /// The first contact of two meshes.
 typedef struct treeform_impact {
     void* owner;
-    /// `contact`: they meet at a time greater than 0; `starts_touching`: they have a common point
-    /// where they are; `nothing_met`.
+    /// `contact`: the meshes meet at a time greater than 0; `starts_touching`: they have a common
+    /// point at the start; `nothing_met`.
     treeform_placement_end end;
     /// The greatest double that is not beyond the exact time t of the contact: `a` moved by `time`
     /// times the motion has not passed it. 0 when they meet at the start.
@@ -269,7 +273,7 @@ typedef struct treeform_impact {
     const treeform_impact_contact* contacts;
     size_t contact_listed;
     uint64_t contact_count;  ///< all pairs that meet at t, listed or not
-    uint64_t pairs_tested;   ///< pairs of faces tested; the rest was skipped
+    uint64_t pairs_tested;   ///< pairs of faces tested; the others were skipped
 } treeform_impact;
 
 /// Start positions of the meshes, and limits.
@@ -309,9 +313,9 @@ TREEFORM_C_API treeform_code treeform_time_of_impact(const treeform_mesh* a, con
 /// `treeform_slide` checks its result. For the distance 0, use `treeform_time_of_impact`, which is
 /// exact.
 ///
-/// The impact is a contact if they are nearer right after its time, and at the start if they are
-/// nearer there. Contacts are the pairs of faces at the distance, as computed: their points are on
-/// `b`, their features mean nothing.
+/// `end` is `contact` if the meshes are nearer than the distance right after `time`, and
+/// `starts_touching` if they are nearer at the start. `contacts` are the pairs of faces at the
+/// distance, as computed; their points are on `b`, their features have no meaning.
 ///
 /// The distance of two triangles is a convex function of t. So tangents from the left never pass
 /// the time at which it falls to a value, and Newton's method finds that time from below.

@@ -109,8 +109,9 @@ TREEFORM_C_API treeform_code treeform_closing_tolerance(const treeform_mesh* mes
                                                         const double* tolerances, size_t count,
                                                         size_t* result);
 
-/// Whether two meshes have the same faces, by the coordinates of their corners (-0 equals +0, NaN
-/// equals nothing), turned the same way; in their order, each from its first corner on, or in any.
+/// Whether two meshes have the same faces with the same orientation. Corners are compared by
+/// coordinates (-0 equals +0, NaN equals nothing). With `any_order`, faces may come in any order
+/// and start at any corner; otherwise both must agree.
 TREEFORM_C_API treeform_code treeform_same_triangles(const treeform_mesh* a, const treeform_mesh* b,
                                                      int32_t any_order, int32_t* result);
 
@@ -121,9 +122,9 @@ enum { TREEFORM_PLANE = 0, TREEFORM_AXIS = 1 };
 /// A plane or an axis, fitted to faces by least squares.
 typedef struct treeform_feature {
     treeform_feature_kind kind;  ///< plane or axis
-    int32_t hollow;              ///< for a cylinder: the faces point to the axis, as in a hole
+    int32_t hollow;              ///< for a cylinder: the faces point toward the axis, as in a hole
     double origin[3];            ///< center of the faces, on the plane or the axis
-    /// of length 1: the normal, outward; along the axis, either way
+    /// of length 1: the outward normal of a plane; along an axis, in either sense
     double direction[3];
     double radius;          ///< of the cylinder
     double area;            ///< of the faces
@@ -189,7 +190,7 @@ typedef struct treeform_hull_side {
     uint32_t face_count;
     double area;       ///< rounded; infinite on overflow
     double normal[3];  ///< outward, of length 1, rounded
-    double center[3];  ///< of area, rounded
+    double center[3];  ///< centroid of its area, rounded
 } treeform_hull_side;
 // end
 

@@ -10,7 +10,7 @@
 //   offset_options offset_result wrap() offset() hollow() thicken() simplify_options
 //   simplify_result simplify() thickness_by thickness_result wall_thickness() oriented_box
 //   find_oriented_box() isoline isolines_result isolines() write_isolines() cut_along()
-/// How to make a surface at a distance. What an operation has no use for, it ignores.
+/// Options of the functions of this header. Each function ignores those that do not concern it.
 typedef struct treeform_offset_options {
     size_t size;
     /// Edge length of the cells from which the surface is made, in the mesh's length unit; at most
@@ -25,11 +25,12 @@ typedef struct treeform_offset_options {
     treeform_precision precision;
     treeform_progress progress;
     void* progress_data;
-    /// `treeform_wrap`: how far the vertices of the wrap are from the mesh, in its length unit.
-    /// Not given: a thirtieth of the size; NaN: not given
+    /// `treeform_wrap`: the distance of the wrap's vertices from the mesh, in its length unit.
+    /// Default: a thirtieth of `size`; NaN: not given
     double offset;
-    /// `treeform_thicken`: how far the surface is first moved to its front, in its length unit;
-    /// negative: to its back. Half of the thickness leaves its back where it is.
+    /// `treeform_thicken`: distance by which the surface is first moved toward its front, in its
+    /// length unit; if negative, toward its back. With half of the thickness, the input surface
+    /// becomes the back of the solid.
     double shift;
 } treeform_offset_options;
 /// Sets the defaults.
@@ -42,40 +43,39 @@ typedef struct treeform_offset_result {
     /// Status ok means, verified on the coordinates of `mesh`: a closed manifold, oriented
     /// outward, whose faces meet only in common corners and edges. `open_input`: the input bounds
     /// no solid; `open_edges` lists where. `vanished`: nothing is left, since the solid is nowhere
-    /// thick enough, or only by less than a cell.
+    /// thick enough, or exceeds that thickness by less than a cell.
     const treeform_certificate* certificate;
-    /// asked for, without its sign; of `treeform_wrap`, that of its vertices
+    /// the given distance, without its sign; for `treeform_wrap`, the offset used
     double distance;
-    double resolution;  ///< that was used; of `treeform_wrap`, its size
+    double resolution;  ///< the resolution used; for `treeform_wrap`, its `size`
     uint64_t cells;     ///< cells that the surface may pass through
     /// For `treeform_hollow`: cavities without an opening, those of the input included.
     uint64_t sealed_cavities;
     /// [blind_drain_count] For `treeform_hollow`: numbers of drains that do not lead from outside
-    /// into a cavity, as far as the ends of their axes show.
+    /// into a cavity, judged by the ends of their axes.
     const uint32_t* blind_drains;
     size_t blind_drain_count;
-    uint64_t tetrahedra;  ///< of `treeform_wrap`: at the end
-    /// of `treeform_wrap`: of the tetrahedra that were made
-    uint64_t tetrahedra_points;
-    /// of `treeform_wrap`: filled so that it is a manifold
+    uint64_t tetrahedra;         ///< for `treeform_wrap`: tetrahedra at the end
+    uint64_t tetrahedra_points;  ///< for `treeform_wrap`: points of the tetrahedra
+    /// for `treeform_wrap`: tetrahedra filled to make the surface manifold
     uint64_t filled_tetrahedra;
-    /// Bounds of the distance from any point of the surface made, in its faces too, to the mesh
-    /// that it is the offset of, the lower one here; of `treeform_hollow`, of the cavities'
-    /// surface; of `treeform_thicken`, to the moved surface. Found by branch and bound: each is
-    /// within a sixteenth of the resolution of the true extreme. 0 where there is no surface, and
-    /// of `treeform_wrap`.
+    /// Lower bound of the distance from any point of the new surface, also inside its faces, to
+    /// the input surface. For `treeform_hollow`, the new surface is that of the cavities; for
+    /// `treeform_thicken`, the distance is to the moved surface. By branch and bound: this and
+    /// `greatest_distance` are within a sixteenth of the resolution of the true extremes. 0 if
+    /// there is no surface, and for `treeform_wrap`.
     double least_distance;
-    double greatest_distance;  ///< the upper bound
+    double greatest_distance;  ///< upper bound of the same distances
 } treeform_offset_result;
 
-/// A solid that holds all faces of `mesh`, whatever they are: open, crossing, turned any way, of
-/// no area. A ball of diameter 2 `size` is rolled over them from outside, so to speak: it enters
-/// no hole or gap that is narrower. So the wrap closes these, rounds what is sharp, and fills
-/// cavities that nothing leads to. A smaller size follows the mesh more closely, with more faces,
-/// some area / `size`^2 of them.
+/// Alpha wrapping: a solid that contains all faces of `mesh`, which may be open, intersecting,
+/// inconsistently oriented or degenerate. The wrap is the surface that a ball of radius `size`
+/// cannot pass when rolled over the mesh from outside: holes and gaps narrower than the ball are
+/// closed, sharp edges are rounded, and cavities without an opening for the ball are filled. A
+/// smaller size follows the mesh more closely, with more faces: about area / `size`^2.
 ///
 /// No face of the mesh meets the wrap or is outside of it: this is verified exactly, on the
-/// coordinates of both. Its vertices are at the offset up to rounding.
+/// coordinates of both. The wrap's vertices are at the offset from the mesh, up to rounding.
 TREEFORM_C_API treeform_code treeform_wrap(const treeform_mesh* mesh, double size,
                                            const treeform_offset_options* options,
                                            treeform_offset_result** result);
@@ -91,8 +91,8 @@ TREEFORM_C_API treeform_code treeform_offset(const treeform_mesh* mesh, double d
                                              const treeform_offset_options* options,
                                              treeform_offset_result** result);
 
-/// The solid without its points deeper inside than `wall`: the surface stays bit for bit, around
-/// new cavities. The status is `vanished` if there is no cavity.
+/// Hollows the solid: its points deeper inside than `wall` become cavities; the outer surface
+/// stays bit for bit. The status is `vanished` if there is no cavity.
 ///
 /// `drains` are holes through the wall: a point and a diameter. Each runs from the nearest point
 /// of the surface along the shortest segment to a cavity, as a regular prism of 32 sides; the
@@ -105,10 +105,10 @@ TREEFORM_C_API treeform_code treeform_hollow(const treeform_mesh* mesh, double w
 
 /// A solid around any surface: all points at most half of `thickness` away. Its rim is round.
 ///
-/// With a `shift` the surface is first moved to its front, from where faces are counter-clockwise:
-/// each vertex so that the planes of its faces move that far, on average. This is exact where the
-/// surface is flat, and rounds it where it bends. Vertices of sharp folds move by at most twice
-/// that. Faces must be consistently oriented.
+/// With a `shift` the surface is first moved toward its front, from where faces are
+/// counter-clockwise. Each vertex moves so that the planes of its faces move by the shift, on
+/// average. This is exact where the surface is flat, and rounds it where it bends. Vertices of
+/// sharp folds move by at most twice the shift. Faces must be consistently oriented.
 TREEFORM_C_API treeform_code treeform_thicken(const treeform_mesh* mesh, double thickness,
                                               const treeform_offset_options* options,
                                               treeform_offset_result** result);
@@ -169,7 +169,7 @@ typedef struct treeform_simplify_result {
 /// Input and result are within `max_distance` of each other: this is proven for each face, not
 /// sampled. No collapse makes faces meet, exactly, on the coordinates returned; faces of the input
 /// that meet may still meet. A closed, oriented manifold stays one. The nesting of components is
-/// only checked at the end; the certificate tells if it changed.
+/// only checked at the end, in the certificate.
 ///
 /// Borders, features, and borders of groups are simplified as polylines on their own vertices,
 /// within the same distance. Vertices stay where such lines end, branch or cross, at nonmanifold
@@ -183,21 +183,22 @@ TREEFORM_C_API treeform_code treeform_simplify(const treeform_mesh* mesh, double
                                                const treeform_simplify_options* options,
                                                treeform_simplify_result** result);
 
-/// How the thickness of a wall is measured at a face.
+/// How wall thickness is measured at a face.
 typedef int32_t treeform_thickness_by;
 enum {
-    /// Along its normal, inward from its center, to the first face through which the ray leaves.
+    /// The length of the ray from the center of the face, against its normal, to the first face
+    /// through which it leaves the solid.
     TREEFORM_THICKNESS_BY_RAY = 0,
-    /// the diameter of the largest inscribed ball that touches its center
+    /// the diameter of the largest inscribed ball that touches the center of the face
     TREEFORM_THICKNESS_BY_SPHERE = 1
 };
 
-/// The thickness at each face, and the least.
+/// The thickness at each face, and the least thickness.
 typedef struct treeform_thickness_result {
     void* owner;
     /// [F] Infinite if there is nothing behind a face, or the face has no area.
     const double* of_face;
-    double least;       ///< of all faces
+    double least;       ///< least thickness of all faces
     uint32_t thinnest;  ///< The lowest face with the least thickness.
 } treeform_thickness_result;
 
@@ -240,7 +241,7 @@ typedef struct treeform_isoline {
     double length;  ///< sum of its segments
 } treeform_isoline;
 
-/// Lines of all levels, in the given order of levels.
+/// The isolines of all levels, in the given order of levels.
 typedef struct treeform_isolines_result {
     void* owner;
     const treeform_isoline* lines;  ///< [line_count] one after the other

@@ -36,11 +36,11 @@ typedef struct treeform_boolean_options {
     /// Not negative; default infinite
     double max_displacement;
     /// Do not merge coplanar faces that were cut, or that overlap. By default they are merged,
-    /// exactly and before rounding: this removes vertices inside a flat part, and on a straight
-    /// edge between two flat parts. Uncut faces stay as they are. `split` keeps all cuts.
+    /// exactly and before rounding, which removes vertices inside a flat region, and on a straight
+    /// edge between two flat regions. Uncut faces stay as they are. `split` keeps all cuts.
     int32_t keep_cuts;
     int32_t simplify;  ///< merge all coplanar faces of the result, also those not cut
-    /// Compute `boolean_result::volumes`, for two operands and without filled gaps.
+    /// Compute `boolean_result::volumes`; only for two operands, without filled gaps.
     int32_t volumes;
     /// [faces of all operands, one after the other] or empty: only faces with equal numbers are
     /// merged; or null
@@ -85,7 +85,7 @@ typedef struct treeform_boolean_result {
     const treeform_element* face_source;
     /// [V] the lowest operand vertex equal to each vertex, or none
     const treeform_element* vertex_source;
-    /// [V] for each new vertex, an operand face that contains it, or in a filled `gap` as in
+    /// [V] for each new vertex, an operand face that contains it; in a filled `gap`, as in
     /// `face_source`. Empty with `keep_cuts`.
     const treeform_element* face_of_cut_vertex;
     /// Status ok means, verified on the coordinates of `mesh`: any two faces share a corner, an
@@ -99,25 +99,26 @@ typedef struct treeform_boolean_result {
     /// The largest distance from `mesh` of a vertex of the exact result that was removed. It is
     /// large if a component lost a part too thin for the coordinates.
     double vanished_reach;
-    const double* vanished_at;  ///< [vanished_listed][3] a point of each, at most 100
+    /// [vanished_listed][3] a point of each of these components, at most 100
+    const double* vanished_at;
     size_t vanished_listed;
     const treeform_volumes* volumes;
-    uint64_t pairs;       ///< of tested faces that meet beyond their shared corners
+    uint64_t pairs;       ///< pairs of tested faces that meet beyond shared corners
     uint64_t cut_faces;   ///< input faces that were cut or covered by others
     uint64_t degenerate;  ///< input faces without area
     /// input faces skipped, since the result cannot contain them
     uint64_t skipped_faces;
     /// For `split`: input faces that are entirely covered by faces with lower numbers.
     uint64_t covered;
-    /// Faces of the exact result, before rounding. If there are some and `mesh` has none, all of
-    /// the result was too thin for the coordinates, or removed as `small_parts`.
+    /// Faces of the exact result, before rounding. If not 0 while `mesh` has no faces, all of the
+    /// result was too thin for the coordinates, or removed as `small_parts`.
     uint64_t exact_faces;
     uint64_t split_vertices;  ///< added where parts touch, so that edges have two faces
-    /// Changes that joined points and removed thin faces where rounding made faces meet.
+    /// Number of changes that joined points or removed thin faces where rounding made faces meet.
     uint64_t slivers;
     /// how often faces that still met were cut and rounded again
     int32_t rounding_rounds;
-    uint64_t small_parts;   ///< removed solids and voids below `min_volume`
+    uint64_t small_parts;   ///< number of solids and voids removed by `min_volume`
     double small_volume;    ///< their total volume, in cubic units
     uint64_t filled_faces;  ///< faces of operands at filled gaps (`gap`)
 } treeform_boolean_result;
@@ -205,9 +206,8 @@ typedef struct treeform_resolve_options {
     treeform_precision precision;
     /// For `split` and `outer`: as in `treeform_boolean_options`; default infinite
     double max_displacement;
-    /// for `remove`: delete faces that only touch, too; else they stay
-    int32_t touching;
-    /// for `remove`: give up after making or widening holes this often; default 16
+    int32_t touching;  ///< for `remove`: also delete faces that only touch
+    /// for `remove`: largest number of rounds that make or widen holes; default 16
     int32_t removal_rounds;
     /// For `outer` and `remove`: losing more than this share gives the status `excessive_loss`.
     /// The share is of the volume of the solid, or of the area if the mesh bounds none. 1 allows
@@ -223,82 +223,85 @@ TREEFORM_C_API void treeform_resolve_options_init(treeform_resolve_options* opti
 
 /// Counts of each step's changes. Closed gaps, chosen orientations and filled holes are heuristic.
 typedef struct treeform_repair_statistics {
-    uint64_t tetrahedra;      ///< tetrahedra that the faces were; their boundary was kept
-    uint64_t degenerate;      ///< faces without area, dropped; with such, slivers
-    uint64_t repeated;        ///< faces on others, dropped
-    uint64_t closed_edges;    ///< pairs of border edges that became one
+    uint64_t tetrahedra;      ///< tetrahedra formed by faces; only their boundary was kept
+    uint64_t degenerate;      ///< faces without area, and slivers beside them, dropped
+    uint64_t repeated;        ///< faces that repeat another, dropped
+    uint64_t closed_edges;    ///< pairs of border edges joined into one edge
     uint64_t split_edges;     ///< border edges split at vertices that lie on them
-    uint64_t flipped;         ///< faces turned to agree with their neighbors
-    uint64_t strays;          ///< faces of loose and of inner pieces, dropped
+    uint64_t flipped;         ///< faces flipped to agree with their neighbors
+    uint64_t strays;          ///< faces of loose and inner pieces, dropped
     uint64_t holes;           ///< holes filled
     uint64_t hole_edges;      ///< edges around them
     uint64_t filled;          ///< faces that fill them
-    uint64_t sheets;          ///< rims not filled, since they end sheets
-    uint64_t open_edges;      ///< left after these steps
-    int32_t resolved;         ///< faces met and were cut
+    uint64_t sheets;          ///< rims not filled, since they are borders of sheets
+    uint64_t open_edges;      ///< open edges left after these steps
+    int32_t resolved;         ///< whether faces met and were cut
     uint64_t pairs;           ///< pairs of faces that met
     uint64_t labeled_cells;   ///< cells labeled inside or outside, since faces disagreed
-    double dropped_area;      ///< area of faces with one label on both sides
-    double flipped_area;      ///< area of faces that their labels turned over
-    uint64_t removed;         ///< faces that resolving left nothing of
+    double dropped_area;      ///< area of dropped faces, with one label on both sides
+    double flipped_area;      ///< area of faces flipped by the labels
+    uint64_t removed;         ///< input faces of which resolving left nothing
     uint64_t split_vertices;  ///< vertices split where parts of the solid touch
     uint64_t detached;        ///< vertices moved apart
-    uint64_t touching;        ///< vertices that still have a twin at their place
-    /// Components, by vertices, that have no face left; of `treeform_repair`, larger than
-    /// `repair_options::strays`.
+    uint64_t touching;        ///< vertices that still have the coordinates of another
+    /// Components (faces linked by vertices) of which no face is left; for `treeform_repair`,
+    /// those larger than `repair_options::strays`.
     uint64_t vanished_components;
-    /// closed, within the solid; `odd` makes cavities of them
+    /// closed shells inside the solid, dropped; `odd` makes them cavities
     uint64_t dropped_shells;
-    double volume_before;  ///< after `join`, `orient`, `fill`; 0 where it is no solid
+    double volume_before;  ///< after `join`, `orient` and `fill`; 0 if that is no solid
     double volume_after;
     double area_before;
     double area_after;
     double area_lost;  ///< as in `repair_options::max_loss`
-    /// Of `treeform_resolve_self_intersections` by `split`: input faces that lie entirely on faces
-    /// of lower numbers. One piece stands for all of them, so they are not counted as removed.
+    /// For `treeform_resolve_self_intersections` with `split`: input faces that lie entirely on
+    /// faces of lower numbers. Their pieces are those of the lower faces, so they do not count as
+    /// removed.
     uint64_t covered;
-    uint64_t left_open;       ///< of it by `remove`: edges that lost their second face
-    uint64_t exact_faces;     ///< of it, as in `boolean_statistics`
-    double gap_limit;         ///< widest crack that was looked for
+    uint64_t left_open;  ///< the same with `remove`: edges that lost their second face
+    /// for `treeform_resolve_self_intersections`: as in `boolean_statistics`
+    uint64_t exact_faces;
+    double gap_limit;         ///< largest width of cracks searched for
     double widest_closed;     ///< widest crack that was closed
-    uint64_t turned_outward;  ///< components turned outward
+    uint64_t turned_outward;  ///< components flipped outward
 } treeform_repair_statistics;
 
 /// The repaired mesh, its sources, and its certificate.
 typedef struct treeform_repair_result {
     void* owner;
     treeform_arrays mesh;
-    const uint32_t* face_source;    ///< [F'] input face, lowest of those merged, or none
-    const uint32_t* vertex_source;  ///< [V'] input vertex that each is, or none
-    /// Status ok says, checked on the coordinates above: a closed manifold, the inside behind
-    /// every face, and any two faces have a corner, an edge or nothing in common. Status sheet
-    /// says the same of a surface with a border. Of `treeform_resolve_self_intersections` by
-    /// `split` and `remove`: only the latter, and that no face is degenerate; with `remove`,
-    /// closed parts are still closed, and faces that touched before may still touch
-    /// (`resolve_options::touching`).
+    /// [F'] input face of each face, lowest of those merged; or none
+    const uint32_t* face_source;
+    const uint32_t* vertex_source;  ///< [V'] input vertex of each vertex, or none
+    /// Status ok means, verified on the coordinates of `mesh`: a closed manifold, the inside
+    /// behind every face, and any two faces share a corner, an edge or nothing. Status sheet means
+    /// the same for a surface with a border. For `treeform_resolve_self_intersections` with
+    /// `split` and `remove`, ok only means that any two faces share a corner, an edge or nothing,
+    /// and that no face is degenerate; with `remove`, closed parts are still closed, and faces
+    /// that touched before may still touch (`resolve_options::touching`).
     const treeform_certificate* certificate;
     const treeform_repair_statistics* statistics;
-    /// for a mesh from a file: the result with its attributes; otherwise null
-    const treeform_file* file;
-    const uint8_t* is_left;  ///< [F] 1 where something is left of an input face
+    const treeform_file* file;  ///< of a file, with its attributes; else null
+    const uint8_t* is_left;     ///< [F] 1 if a part of the input face is left, else 0
 } treeform_repair_result;
 
-/// `mesh` without self-intersections. Look at the certificate: it says whether this was possible.
+/// `mesh` without self-intersections. Check the certificate: its status says whether this was
+/// possible.
 ///
 /// `split` and `outer` decide exactly, on the coordinates as given, what is cut and what is
-/// inside. Then they round the points on cuts. Faces that meet nothing stay as they are.
+/// inside. Then they round the points on cuts. Faces that meet no other face do not change.
 ///
-/// `remove` is for surfaces that bound no solid. It works locally. It deletes the faces that meet
+/// `remove` is for surfaces that bound no solid, and works locally. It deletes the faces that meet
 /// or are degenerate. It closes each hole by triangles of the least total area between the
-/// vertices of its rim, but not beyond where the mesh ended. Where the new triangles meet other
-/// faces, the hole is made wider. A part is a set of faces linked by edges:
+/// vertices of its rim, but not beyond the former border of the mesh. Where the new triangles meet
+/// other faces, the hole is widened. A part is a set of faces linked by edges:
 ///
-/// - In a part that has a border, a hole stays open (`left_open`) where widening does not help, or
-/// where the hole would surround the border. Then of each pair only one face is deleted.
+/// - In a part that has a border, a hole stays open (`left_open`) if widening does not help, or if
+/// the hole would surround the border. Then only one face of each pair is deleted.
 ///
-/// - A closed part stays as it is where a part with a border passes through it.
+/// - A closed part is not changed where a part with a border passes through it.
 ///
-/// - Where every face of a part has a copy, as in a sheet with a back, one copy stays.
+/// - If every face of a part has a copy, as in a sheet with a back, one copy stays.
 TREEFORM_C_API treeform_code treeform_resolve_self_intersections(
     const treeform_mesh* mesh, treeform_resolve_mode mode, const treeform_resolve_options* options,
     treeform_repair_result** result);
@@ -324,10 +327,10 @@ typedef struct treeform_repair_options {
     /// `max_loss` is 1; default 0.001
     double strays;
     /// What is solid. By default `positive` if each shell is outward after `orient`, else
-    /// `nonzero` or labels; a `treeform_fill_rule`, or -1
+    /// `nonzero` or the labels of cells (see `treeform_repair`); a `treeform_fill_rule`, or -1
     int32_t inside;
     /// Losing more than this share of the volume gives the status `excessive_loss`; if there were
-    /// holes, of the area. Faces that are still there or hidden in the solid are not lost. 1
+    /// holes, of the area. Faces that remain, or are inside the solid, do not count as lost. 1
     /// allows any loss; default 0.05
     double max_loss;
     int32_t sheet;  ///< the mesh is an open surface: keep its border, and fill nothing
@@ -337,29 +340,31 @@ typedef struct treeform_repair_options {
     double max_displacement;  ///< As in `treeform_boolean_options`; default infinite
     treeform_progress progress;
     void* progress_data;
-    int32_t keep_cuts;  ///< likewise; filled faces only merge with each other
-    /// of `treeform_repair_file`: all parts of a scene become one solid
+    /// as in `treeform_boolean_options`; faces that fill holes only merge with each other
+    int32_t keep_cuts;
+    /// for `treeform_repair_file`: all parts of a scene become one solid
     int32_t as_one;
 } treeform_repair_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_repair_options_init(treeform_repair_options* options, size_t size);
 
-/// A solid made of a dirty mesh: closed, oriented, manifold and free of self-intersections. Look
-/// at the certificate: it says whether this was possible, and where not.
+/// A solid made of a dirty mesh: closed, oriented, manifold and free of self-intersections. Check
+/// the certificate: its status says whether this was possible, and it lists where it was not.
 ///
 /// The steps are those of `treeform_repair_options`, in this order. Each changes only what is
 /// defective: a mesh that is a solid is returned bit for bit. Which faces meet and what is inside
-/// is decided exactly. Which cracks are closed, how faces are oriented, and what fills a hole are
-/// heuristics, and counted. Points with equal coordinates are one. Faces that are the sides of
-/// tetrahedra are replaced by the boundary of the tetrahedra. If faces remain inconsistent, a
-/// minimum cut labels cells inside or outside, by the orientations of faces and generalized
-/// winding numbers; the result is used if it loses less.
+/// is decided exactly. Which cracks are closed, how faces are oriented, and how holes are filled
+/// is decided by heuristics, and counted in `statistics`. Points with equal coordinates are one.
+/// If faces are the sides of tetrahedra, only the boundary of the tetrahedra is kept. If faces
+/// remain inconsistent, a minimum cut labels cells inside or outside, by the orientations of faces
+/// and generalized winding numbers; the result is used if it loses less.
 ///
 /// Holes are filled with triangles between their vertices; large holes in smooth surfaces also
 /// with new points, which continue the surface smoothly. Sheets are not filled, but reported as
 /// open, unless any loss is allowed. A sheet is a part with an area below 1 / 0.6 of the area that
-/// would close it, unless its border is in a plane and it is on one side of the plane. Nor is a
-/// mesh filled with more than one edge for 10 faces where three or more faces are inconsistent.
+/// would close it, unless its border is in a plane and it is on one side of the plane. No hole is
+/// filled in a mesh of more than 1000 faces in which more than one edge for every 10 faces has
+/// three or more inconsistent faces.
 TREEFORM_C_API treeform_code treeform_repair(const treeform_mesh* mesh,
                                              const treeform_repair_options* options,
                                              treeform_repair_result** result);
@@ -376,9 +381,9 @@ typedef struct treeform_solid_defects {
     int32_t any;                    ///< whether there is any defect
     const char* message;            ///< the result in words, without a full stop
     uint64_t nonfinite_vertices;    ///< with a NaN or infinite coordinate, used or not
-    uint64_t unusable_faces;        ///< with an invalid corner; not counted below
-    int32_t without_faces;          ///< there are points, but no usable face
-    uint64_t tetrahedra;            ///< whose sides are faces, as in a volume mesh
+    uint64_t unusable_faces;        ///< with an invalid corner; ignored by the counts below
+    int32_t without_faces;          ///< the mesh has points, but no usable face
+    uint64_t tetrahedra;            ///< tetrahedra whose sides are faces, as in a volume mesh
     uint64_t degenerate;            ///< faces without area
     uint64_t repeated;              ///< faces with the same corners as another
     uint64_t open_edges;            ///< edges of one face
@@ -386,7 +391,7 @@ typedef struct treeform_solid_defects {
     uint64_t misoriented_edges;     ///< edges of two inconsistently oriented faces
     uint64_t nonmanifold_vertices;  ///< with more than one fan of faces
     uint64_t meeting_pairs;         ///< pairs of faces that meet beyond common corners
-    /// closed components that are inside out, and inside no other one
+    /// closed components that are inside out, without being inside another
     uint64_t inverted;
     /// Disjoint closed components are nested, but not as a solid and its cavities.
     int32_t wrongly_nested;

@@ -6,28 +6,30 @@
 
 // made of the headers of C++:
 //   weld_stream_options
-/// How to weld from file to file.
+/// Options of `treeform_weld_stream` and `stream_weld`.
 typedef struct treeform_weld_stream_options {
     size_t size;
     double tolerance;  ///< as in `treeform_weld_options`
-    int32_t relative;  ///< `tolerance` is a share of the diagonal of the cloud's box
-    int32_t chain;     ///< as in `treeform_weld_options`
-    /// [same_count] as in `treeform_weld_options`, and so are the next four
+    /// whether `tolerance` is a fraction of the diagonal of the bounding box
+    int32_t relative;
+    int32_t chain;  ///< as in `treeform_weld_options`
+    /// [same_count] this and the next four: as in `treeform_weld_options`
     const treeform_weld_condition* same;
     size_t same_count;
-    treeform_weld_keep keep;  ///< others need points without lists
+    /// values other than `first` need points without list properties
+    treeform_weld_keep keep;
     const char* keep_by;
     const char* order_by;
     int32_t highest_first;
-    /// Coordinates, and means of them, are rounded to the steps of the first file if it is LAS,
-    /// else to those of `round_to_las`, before anything is decided of them.
+    /// Round coordinates and their means as LAS stores them before comparing them: to the scale
+    /// and offset of the first file if it is LAS, else to those that `round_to_las` chooses.
     int32_t as_las;
-    uint64_t memory;           ///< bytes that the process may take; 0: `treeform_default_memory`
+    uint64_t memory;           ///< limit of the process, in bytes; 0: `treeform_default_memory`
     const char* folder;        ///< for the tiles; empty: the input's name and ".tiles"
-    uint64_t points_per_tile;  ///< at most about this many; 0: as the memory allows
-    const char* format;        ///< of the inputs; null: determined by the content
-    const char* removed;       ///< a file for the dropped points, or null
-    /// write all points, with the number of their group as a property of this name; or null
+    uint64_t points_per_tile;  ///< approximate limit; 0: as the memory allows
+    const char* format;        ///< of the inputs; null: by content
+    const char* removed;       ///< write the dropped points to this file; or null
+    /// write all points, with their group in this property; or null
     const char* label;
     /// write all points, and set the LAS flag "withheld" for dropped ones
     int32_t withhold;
@@ -38,7 +40,7 @@ typedef struct treeform_weld_stream_options {
     treeform_progress progress;
     void* progress_data;
     const treeform_communicator* communicator;  ///< or null
-    /// of a mesh, as in `treeform_weld_options`, and so are the next two
+    /// this and the next two: for a mesh, as in `treeform_weld_options`
     int32_t keep_seams;
     const char* const* across;  ///< [across_count]
     size_t across_count;
@@ -57,7 +59,7 @@ TREEFORM_C_API void treeform_weld_stream_options_init(treeform_weld_stream_optio
 
 // made of the headers of C++:
 //   weld_stream_result weld_stream()
-/// What was welded and written.
+/// The result of `treeform_weld_stream`.
 typedef struct treeform_weld_stream_result {
     void* owner;
     uint64_t points;
@@ -72,8 +74,8 @@ typedef struct treeform_weld_stream_result {
     const char* format;       ///< of the output
     uint64_t mergeable;       ///< points that would be merged if the output were welded
     int32_t mergeable_known;
-    uint64_t faces;  ///< that are kept, as stored; and cut into triangles
-    uint64_t triangles;
+    uint64_t faces;               ///< kept faces, as stored
+    uint64_t triangles;           ///< triangles of these faces
     uint64_t collapsed;           ///< faces that repeat a corner only after the weld
     uint64_t degenerate;          ///< faces that repeated a corner before
     uint64_t nonmanifold_before;  ///< edges of more than two faces

@@ -86,7 +86,8 @@ typedef struct treeform_weld_result {
     size_t point_count;
     /// [G] the first point of each group, ascending: the lowest-numbered, unless `order_by` is set
     const uint32_t* first_of_group;
-    const uint32_t* point_of_group;  ///< [G] input point that gave its properties
+    /// [G] input point whose properties each point has
+    const uint32_t* point_of_group;
     size_t group_count;
     const uint32_t* face_of_new;  ///< [F'] input face of each face
     uint64_t merged_groups;       ///< groups of two points or more
@@ -119,8 +120,8 @@ TREEFORM_C_API treeform_code treeform_group_points(const treeform_mesh* mesh,
                                                    const treeform_weld_options* options,
                                                    treeform_weld_result** result);
 
-/// By how much the number of points would shrink if points within `distance` of each other were
-/// joined, compared with joining equal points only.
+/// The number of points that joining points within `distance` of each other would remove, beyond
+/// those that joining equal points removes.
 TREEFORM_C_API treeform_code treeform_count_nearly_equal(const treeform_mesh* mesh, double distance,
                                                          uint64_t* result);
 
