@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Sending records down a few rounds of brackets at once: the inner loop of the sieve.
+/// Classifies records by several rounds of brackets at once: the inner loop of the sieve.
 
 #include <treeform/tree/detail/split.hpp>
 
@@ -9,14 +9,14 @@
 
 namespace treeform::detail {
 
-/// Rounds that a sieve takes at once, an odd number: it moves records once, as an odd number of
-/// single rounds would.
+/// Number of rounds in one pass of the sieve. Odd: a pass moves records to the other array, as an
+/// odd number of single rounds would.
 inline constexpr unsigned partition_rounds = 5;
 
 /// The brackets of the nodes of `partition_rounds` rounds, numbered as in a heap: 1 is the part
-/// itself, 2n and 2n + 1 are the halves of n. Records below lo[n] on axis[n] go left, others above
-/// hi[n] go right, the rest is caught. Numbers from `first_bucket` on are the parts behind the last
-/// round.
+/// itself, 2n and 2n + 1 are the halves of n. Records below lo[n] on axis[n] go left, those above
+/// hi[n] go right, the others are caught by node n. Numbers from `first_bucket` on are the parts
+/// after the last round.
 struct partition_gates {
     static constexpr std::size_t first_bucket = std::size_t{1} << partition_rounds;
     static constexpr std::size_t numbers = 2 * first_bucket;
@@ -27,7 +27,7 @@ struct partition_gates {
     std::int32_t axis[first_bucket];
 };
 
-/// Writes for each record the number of the node that catches it, or of its bucket.
+/// Writes, for each record, the number of the node that catches it, or of its bucket.
 void classify_records(const partition_gates& gates, const split_record* records, std::size_t count,
                       std::uint8_t* numbers);
 

@@ -6,16 +6,17 @@
 
 namespace treeform::detail {
 
-/// Does rounds `part.round` ... `part.round + partition_rounds - 1` of `plan` on the records of
-/// `part`, by all threads: from `from` to `to`, both of which begin where the part does.
+/// Executes rounds `part.round` ... `part.round + partition_rounds - 1` of `plan` on the records of
+/// `part`, in parallel: from `from` to `to`, which both point to the first record of the part.
 ///
-/// A sample of the records is halved as they would be, which gives each node of the next rounds an
-/// axis and a bracket of keys. A record goes down until it is in a bracket, so nearly all of them
-/// find their place in one pass; those in the brackets, an eighth or so, are then told apart from
-/// the top down, by selection, so that every part gets its exact number.
+/// A sample of the records is halved in the same way, which gives each node of the next rounds an
+/// axis and a bracket of keys. A record descends until it falls into a bracket, so most records
+/// reach their part in one pass. The records in brackets, about an eighth, are then distributed
+/// from the top down, by selection, so that every part gets its exact number.
 ///
-/// \pre    `plan` has so many rounds left
-/// \cost   O(count) expected; a bracket that misses its cut costs another pass, at most one a node
+/// \pre    `plan` has at least `partition_rounds` rounds left
+/// \cost   O(count) expected; a bracket that misses its cut costs another pass, at most one for
+///         each node
 /// \same   on any number of threads
 /// \source the sieve of Men, Shen, Gu and Sun, Parallel kd-tree with Batch Updates, SIGMOD 2025,
 ///         made exact by brackets as in Floyd and Rivest, CACM 18 (1975)

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Selection algorithms of the paper that choose their pivot as a median: slower in this build than
-/// that of `build`.
+/// Selection algorithms of the paper that choose their pivot as a median: slower in `build` than
+/// the default selection.
 
 #include <libtree/paper/partition_around.hpp>
 
@@ -13,10 +13,10 @@
 namespace treeform::strategy {
 
 struct median_of_3_random {
-    /// Reorders [first, last) so that no element before `nth` is greater than one behind it. The
-    /// random places are the same in every call on as many elements.
+    /// Reorders [first, last) so that no element before `nth` is greater than one after it. The
+    /// random positions are the same in every call with the same number of elements.
     ///
-    /// \cost O(n) expected; O(n^2) for an order that was made against these random places
+    /// \cost O(n) expected; O(n^2) for an adversarial order
     /// \source Hoare, Algorithm 65: Find, CACM 4 (1961)
     template <class Iterator, class Less>
     static void partition(Iterator first, Iterator nth, Iterator last, Less less) {
@@ -38,7 +38,7 @@ struct median_of_3_random {
 };
 
 struct median_of_medians {
-    /// Reorders [first, last) so that no element before `nth` is greater than one behind it.
+    /// Reorders [first, last) so that no element before `nth` is greater than one after it.
     ///
     /// \cost O(n) in the worst case
     /// \source Blum, Floyd, Pratt, Rivest and Tarjan, Time Bounds for Selection, JCSS 7 (1973)
@@ -51,7 +51,7 @@ struct median_of_medians {
     }
 
   private:
-    /// Gathers the medians of all groups of five in front and selects theirs.
+    /// Moves the medians of all groups of five to the front, and selects their median.
     template <class Iterator, class Less>
     static Iterator pivot(Iterator first, Iterator last, const Less& less) {
         Iterator medians_end = first;
@@ -66,11 +66,11 @@ struct median_of_medians {
 };
 
 struct median_of_ninthers {
-    /// Reorders [first, last) so that no element before `nth` is greater than one behind it.
+    /// Reorders [first, last) so that no element before `nth` is greater than one after it.
     ///
     /// A ninther is the median of the medians of three triples. The pivot is the median of the
-    /// ninthers of groups spread over the range; the fewer groups, the larger the range, down to
-    /// one element in 16 looked at.
+    /// ninthers of groups spread over the range; the larger the range, the fewer groups for its
+    /// size, down to one element in 16.
     ///
     /// \cost O(n) in the worst case: the pivot is above and below a fixed share of the elements
     /// \source Alexandrescu, Fast Deterministic Selection, arXiv 1606.00484 (2016)
@@ -83,8 +83,8 @@ struct median_of_ninthers {
     }
 
   private:
-    /// Gathers the ninthers in front and selects their median. Group g takes one element from each
-    /// ninth of the range.
+    /// Moves the ninthers to the front, and selects their median. Group g takes one element from
+    /// each ninth of the range.
     template <class Iterator, class Less>
     static Iterator pivot(Iterator first, Iterator last, const Less& less) {
         const std::ptrdiff_t ninth = (last - first) / 9;

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// The searches of the paper over its own tree: every box is checked by the caller's function, one
-/// pair at a time. To reproduce and compare the paper's figures, and for queries between trees
-/// whose boxes need another test than overlap.
+/// The paper's searches of its own tree: the caller's function checks boxes, one pair at a time.
+/// For reproducing and comparing the paper's figures, and for queries of two trees whose boxes need
+/// a test other than overlap.
 ///
 /// \source Sajovic, Knez and Korez, tf::tree, section III-C and Algorithm 2
 
@@ -26,7 +26,8 @@ std::span<const std::uint32_t> ids_of_leaf(const nary_tree<T, D>& tree, std::siz
     return std::span(tree.ids).subspan(tree.nodes[node].offset, tree.nodes[node].size);
 }
 
-/// Algorithm 2 on two trees, or on one twice: then each pair of different nodes comes once.
+/// Algorithm 2 on two trees, or on one tree with itself: then each pair of different nodes occurs
+/// once.
 template <class T, std::size_t D, class Check>
 class nary_pair_search {
   public:
@@ -55,7 +56,7 @@ class nary_pair_search {
 
     [[nodiscard]] std::size_t chunks() const { return chunk_count(items_.size(), items_per_chunk); }
 
-    /// `visit(ids_a, ids_b)` for pairs of leaves until it returns false.
+    /// Calls `visit(ids_a, ids_b)` for pairs of leaves until it returns false.
     template <class Visit>
     void visit(std::size_t chunk, const Visit& visit) const {
         const std::size_t begin = chunk * items_per_chunk;
@@ -74,7 +75,7 @@ class nary_pair_search {
         return (self_ && x == y) || check_(a_.nodes[x].box, b_.nodes[y].box);
     }
 
-    /// `inner(x, y)` for the pairs below that are wanted, until it returns false.
+    /// Calls `inner(x, y)` for the accepted pairs below, until it returns false.
     template <class Inner>
     bool open(std::size_t x, std::size_t y, const Inner& inner) const {
         const auto& of_x = a_.nodes[x];
@@ -111,8 +112,8 @@ class nary_pair_search {
 
 }  // namespace detail
 
-/// Calls `apply(ids)` with the primitives of each leaf, as a `std::span<const std::uint32_t>`,
-/// whose box and all boxes above it `check_aabb(box)` is true for, until it returns true.
+/// Calls `apply(ids)`, with a `std::span<const std::uint32_t>`, for the primitives of each leaf for
+/// which `check_aabb(box)` is true on its box and all boxes above it, until `apply` returns true.
 template <class T, std::size_t D, class Check, class Apply>
 void search_broad(const nary_tree<T, D>& tree, const Check& check_aabb, const Apply& apply) {
     if (tree.ids.empty()) return;
@@ -130,7 +131,7 @@ void search_broad(const nary_tree<T, D>& tree, const Check& check_aabb, const Ap
     }
 }
 
-/// The same by primitive: `apply(id)` for all of each such leaf.
+/// The same for single primitives: `apply(id)` for all primitives of each such leaf.
 template <class T, std::size_t D, class Check, class Apply>
 void search(const nary_tree<T, D>& tree, const Check& check_aabb, const Apply& apply) {
     search_broad(tree, check_aabb, [&](std::span<const std::uint32_t> ids) {
@@ -139,9 +140,9 @@ void search(const nary_tree<T, D>& tree, const Check& check_aabb, const Apply& a
     });
 }
 
-/// Calls `apply(state, ids_a, ids_b)` for the pairs of leaves for whose boxes, and for those above
-/// them, `check_aabbs(box_a, box_b)` is true. States and stopping as in the search of two wide
-/// trees: one state a chunk, the same on any number of threads. `check_aabbs` is called from
+/// Calls `apply(state, ids_a, ids_b)` for the pairs of leaves for which `check_aabbs(box_a, box_b)`
+/// is true on their boxes and on the boxes above. States and stopping are as in `search` of two
+/// trees: one state for each chunk, the same on any number of threads. `check_aabbs` is called from
 /// several threads.
 template <class State, class T, std::size_t D, class Check, class Apply>
 [[nodiscard]] std::vector<State> search_broad(const nary_tree<T, D>& a, const nary_tree<T, D>& b,
@@ -153,7 +154,7 @@ template <class State, class T, std::size_t D, class Check, class Apply>
                                         });
 }
 
-/// The same by pairs of primitives: `apply(state, a, b)` for all pairs of two such leaves.
+/// The same for pairs of primitives: `apply(state, a, b)` for all pairs of two such leaves.
 template <class State, class T, std::size_t D, class Check, class Apply>
 [[nodiscard]] std::vector<State> search(const nary_tree<T, D>& a, const nary_tree<T, D>& b,
                                         const Check& check_aabbs, const Apply& apply) {
@@ -173,7 +174,7 @@ template <class State, class T, std::size_t D, class Check, class Apply>
     return search_broad<State>(tree, tree, check_aabbs, apply);
 }
 
-/// The same by pairs of primitives: each pair of different ones once.
+/// The same for pairs of primitives: each pair of different primitives once.
 template <class State, class T, std::size_t D, class Check, class Apply>
 [[nodiscard]] std::vector<State> search_self(const nary_tree<T, D>& tree, const Check& check_aabbs,
                                              const Apply& apply) {

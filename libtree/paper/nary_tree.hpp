@@ -2,8 +2,8 @@
 /// \file
 /// The paper's own tree, box by box: the pair <ids, nodes> with explicit ranges and any arity.
 ///
-/// Kept as a configuration beside the wide tree: for arities and leaf sizes that have no vector
-/// register, and to reproduce and compare the paper's figures.
+/// For arities and leaf sizes other than those of `tree`, and to reproduce and compare the paper's
+/// figures.
 
 #include <libtree/paper/selections.hpp>
 #include <libtree/paper/tree_config.hpp>
@@ -29,9 +29,9 @@ namespace treeform {
 template <std::floating_point T, std::size_t D>
 struct nary_node {
     aabb<T, D> box;
-    std::uint32_t offset = 0;  ///< first child: a node of an inner node, a place in ids of a leaf
-    std::uint32_t size = 0;    ///< children; 0 for a node that is not part of the tree
-    std::int32_t axis = -1;    ///< along which an inner node was cut; -1 for a leaf
+    std::uint32_t offset = 0;  ///< first child: a node, or for a leaf a place in `ids`
+    std::uint32_t size = 0;    ///< number of children; 0 for a node that is not part of the tree
+    std::int32_t axis = -1;    ///< axis along which an inner node was cut; -1 for a leaf
 };
 
 /// \source Sajovic, Knez and Korez, tf::tree, Definition 3
@@ -57,8 +57,8 @@ class nary_builder {
         std::iota(tree_.ids.begin(), tree_.ids.end(), std::uint32_t{0});
         tree_.nodes.assign(nodes_for(count), {});
         if (count == 0) return;
-        // A level at a time while its nodes are large, then a task a subtree, as the paper's
-        // recursion forks: the first cuts are serial.
+        // Level by level while nodes are large, then one task for each subtree; in the paper's
+        // recursion, the first cuts would be serial.
         std::vector<work> level{{0, 0, count}};
         while (!level.empty() && level.size() < 256) {
             std::vector<std::vector<work>> children(level.size());
@@ -78,7 +78,7 @@ class nary_builder {
         std::size_t node, begin, end;
     };
 
-    /// Nodes of the perfect tree deep enough that no leaf is too large.
+    /// Number of nodes of the shallowest perfect tree in which no leaf is too large.
     [[nodiscard]] std::size_t nodes_for(std::size_t count) const {
         std::size_t total = 1, level = 1;
         while (count > level * tree_.config.leaf_size) {
@@ -113,7 +113,7 @@ class nary_builder {
         return children;
     }
 
-    /// Separates the parts [first, last) by cutting in the middle, then each half.
+    /// Separates the parts [first, last) by cutting in the middle, then cutting each half.
     void partition(const std::vector<std::size_t>& cuts, std::size_t first, std::size_t last,
                    std::size_t axis) {
         if (last - first < 2) return;
@@ -146,12 +146,12 @@ class nary_builder {
 
 }  // namespace detail
 
-/// The paper's tree over the boxes that `make_aabb` gives for the elements of `range`.
+/// The paper's tree over the boxes that `make_aabb` returns for the elements of `range`.
 ///
 /// \throws std::invalid_argument for an inner size outside 2 ... 16 or a leaf size of 0, or naming
 ///         the element whose box is empty or not finite
 /// \cost   O(N log N) expected time with a selection in linear time
-/// \same   on any number of threads; `make_aabb` is called once an element, in order
+/// \same   on any number of threads; `make_aabb` is called once for each element, in order
 /// \source Sajovic, Knez and Korez, tf::tree, Algorithm 1
 template <partition_strategy Strategy = strategy::nth_element, std::ranges::input_range Range,
           class MakeBox>

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The step that quickselect algorithms share.
+/// The partition step of quickselect algorithms.
 
 #include <cstddef>
 #include <iterator>
@@ -8,12 +8,12 @@
 
 namespace treeform::detail {
 
-/// Moves the pivot to where sorting would put it: nothing in front of it is greater, nothing
-/// behind it is less. Returns that place. Both scans stop at elements equal to the pivot, so that
-/// a range of equal elements is cut in the middle and selection stays linear on it.
+/// Moves the pivot to its sorted position, and returns it: no element before it is greater, no
+/// element after it is less. Both scans stop at elements equal to the pivot, so that a range of
+/// equal elements is cut in the middle and selection stays linear on it.
 ///
 /// \pre  first <= pivot < last
-/// \cost last - first comparisons and a few
+/// \cost last - first comparisons plus a constant
 template <class Iterator, class Less>
 Iterator partition_around(Iterator first, Iterator pivot, Iterator last, const Less& less) {
     std::iter_swap(first, pivot);
@@ -31,7 +31,7 @@ Iterator partition_around(Iterator first, Iterator pivot, Iterator last, const L
     return high;
 }
 
-/// The place of the median of three elements.
+/// The position of the median of three elements.
 template <class Iterator, class Less>
 Iterator median_of_three(Iterator a, Iterator b, Iterator c, const Less& less) {
     if (less(*b, *a)) std::swap(a, b);

@@ -14,7 +14,7 @@ namespace treeform::strategy {
 
 /// `std::nth_element`.
 struct nth_element {
-    /// Reorders [first, last) so that no element before `nth` is greater than one behind it.
+    /// Reorders [first, last) so that no element before `nth` is greater than one after it.
     template <class Iterator, class Less>
     static void partition(Iterator first, Iterator nth, Iterator last, Less less) {
         std::nth_element(first, nth, last, less);
@@ -23,10 +23,10 @@ struct nth_element {
 
 /// Selection by Floyd and Rivest.
 struct floyd_rivest {
-    /// Reorders [first, last) so that no element before `nth` is greater than one behind it.
+    /// Reorders [first, last) so that no element before `nth` is greater than one after it.
     ///
     /// In a large range, it first selects in a sample around nth. So the element at nth becomes a
-    /// pivot that is very probably next to the wanted one.
+    /// pivot that is very probably close to the result.
     ///
     /// \cost n + min(k, n - k) + O(sqrt(n)) comparisons expected
     /// \source Floyd and Rivest, Algorithm 489: SELECT, CACM 18 (1975)
@@ -50,7 +50,7 @@ struct floyd_rivest {
             0.5 * std::sqrt(log_n * size * (n - size) / n) * (k < n / 2.0 ? -1.0 : 1.0);
         const double low = std::max(0.0, k - k * size / n + spread);
         const double high = std::min(n - 1.0, k + (n - k) * size / n + spread);
-        // nth lies in the sample whatever the rounding.
+        // nth lies in the sample for any rounding.
         const auto begin = std::min(first + static_cast<std::ptrdiff_t>(low), nth);
         const auto end = std::max(first + static_cast<std::ptrdiff_t>(high), nth) + 1;
         partition(begin, nth, end, less);
@@ -59,9 +59,9 @@ struct floyd_rivest {
 
 /// Selection by a heap.
 struct heap_select {
-    /// Reorders [first, last) so that no element before `nth` is greater than one behind it.
+    /// Reorders [first, last) so that no element before `nth` is greater than one after it.
     ///
-    /// \cost O(n log k) for the k elements up to nth, whatever the order
+    /// \cost O(n log k) for the k elements up to nth, for any order
     /// \source Williams, Algorithm 232: Heapsort, CACM 7 (1964), for the heap
     template <class Iterator, class Less>
     static void partition(Iterator first, Iterator nth, Iterator last, Less less) {
@@ -80,11 +80,11 @@ struct heap_select {
 
 /// Pattern-defeating quickselect.
 struct pdq_select {
-    /// Reorders [first, last) so that no element before `nth` is greater than one behind it.
+    /// Reorders [first, last) so that no element before `nth` is greater than one after it.
     ///
-    /// The pivot is the median of three, in large ranges of three medians of three. A cut that
-    /// leaves less than an eighth on one side breaks up the pattern by a few swaps, and after
-    /// log2(n) of them a heap finishes the work.
+    /// The pivot is the median of three, in large ranges of three medians of three. After a cut
+    /// that leaves less than an eighth on one side, a few swaps break up the pattern; after log2(n)
+    /// such cuts, a heap finishes the selection.
     ///
     /// \cost O(n) expected, O(n log n) in the worst case
     /// \source Peters, Pattern-defeating Quicksort, arXiv 2106.05123 (2021)
@@ -122,7 +122,7 @@ struct pdq_select {
         return detail::median_of_three(median(1), median(2), median(3), less);
     }
 
-    /// Swaps a few elements a quarter of the way apart.
+    /// Swaps a few elements that are a quarter of the range apart.
     template <class Iterator>
     static void break_pattern(Iterator first, Iterator last) {
         const std::ptrdiff_t size = last - first;

@@ -14,8 +14,8 @@
 
 namespace treeform {
 
-/// What is wrong with a tree, in words; none when every primitive is in one leaf, boxes are
-/// exact and leaves small enough.
+/// The reason why `tree` is not a valid tree over `boxes`, or none. In a valid tree every primitive
+/// is in one leaf, boxes are exact, and leaves are not too large.
 template <class T, std::size_t D>
 [[nodiscard]] std::optional<std::string> why_malformed(const nary_tree<T, D>& tree,
                                                        std::span<const aabb<T, D>> boxes) {

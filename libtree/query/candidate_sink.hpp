@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// From masks of overlapping slots to blocks of candidate pairs.
+/// Collects masks of overlapping slots into blocks of candidate pairs.
 
 #include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
@@ -13,7 +13,7 @@ namespace treeform::detail {
 
 using block_visitor = function_ref<bool(const candidate_block&)>;
 
-/// The positions of the bits of a mask of eight, ascending, the rest 0.
+/// The positions of the set bits of an 8-bit mask, ascending; the rest 0.
 struct mask_bits {
     std::array<std::uint8_t, 8> positions;
     std::uint8_t count;
@@ -27,16 +27,17 @@ inline constexpr auto bits_of_mask = [] {
     return table;
 }();
 
-/// Gathers candidates into blocks and hands on the full ones.
+/// Collects candidates into blocks, and passes full blocks to a visitor.
 class candidate_sink {
   public:
-    /// Blocks are full when they hold more than `enough` pairs; at most `max_candidates` - 8.
+    /// A block is full if it has more than `enough` pairs; `enough` is at most `max_candidates` -
+    /// 8.
     explicit candidate_sink(block_visitor visit, std::size_t enough = max_candidates - 8)
         : visit_(visit), enough_(enough) {}
 
     /// Adds the pairs of `first` with `second` + each bit of `mask`.
     void add(std::uint32_t first, std::uint32_t second, unsigned mask) {
-        // All eight are written and the count moves on by those that are real.
+        // All eight are written; the count advances by the number of set bits.
         for (unsigned i = 0; i < 8; ++i) {
             first_[count_ + i] = first;
             second_[count_ + i] = second + bits_of_mask[mask].positions[i];
@@ -54,7 +55,7 @@ class candidate_sink {
     }
 
     [[nodiscard]] bool stopped() const { return stopped_; }
-    /// Candidates handed on so far.
+    /// Number of candidates passed on so far.
     [[nodiscard]] std::uint64_t total() const { return total_; }
 
   private:

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Carrying boxes into the frame of a tree that is treated as transformed, against its move.
+/// Maps boxes back into the frame of a transformed tree, by the inverse of its transform.
 
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/frame_map.hpp>
@@ -14,7 +14,7 @@
 
 namespace treeform::detail {
 
-/// How far from 0 what a tree holds may lie, axis by axis; infinite where the tree cannot tell.
+/// Bounds of the magnitudes of a tree's coordinates, by axis; infinite if the tree has no bound.
 template <std::size_t D>
 std::array<double, D> reach_of(const tree<D>& t) {
     const wide_node<D>& root = t.level(0)[0];
@@ -28,15 +28,14 @@ std::array<double, D> reach_of(const tree<D>& t) {
     return reach;
 }
 
-/// The map of frame `from` into that of `moved` under which a box that holds by(x), rounded to
-/// double, becomes one that holds x, for all x in `moved`. None where that would tell little: for a
-/// map that is singular or nearly so, or along the axes anyway, and at the ends of the range of
-/// double.
+/// The map of frame `from` into that of `moved` which takes a box that contains by(x), rounded to
+/// double, to a box that contains x, for all x in `moved`. None where it would not help: for a map
+/// that is singular or nearly so, or axis-aligned, and at the ends of the range of double.
 ///
-/// With the computed inverse G, the residual R = G by - 1 and the rounding e of by(x),
-/// G by(x) = x + R x + G e: of the linear part G L and the shifts, products and sums are off by
-/// less than 2^-50 of their magnitudes, and so is by(x); `frame_map` sees to the rest. The bounds
-/// are computed with few roundings, and doubled.
+/// With the computed inverse G, the residual R = G by - 1 and the rounding e of by(x), G by(x) = x
+/// + R x + G e: of the linear part G L and the shifts, products and sums are off by less than 2^-50
+/// of their magnitudes, and so is by(x); `frame_map` covers the rest. The bounds are computed with
+/// few roundings, and doubled.
 template <std::size_t D>
 std::optional<frame_map<D>> map_back(const tree_frame<D>& from, const transform<D>& by,
                                      const tree<D>& moved) {
@@ -44,7 +43,7 @@ std::optional<frame_map<D>> map_back(const tree_frame<D>& from, const transform<
     const transform<D> back = unchecked_inverse(by);
     const std::array<double, D> reach = reach_of(moved);
     bool turns = false, sensible = back.finite();
-    std::array<double, D> moved_by{};  // the magnitude of what makes up by(x)
+    std::array<double, D> moved_by{};  // sum of magnitudes of the terms of by(x)
     for (std::size_t k = 0; k < D; ++k) {
         moved_by[k] = std::abs(by.rows[k][D]);
         for (std::size_t j = 0; j < D; ++j) {

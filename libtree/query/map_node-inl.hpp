@@ -1,5 +1,5 @@
 /// \file
-/// The eight boxes of a node carried into another frame. Included once for each target of Highway.
+/// Maps the eight boxes of a node into another frame. Included once for each target of Highway.
 
 #if defined(TREEFORM_MAP_NODE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TREEFORM_MAP_NODE_INL
@@ -34,7 +34,7 @@ HWY_INLINE void map_lanes(const frame_map<D>& map, const wide_node<D>& from, wid
     const lanes largest = hn::Set(d, std::numeric_limits<float>::max());
     const lanes limit = hn::Set(d, map.limit);
     const auto in_use = hn::Le(hn::Load(d, from.min[0] + i), hn::Load(d, from.max[0] + i));
-    lanes min[D], max[D], reach[D];  // all read before anything is written
+    lanes min[D], max[D], reach[D];  // all loads precede the stores
     for (std::size_t j = 0; j < D; ++j) {
         min[j] = hn::Min(hn::Load(d, from.min[j] + i), limit);
         max[j] = hn::Max(hn::Load(d, from.max[j] + i), hn::Neg(limit));
@@ -45,8 +45,8 @@ HWY_INLINE void map_lanes(const frame_map<D>& map, const wide_node<D>& from, wid
         lanes high = low;
         lanes slack = hn::Set(d, map.slack_offset[k]);
         for (std::size_t j = Diagonal ? k : 0; j < (Diagonal ? k + 1 : D); ++j) {
-            // Of one end of the interval the greater part, of the other the lesser, whatever the
-            // sign of the factor. Not fused, so that every machine sees the same candidates.
+            // Interval arithmetic for a factor of any sign. Not fused, so that candidates are the
+            // same on every machine.
             const lanes factor = hn::Set(d, map.linear[k][j]);
             const lanes from_min = hn::Mul(factor, min[j]);
             const lanes from_max = hn::Mul(factor, max[j]);
@@ -56,7 +56,8 @@ HWY_INLINE void map_lanes(const frame_map<D>& map, const wide_node<D>& from, wid
         }
         low = hn::Sub(low, slack);
         high = hn::Add(high, slack);
-        // NaN, from infinity less infinity, says nothing. A side that faces inward stays finite.
+        // NaN, from infinity minus infinity, gives an infinite side. A side clamped inward stays
+        // finite.
         low = hn::IfThenElse(hn::Eq(low, low), hn::Min(low, largest), minus_infinity);
         high = hn::IfThenElse(hn::Eq(high, high), hn::Max(high, hn::Neg(largest)), infinity);
         hn::Store(hn::IfThenElse(in_use, low, infinity), d, to.min[k] + i);

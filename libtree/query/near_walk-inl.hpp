@@ -1,5 +1,5 @@
 /// \file
-/// The walk through a tree toward a query. Included once for each target of Highway.
+/// Traversal of a tree toward a query. Included once for each target of Highway.
 
 #if defined(TREEFORM_NEAR_WALK_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TREEFORM_NEAR_WALK_INL
@@ -26,8 +26,8 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Which boxes of `node` may hold something within `bound`, a bit each, and the squared distances
-/// of all of them; see `near_query` for what they prove.
+/// Bit mask of the boxes of `node` that may contain something within `bound`, and the squared
+/// distances of all boxes; for the guarantees see `near_bound`.
 template <std::size_t D>
 HWY_INLINE unsigned near_mask(const wide_node<D>& node, const std::array<float, D>& low,
                               const std::array<float, D>& high, float bound, float* squared) {
@@ -47,15 +47,15 @@ HWY_INLINE unsigned near_mask(const wide_node<D>& node, const std::array<float, 
         hn::StoreMaskBits(d, hn::Le(sum, hn::Set(d, bound)), bits);
         mask |= (bits[0] & ((1U << lanes) - 1)) << i;
     }
-    // Slots without a box are infinitely far, and so may others be from a query far off.
+    // Slots without a box are at infinite distance; so may be boxes far from the query.
     if (bound == std::numeric_limits<float>::infinity())
         for (unsigned i = 0; i < 8; ++i)
             if (!(node.min[0][i] <= node.max[0][i])) mask &= ~(1U << i);
     return mask;
 }
 
-/// Opens nodes in the order of `frontier` until none is left within `bound`; for leaf blocks calls
-/// `leaf(block, bound)`, which may lower the bound.
+/// Opens nodes in the order of `frontier` until none is left within `bound`. For leaf blocks it
+/// calls `leaf(block, bound)`, which may lower the bound.
 template <std::size_t D, class Frontier, class Leaf>
 HWY_INLINE void walk_near(const tree<D>& t, const near_query<D>& query, float bound,
                           Frontier& frontier, const Leaf& leaf) {
@@ -80,7 +80,7 @@ HWY_INLINE void walk_near(const tree<D>& t, const near_query<D>& query, float bo
     } while (frontier.pop(at, bound));
 }
 
-/// The slots in `mask`, those with the least `squared` first, ties by slot; returns their number.
+/// Sorts the slots in `mask` by `squared`, ties by slot, into `slots`; returns their number.
 HWY_INLINE std::size_t nearest_first(unsigned mask, const float* squared,
                                      std::array<std::uint8_t, 8>& slots) {
     std::size_t count = 0;

@@ -2,9 +2,9 @@
 /// \file
 /// Orders in which a nearness search opens nodes.
 ///
-/// An order has a frontier, which holds entries with a lower bound `lower` each. A search opens the
-/// entry that `pop` hands out, `push`es its children between `open` and `close`, and ends when
-/// `pop` returns false: then no entry is left whose bound is not above `bound`. Answers do not
+/// An order has a frontier: a container of entries, each with a lower bound `lower`. A search opens
+/// the entry that `pop` returns, `push`es its children between `open` and `close`, and ends when
+/// `pop` returns false, that is, when no entry with `lower` <= `bound` is left. Answers do not
 /// depend on the order.
 
 #include <algorithm>
@@ -14,8 +14,7 @@
 
 namespace treeform::strategy {
 
-/// Depth first, the children of one node by distance: entries never move once their node is
-/// closed.
+/// Depth first, the children of a node by distance: entries do not move after their node is closed.
 struct depth_first {
     template <class Entry, std::size_t Capacity>
     class frontier {
@@ -47,11 +46,11 @@ struct depth_first {
     };
 };
 
-/// A stack of which the top k entries are sorted after each node.
+/// A stack whose top k entries are sorted after each node.
 /// \source Sajovic, Knez and Korez, tf::tree, section III-D1
 struct top_k_sorted {
-    /// Entries to sort; 0 stands for the paper's choice, those pushed from the node and as many
-    /// more as it has children.
+    /// Number of entries to sort. 0: the paper's choice, the entries pushed from the node plus its
+    /// number of children.
     std::size_t k = 0;
 
     template <class Entry, std::size_t>
@@ -62,7 +61,7 @@ struct top_k_sorted {
 
         void open() { bottom_ = stack_.size(); }
         void push(const Entry& entry) { stack_.push_back(entry); }
-        /// `children`: how many the node has, pushed or not.
+        /// `children`: number of children of the node, pushed or not.
         void close(std::size_t children) {
             const std::size_t pushed = stack_.size() - bottom_;
             const std::size_t top = std::min(k_ != 0 ? k_ : pushed + children, stack_.size());

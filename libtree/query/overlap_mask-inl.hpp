@@ -1,5 +1,5 @@
 /// \file
-/// A box against the eight of a node. Included once for each target of Highway.
+/// Tests one box against the eight boxes of a node. Included once for each target of Highway.
 
 #if defined(TREEFORM_OVERLAP_MASK_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TREEFORM_OVERLAP_MASK_INL
@@ -24,9 +24,9 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Which boxes of `node` overlap box `slot` of `other`, a bit each. An empty slot overlaps nothing,
-/// not even [-inf, inf]: its min, +inf, exceeds every max as it is taken here, and no min of a box
-/// exceeds the largest float.
+/// Bit mask of the boxes of `node` that overlap box `slot` of `other`. An empty slot overlaps
+/// nothing, not even [-inf, inf]: its min, +inf, exceeds every max, which is clamped to the largest
+/// float here, and no min of a box exceeds the largest float.
 template <std::size_t D>
 HWY_INLINE unsigned overlap_mask(const wide_node<D>& node, const wide_node<D>& other,
                                  std::size_t slot) {
@@ -51,8 +51,8 @@ HWY_INLINE unsigned overlap_mask(const wide_node<D>& node, const wide_node<D>& o
     return mask;
 }
 
-/// The same for each slot of `other` in `wanted`: takes from `masks[slot]` what does not overlap
-/// it, and from the slots returned those of which nothing is left.
+/// The same for each slot of `other` in `wanted`: clears the bits of `masks[slot]` that do not
+/// overlap it. Returns the slots of `wanted` whose mask is not 0.
 template <std::size_t D>
 HWY_INLINE unsigned overlap_masks(const wide_node<D>& node, const wide_node<D>& other,
                                   unsigned wanted, unsigned* masks) {

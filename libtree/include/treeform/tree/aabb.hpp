@@ -12,8 +12,8 @@
 
 namespace treeform {
 
-/// A closed box [min, max] of D dimensions. A new one is empty (min = +inf, max = -inf): it
-/// overlaps nothing, and including it changes nothing.
+/// A closed box [min, max] of D dimensions. By default the box is empty (min = +inf, max = -inf):
+/// it overlaps nothing, and including it changes nothing.
 template <std::floating_point T, std::size_t D>
 struct aabb {
     using scalar = T;
@@ -22,21 +22,21 @@ struct aabb {
     std::array<T, D> min = filled(std::numeric_limits<T>::infinity());
     std::array<T, D> max = filled(-std::numeric_limits<T>::infinity());
 
-    /// Grows to hold `point`, anything with []. Coordinates are rounded to T, so a box of float may
-    /// miss a point of double by a rounding. A NaN coordinate makes the box empty for good; `build`
-    /// refuses such a box.
+    /// Grows to contain `point`, anything with []. Coordinates are rounded to T, so a box of floats
+    /// may miss a point of doubles by a rounding error. A NaN coordinate makes the box empty
+    /// permanently; `build` refuses such a box.
     template <class Point>
     constexpr void include(const Point& point) {
         for (std::size_t i = 0; i < D; ++i)
             widen(i, static_cast<T>(point[i]), static_cast<T>(point[i]));
     }
 
-    /// Grows to hold `other`.
+    /// Grows to contain `other`.
     constexpr void include(const aabb& other) {
         for (std::size_t i = 0; i < D; ++i) widen(i, other.min[i], other.max[i]);
     }
 
-    /// Whether the box holds no point.
+    /// Whether the box contains no point.
     [[nodiscard]] constexpr bool empty() const {
         for (std::size_t i = 0; i < D; ++i)
             if (!(min[i] <= max[i])) return true;
@@ -46,7 +46,7 @@ struct aabb {
     friend constexpr bool operator==(const aabb&, const aabb&) = default;
 
   private:
-    /// By value: std::min returns a reference, which becomes a branch nobody can predict.
+    /// By value: std::min returns a reference, which compiles to an unpredictable branch.
     constexpr void widen(std::size_t i, T low, T high) {
         min[i] = low < min[i] ? low : min[i];
         const bool higher = (max[i] < high) | (high != high);  // NaN stays
@@ -68,7 +68,7 @@ template <class T, std::size_t D>
     return true;
 }
 
-/// The squared distance of a point, anything with [], from a box; 0 in it.
+/// The squared distance of a point, anything with [], from a box; 0 inside.
 template <class T, std::size_t D, class Point>
 [[nodiscard]] constexpr double squared_distance(const aabb<T, D>& box, const Point& point) {
     double sum = 0.0;
@@ -93,7 +93,7 @@ template <class T, std::size_t D>
 }
 
 /// The affine map that takes a point x to M x + t. Row k of `rows` is [M[k][0] ... M[k][D-1],
-/// t[k]]. A new one is the identity. M may be any matrix: a rotation, a mirror, a shear, even
+/// t[k]]. By default the identity. M may be any matrix: a rotation, a mirror, a shear, even
 /// singular.
 template <std::size_t D>
 struct transform {
@@ -102,11 +102,11 @@ struct transform {
 
     std::array<row, D> rows = unit();
 
-    /// The image of `point`, anything with [] for coordinates to read and to write.
+    /// The image of `point`, a copyable type with [] that reads and writes coordinates.
     ///
     /// Coordinate k is ((M[k][0] x[0] + M[k][1] x[1]) + M[k][2] x[2]) + t[k], each product and each
-    /// sum rounded to double, unless the compiler may fuse them (`-ffp-contract`). Inside the
-    /// libraries it may not, so that every machine moves a point to the same place.
+    /// sum rounded to double, unless the compiler may fuse them (`-ffp-contract`). The libraries
+    /// are compiled without fusing, so that the image is the same on every machine.
     template <class Point>
     [[nodiscard]] constexpr Point operator()(const Point& point) const {
         Point moved = point;
@@ -126,7 +126,7 @@ struct transform {
         return result;
     }
 
-    /// First `inner`, then this one, in one map; its entries are rounded.
+    /// The composition: the map that applies `inner` first, then this map. Entries are rounded.
     [[nodiscard]] constexpr transform after(const transform& inner) const {
         transform result;
         for (std::size_t k = 0; k < D; ++k)
@@ -138,17 +138,16 @@ struct transform {
         return result;
     }
 
-    /// The map that undoes this one: m.inverse().after(m) is the identity, except for rounding. It
-    /// is exact for translations, exchanges of axes and scalings by powers of two.
+    /// The inverse map: m.inverse().after(m) is the identity, except for rounding. Exact for
+    /// translations, permutations of axes and scalings by powers of two.
     ///
-    /// \throws std::invalid_argument when this one is singular, by its rounded determinant, or when
-    ///         an entry of the result is not finite
+    /// \throws std::invalid_argument if the map is singular, by its rounded determinant, or if an
+    ///         entry of the result is not finite
     /// \source Cramer's rule
     [[nodiscard]] transform inverse() const requires(D == 2 || D == 3);
 
-    /// Whether the map turns what it moves over, as a mirror does: its determinant, as rounded, is
-    /// negative. A surface that is moved by it looks the other way, until its faces are turned
-    /// over.
+    /// Whether the map reverses orientation, like a mirror: its rounded determinant is negative.
+    /// Such a map turns a surface inside out, unless its faces are flipped.
     [[nodiscard]] constexpr bool mirrors() const requires(D == 2 || D == 3) {
         if constexpr (D == 2) {
             return rows[0][0] * rows[1][1] - rows[0][1] * rows[1][0] < 0.0;

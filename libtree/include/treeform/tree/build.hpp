@@ -1,8 +1,6 @@
 #pragma once
 /// \file
-/// Builds a tree over any range of elements that have boxes.
-///
-/// Checks the invariants of a tree.
+/// Builds a tree over any range of elements that have boxes. Checks the invariants of a tree.
 
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/build_records.hpp>
@@ -28,7 +26,7 @@
 namespace treeform {
 
 /// A selection algorithm for `build`: `partition(first, nth, last, less)` reorders [first, last) so
-/// that no element before `nth` is greater than one behind it.
+/// that no element before `nth` is greater than an element after it.
 template <class S>
 concept partition_strategy = requires(int* first, int* nth, int* last,
                                       bool (*less)(const int&, const int&)) {
@@ -170,7 +168,7 @@ void builder<D>::fill(tree<D>& tree, const Range& range, const MakeBox& make_aab
 
 namespace detail {
 
-/// Whether `ids` holds each of 0 ... N-1 once.
+/// Whether `ids` contains each of 0 ... N-1 once.
 [[nodiscard]] inline bool is_permutation(std::span<const std::uint32_t> ids) {
     std::vector<bool> seen(ids.size(), false);
     for (const std::uint32_t id : ids) {
@@ -184,9 +182,9 @@ namespace detail {
 template <class T, std::size_t D>
 [[nodiscard]] bool slot_holds(const wide_node<D>& node, std::size_t slot, const aabb<T, D>& box,
                               const tree_frame<D>& frame) {
-    // The exact image of the box lies within one rounding of what is computed here; a slot that
-    // holds the computed one without any slack was not rounded outward.
-    // An infinite side holds everything, also what overflows here.
+    // The exact image of the box differs from the computed one by at most one rounding; a slot that
+    // contains the computed box without slack was not rounded outward. An infinite side contains
+    // everything, even values that overflow here.
     constexpr float infinity = std::numeric_limits<float>::infinity();
     for (std::size_t k = 0; k < D; ++k) {
         const double lo = (static_cast<double>(box.min[k]) - frame.origin[k]) * frame.scale;
@@ -201,8 +199,8 @@ template <class T, std::size_t D>
 }  // namespace detail
 
 /// The reason why `tree` is not a valid tree over `boxes`, or none. In a valid tree the ids are a
-/// permutation, every leaf slot holds the box of its primitive, every inner slot the boxes below
-/// it, and no other slot is in use.
+/// permutation, every leaf slot contains the box of its primitive, every inner slot the boxes of
+/// its child, and no other slot is in use.
 template <std::size_t D, class T>
 [[nodiscard]] std::optional<std::string> why_malformed(const tree<D>& tree,
                                                        std::span<const aabb<T, D>> boxes) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Trees over only those primitives that reach into a box.
+/// Trees over only the primitives that reach into a box.
 
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/build.hpp>
@@ -59,8 +59,8 @@ template <std::size_t D>
 }
 
 /// Calls `use(state, i, box)` for the elements of each chunk of `grain` in order, with the box of
-/// element i in double, and returns the states. A block of boxes is made before the first is looked
-/// at: so no branch waits for an element that comes from anywhere in memory.
+/// element i in double, and returns the states. A block of boxes is computed before the first is
+/// tested, so that no branch waits for an element from memory.
 ///
 /// \throws std::invalid_argument naming the element whose box is not finite or is empty
 template <class State, class Range, class MakeBox, class Use>
@@ -154,14 +154,15 @@ void refuse_too_many(const char* function, const Range& range) {
 }  // namespace detail
 
 /// The tree over the elements of `range` whose boxes meet `within` (touching counts). Its `ids()`
-/// are positions in the whole range. A search for anything inside that box finds the same as in a
-/// tree over all.
+/// are positions in the whole range. A search for anything inside that box has the same result as
+/// in a tree over all elements.
 ///
-/// An empty box keeps nothing, an infinite box everything.
+/// With an empty box the tree is empty; with an infinite box it has all elements.
 ///
-/// \throws std::invalid_argument as `build`, also for elements that are left out, or when `within`
-///         has a coordinate that is NaN
-/// \cost   O(N), parallel, with one call of `make_aabb` an element; and a build of those kept
+/// \throws std::invalid_argument as `build`, also for elements outside the box; if `within` has a
+///         NaN coordinate
+/// \cost   O(N), parallel, with one call of `make_aabb` for each element; plus a `build` of the
+///         elements kept
 /// \same   on any number of threads
 template <std::ranges::random_access_range Range, class MakeBox, std::floating_point T,
           std::size_t D>
@@ -178,12 +179,13 @@ requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>>
     return detail::tree_over<D>(kept.ids, range, make_aabb);
 }
 
-/// Two trees for a search of pairs: over the elements of `b` whose boxes meet the box around all of
-/// `a`, and over those of `a` that meet the box around these. A search finds the same pairs as with
-/// trees over all. Both trees are empty when the boxes around `a` and `b` are disjoint.
+/// Two trees for a search of pairs, as std::pair(tree of a, tree of b). The tree of `b` has the
+/// elements whose boxes meet the box around all of `a`; the tree of `a` has those that meet the box
+/// around these elements of `b`. A search finds the same pairs as with trees over all elements.
+/// Both trees are empty if the boxes around `a` and `b` are disjoint.
 ///
 /// \throws std::invalid_argument as `build_within`
-/// \cost   two linear passes over `a` and one over `b`, and the builds of those kept
+/// \cost   two linear passes over `a` and one over `b`, plus the builds over the elements kept
 /// \same   on any number of threads
 template <std::ranges::random_access_range A, class MakeBoxA, std::ranges::random_access_range B,
           class MakeBoxB>

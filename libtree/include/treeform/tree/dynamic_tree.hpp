@@ -46,21 +46,22 @@ struct update_counts {
 ///
 /// It consists of a few packed trees, each at least four times as large as the next.
 /// - A primitive that moves a little is updated in its slot. "A little" means within the box of its
-///   neighborhood, the up to 64 primitives around it in leaf order, when their tree was built,
-///   widened by a quarter. So no box above the leaf blocks grows by more.
-/// - Any other primitive that moves, and one that is removed, leaves an empty slot, which does not
-///   slow down searches. A tree with more empty slots than full ones is dissolved.
-/// - New primitives and those of dissolved trees form a new tree, together with the trees that are
-///   less than four times as large.
+///   neighborhood (up to 64 primitives around it in leaf order) at the time when their tree was
+///   built, widened by a quarter. So no box above the leaf blocks grows by more.
+/// - A primitive that moves further, or is removed, leaves an empty slot, which does not slow down
+///   searches. A tree with more empty slots than full ones is dissolved.
+/// - New primitives, those that moved further, and those of dissolved trees form a new tree,
+///   together with the trees that are less than four times as large.
 ///
 /// So there are always at most 2 + log4(N / 32) trees, each at least half full. Searches usually
 /// open up to 3 times as many nodes as in a new tree.
 ///
-/// \cost   About 90 bytes a primitive in space. An update of K primitives costs O(K log N), and a
-///         sweep over N / 8 bytes where K is above N / 128; amortized over all updates, the builds
-///         take at most 64 + 3.2 log2 N primitives for each that is inserted or moved beyond its
-///         neighborhood, one at a time, far fewer in batches, and 5 for each that is removed.
-///         A batch of N / 10 such moves costs a build of N / 10, and each third a build of all
+/// \cost   About 90 bytes a primitive in space. An update of K primitives costs O(K log N), plus a
+///         pass over N / 8 bytes if K is above N / 128, plus builds. Amortized over all updates,
+///         the builds have at most 64 + 3.2 log2 N primitives for each primitive that is inserted,
+///         or moved beyond its neighborhood, one at a time (far fewer in batches), and 5 for each
+///         that is removed. A batch of N / 10 such moves costs a build of N / 10 primitives, and
+///         every third batch a build of all
 /// \same   on any number of threads
 /// \source the logarithmic method of Bentley and Saxe, Decomposable Searching Problems I, J.
 ///         Algorithms 1 (1980); refits after van den Bergen, JGT 2 (1997)
@@ -81,7 +82,7 @@ class TREEFORM_API dynamic_tree {
     /// one, the elements are boxes.
     ///
     /// \throws std::invalid_argument naming the element whose box is not finite or is empty; for
-    ///         too many elements; then nothing was changed
+    ///         too many elements; the tree is then unchanged
     std::vector<std::uint32_t> insert(std::span<const box_type> boxes);
     template <std::ranges::random_access_range Range, class MakeBox = std::identity>
     std::vector<std::uint32_t> insert(const Range& range, const MakeBox& make_aabb = {}) {
@@ -90,14 +91,14 @@ class TREEFORM_API dynamic_tree {
 
     /// Removes the primitives `ids`.
     ///
-    /// \throws std::invalid_argument naming an id that does not exist or is repeated; then nothing
-    ///         was changed
+    /// \throws std::invalid_argument naming an id that does not exist or is repeated; the tree is
+    ///         then unchanged
     void remove(std::span<const std::uint32_t> ids);
 
     /// Gives primitive `ids[i]` the box of element i of `range`, or `boxes[i]`.
     ///
     /// \throws std::invalid_argument as `remove`; naming the id whose new box is not finite or is
-    ///         empty; unless there is one box for each id; then nothing was changed
+    ///         empty; unless there is one box for each id; the tree is then unchanged
     void move(std::span<const std::uint32_t> ids, std::span<const box_type> boxes);
     template <std::ranges::random_access_range Range, class MakeBox = std::identity>
     void move(std::span<const std::uint32_t> ids, const Range& range,
@@ -108,7 +109,7 @@ class TREEFORM_API dynamic_tree {
     /// Number of present primitives.
     [[nodiscard]] std::size_t size() const { return id_end_ - free_.size(); }
     [[nodiscard]] bool empty() const { return size() == 0; }
-    /// All ids are below this: the size for arrays indexed by id.
+    /// Upper bound of ids, exclusive: the size for arrays indexed by id.
     [[nodiscard]] std::size_t id_end() const { return id_end_; }
     [[nodiscard]] bool contains(std::uint32_t id) const {
         return id < id_end_ && where_[id].place != detail::no_primitive;
@@ -130,8 +131,8 @@ class TREEFORM_API dynamic_tree {
     struct packed {
         tree<D> boxes;
         std::size_t live = 0;          ///< slots that are not empty
-        std::vector<box_type> limits;  ///< of the neighborhoods, as far as their primitives may go
-        bool changed = true;           ///< since the top was last right
+        std::vector<box_type> limits;  ///< of the neighborhoods: where their primitives may move
+        bool changed = true;           ///< since `top_` was last updated
 
         [[nodiscard]] unsigned neighborhood_level() const;
         void set_limits();
@@ -154,9 +155,9 @@ class TREEFORM_API dynamic_tree {
     detail::buffer<box_type> boxes_;   ///< by id, with room for more
     detail::buffer<location> where_;   ///< by id, with room for more
     std::vector<std::uint32_t> free_;  ///< ids that are not in use
-    std::vector<packed> parts_;        ///< those not in use have no slots
-    std::vector<box_type> roots_;      ///< around each part; empty of those not in use
-    tree<D> top_;                      ///< over these
+    std::vector<packed> parts_;        ///< unused ones have no slots
+    std::vector<box_type> roots_;      ///< box of each part; empty if the part is unused
+    tree<D> top_;                      ///< over `roots_`
     detail::update_counts counts_;
 };
 

@@ -29,13 +29,13 @@ namespace treeform {
 /// A tree over blocks of `block_size` consecutive elements of a range. A block becomes a tree when
 /// a search first visits its box. Results are those of a tree over all elements.
 ///
-/// It pays off if consecutive elements are near each other, as in most meshes, and searches visit
-/// few blocks: a test of two meshes for contact computes every box, but builds only some blocks. If
+/// This pays off if consecutive elements are near each other, as in most meshes, and searches visit
+/// few blocks: a contact test of two meshes computes every box, but builds only some blocks. If
 /// blocks turn out to be about as wide as the whole, as for elements in random order, everything is
 /// built at once instead. For searches that visit most blocks, such as all pairs, or for many
 /// searches, `build` is better.
 ///
-/// A `tree_of_trees`, which the searches of search.hpp, nearness.hpp, ray.hpp, ... take. Searches
+/// A `tree_of_trees`, which the searches of search.hpp, nearness.hpp, ray.hpp, ... accept. Searches
 /// may run on several threads at once: each block is built once, and threads that need it meanwhile
 /// wait. Which blocks are built may depend on the threads; results do not.
 template <std::size_t D>
@@ -44,8 +44,8 @@ class lazy_tree {
     static constexpr std::size_t dimensions = D;
     static constexpr std::size_t block_size = 4096;
 
-    /// \pre    `range` and what `make_aabb` refers to outlive the tree and do not change; calls of
-    ///         `make_aabb` come from several threads
+    /// \pre    `range`, and everything that `make_aabb` refers to, outlives the tree and does not
+    ///         change; `make_aabb` may be called from several threads at once
     /// \throws std::invalid_argument naming the element whose box is not finite or is empty
     /// \cost   O(N), with one call of `make_aabb` for each element, and another for elements of
     ///         blocks that are built
@@ -70,7 +70,7 @@ class lazy_tree {
         if (at_once) per_block_ = size_;
         parts_ = std::make_unique<block[]>(chunk_count(size_, per_block_));
         if (at_once) {
-            (void)part(0);  // not in a search: no thread may wait for a build on all of them
+            (void)part(0);  // now: searching threads must not wait for such a long build
             const box all = detail::box_of_root(parts_[0].boxes);
             top_ = detail::tree_in_order(std::span(&all, 1));
         } else {
@@ -105,14 +105,14 @@ class lazy_tree {
         tree<D> boxes;
     };
 
-    /// The sum of the extents of a box, scaled down: finite.
+    /// The sum of the extents of a box, scaled down to be finite.
     static double extent(const box& of) {
         double sum = 0.0;
         for (std::size_t k = 0; k < D; ++k) sum += 0x1p-10 * of.max[k] - 0x1p-10 * of.min[k];
         return sum;
     }
 
-    /// Whether blocks, by samples of up to 32 of them, reach half as far as the whole on average.
+    /// Whether blocks, in a sample of up to 32, are on average at least half as wide as the whole.
     template <class Range, class MakeBox>
     [[nodiscard]] bool is_loose(const Range& range, const MakeBox& make_aabb) const {
         constexpr std::size_t samples = 32;

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// What of a tree of any kind is near a point, a box, or anything that has a box: the nearest
-/// primitive, the k nearest, all within a radius.
+/// Nearness searches in any kind of tree: the primitive nearest to a point or a box, the k nearest,
+/// all within a radius.
 
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/answers.hpp>
@@ -23,19 +23,19 @@
 
 namespace treeform {
 
-/// The order in which nodes are opened. Answers are the same for each, times are not.
+/// The order in which nodes are opened. It affects the time, not the results.
 enum class node_order : std::uint8_t {
     depth_first,   ///< the children of one node by distance
-    top_k_sorted,  ///< a stack, the top of which is sorted after each node, as in the paper
-    best_first     ///< the nearest of all that are not opened yet: opens the fewest nodes
+    top_k_sorted,  ///< a stack whose top is sorted after each node, as in the paper
+    best_first     ///< the nearest of all unopened nodes first: opens the fewest nodes
 };
 
-/// A radius that leaves nothing out. No radius is squared, and all are inclusive: the root of an
-/// answer's squared distance is at most this.
+/// An infinite radius, which excludes nothing. Radii are not squared, and inclusive: the root of an
+/// answer's squared distance is at most the radius.
 inline constexpr double any_distance = std::numeric_limits<double>::infinity();
 
-/// What a search measures from: a box `treeform::aabb<T, D>`, or a point, which is anything else
-/// with [].
+/// The query, from which distances are measured: a box `treeform::aabb<T, D>`, or a point, which is
+/// anything else with [].
 template <class Q, std::size_t D>
 concept nearness_query = requires(const Q& q) {
     { q.min[D - 1] } -> std::convertible_to<double>;
@@ -47,7 +47,7 @@ concept nearness_query = requires(const Q& q) {
 
 namespace detail {
 
-/// Calls `visit` as `visit_near` does, from the bound `squared` on.
+/// Calls `visit` as `visit_near` does, starting with the bound `squared`.
 template <std::size_t D>
 TREEFORM_API void walk_near(const tree<D>& tree, const aabb<double, D>& query, double squared,
                             node_order order, function_ref<double(std::uint32_t)> visit);
@@ -78,7 +78,8 @@ template <std::size_t D, nearness_query<D> Query>
     return box;
 }
 
-/// The answer for a primitive that is asked about often: nearer, or as near with a lower number.
+/// Keeps the best answer of those offered: the nearest; of equally near ones, that of the lowest
+/// id.
 template <class Answer>
 class nearest_one {
   public:
@@ -102,18 +103,18 @@ class nearest_one {
 
 }  // namespace detail
 
-/// Calls `visit(id)` for every primitive near `query`, the nearest boxes first, as a rule. What
-/// `visit` returns is the bound from there on: a squared distance. Primitives that are further than
-/// the bound are skipped where their boxes prove it, others may be visited as well; those at the
-/// bound are not skipped. The first bound is that of `radius`.
+/// Calls `visit(id)` for every primitive near `query`, usually the nearest boxes first. `visit`
+/// returns the new bound, a squared distance; the first bound is `radius` squared. Primitives are
+/// skipped if their boxes are further away than the bound; primitives at the bound are visited, and
+/// some beyond it may be.
 ///
 /// \throws std::invalid_argument for a query that is not finite or an empty box, or a radius that
 ///         is negative or NaN
 /// \cost   O(log N + nodes within the final bound) for most queries; serial; no allocation with the
-///         default order. Boxes are compared as floats: a query further off than some 1e5
-///         times the extent of the tree cannot tell them apart, and visits many
-/// \same   the primitives visited depend on the order and the processor, those within the bound
-///         are always among them
+///         default order. Boxes are compared as floats: from a query further away than about 1e5
+///         times the extent of the tree they look equally near, and many are visited
+/// \same   primitives within the final bound are always visited; which others are visited depends
+///         on the order and the processor
 /// \source Sajovic, Knez and Korez, tf::tree, section III-D; eight boxes at a time
 template <any_tree Tree, nearness_query<Tree::dimensions> Query, class Visit>
 requires std::is_invocable_r_v<double, const Visit&, std::uint32_t>
@@ -123,17 +124,17 @@ void visit_near(const Tree& tree, const Query& query, const Visit& visit,
                       detail::squared_radius("treeform::visit_near", radius), order, visit);
 }
 
-/// The nearest primitive, of equally near ones that of the lowest number; none when the tree is
-/// empty or all are beyond the radius.
+/// The nearest primitive; of equally near ones, that of the lowest number. None if the tree is
+/// empty or all primitives are beyond the radius.
 ///
-/// `distance_of(id)` is the squared distance from the query to a primitive: a number, or a struct
-/// with a member `squared_distance`, which comes back in the answer with whatever else it holds.
-/// It may be wrong by 2^-22 of itself; the answer is the least of what it returns. NaN is beyond
-/// any radius. It is asked for primitives in no particular order, and at most once for each.
+/// `distance_of(id)` returns the squared distance from the query to a primitive: a number, or a
+/// struct with a member `squared_distance`, which becomes `neighbor::answer`. Its relative error
+/// may be up to 2^-22; the result is the least value returned. NaN counts as beyond any radius. It
+/// is called in no particular order, at most once for each primitive.
 ///
 /// \throws std::invalid_argument as `visit_near`
 /// \cost   as `visit_near`
-/// \same   as a loop over all primitives, whatever the order
+/// \same   as a loop over all primitives, for any `order`
 template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceOf>
 [[nodiscard]] auto nearest(const Tree& tree, const Query& query, const DistanceOf& distance_of,
                            double radius = any_distance,
@@ -148,12 +149,12 @@ template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceO
     return one.best;
 }
 
-/// The k nearest primitives, ascending by distance, then by number; fewer when the tree holds
-/// fewer or they are beyond the radius. See `nearest` for `distance_of`.
+/// The k nearest primitives, ascending by distance, then by number; fewer if fewer are within the
+/// radius. See `nearest` for `distance_of`.
 ///
 /// \throws std::invalid_argument as `visit_near`
-/// \cost   as `visit_near`, O(log k) more for each primitive that is among the k nearest so far
-/// \same   as sorting all primitives, whatever the order
+/// \cost   as `visit_near`, plus O(log k) for each primitive that is among the k nearest so far
+/// \same   as sorting all primitives, for any `order`
 template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceOf>
 [[nodiscard]] auto k_nearest(const Tree& tree, const Query& query, std::size_t k,
                              const DistanceOf& distance_of, double radius = any_distance,
@@ -174,7 +175,7 @@ template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceO
 ///
 /// \throws std::invalid_argument as `visit_near`
 /// \cost   as `visit_near`, and O(A log A) for A answers
-/// \same   as a loop over all primitives, whatever the order
+/// \same   as a loop over all primitives, for any `order`
 template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceOf>
 [[nodiscard]] auto all_within(const Tree& tree, const Query& query, double radius,
                               const DistanceOf& distance_of,

@@ -23,7 +23,7 @@ namespace treeform {
 
 namespace detail {
 
-/// Queries that one thread answers in a row, each helped by the answer to the one before.
+/// Number of consecutive queries for one thread; the answer of each bounds the search of the next.
 inline constexpr std::size_t queries_per_chunk = 256;
 
 template <std::ranges::random_access_range Range>
@@ -31,7 +31,7 @@ template <std::ranges::random_access_range Range>
     return std::ranges::begin(range)[static_cast<std::ranges::range_difference_t<Range>>(i)];
 }
 
-/// The order in which queries are answered: neighbors in space one after the other.
+/// An order in which queries that are near each other in space follow each other.
 /// \throws std::invalid_argument naming the first query that is not finite or an empty box
 template <std::size_t D, std::ranges::random_access_range Queries>
 [[nodiscard]] std::vector<std::uint32_t> order_of_queries(const Queries& queries) {
@@ -67,13 +67,13 @@ template <std::size_t D, class Queries, class Search>
 
 }  // namespace detail
 
-/// [Q] `nearest` for each of `queries`, in their order; `distance_of(query, id)` gets the number of
-/// the query as well, and is called by several threads at once.
+/// [Q] `nearest` for each of `queries`, in their order; `distance_of(query, id)` also gets the
+/// number of the query, and is called from several threads at once.
 ///
 /// \throws std::invalid_argument as `nearest`, naming the query
-/// \cost   O(Q) beyond the searches, which run in parallel and in the order of space, so that each
-///         finds in the cache what the one before has read, and is bounded by its answer
-/// \same   on any number of threads: as calling `nearest` for each
+/// \cost   O(Q) plus the searches, which run in parallel and in spatial order, so that each reuses
+///         the cached nodes of the previous one, and is bounded by its answer
+/// \same   on any number of threads; the same result as `nearest` for each query
 template <any_tree Tree, std::ranges::random_access_range Queries, class DistanceOf>
 [[nodiscard]] auto nearest_batch(const Tree& tree, const Queries& queries,
                                  const DistanceOf& distance_of, double radius = any_distance,
@@ -104,11 +104,11 @@ template <any_tree Tree, std::ranges::random_access_range Queries, class Distanc
     return found;
 }
 
-/// `k_nearest` for each of `queries`, in their order. See `nearest_batch`.
+/// [Q] lists: `k_nearest` for each of `queries`, in their order. See `nearest_batch`.
 ///
 /// \throws std::invalid_argument as `nearest`
 /// \cost   as `nearest_batch`
-/// \same   on any number of threads: as calling `k_nearest` for each
+/// \same   on any number of threads; the same result as `k_nearest` for each query
 template <any_tree Tree, std::ranges::random_access_range Queries, class DistanceOf>
 [[nodiscard]] auto k_nearest_batch(const Tree& tree, const Queries& queries, std::size_t k,
                                    const DistanceOf& distance_of, double radius = any_distance,
@@ -120,11 +120,11 @@ template <any_tree Tree, std::ranges::random_access_range Queries, class Distanc
     });
 }
 
-/// `all_within` for each of `queries`, in their order. See `nearest_batch`.
+/// [Q] lists: `all_within` for each of `queries`, in their order. See `nearest_batch`.
 ///
 /// \throws std::invalid_argument as `all_within`
 /// \cost   as `nearest_batch`
-/// \same   on any number of threads: as calling `all_within` for each
+/// \same   on any number of threads; the same result as `all_within` for each query
 template <any_tree Tree, std::ranges::random_access_range Queries, class DistanceOf>
 [[nodiscard]] auto all_within_batch(const Tree& tree, const Queries& queries, double radius,
                                     const DistanceOf& distance_of) {

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Two trees of any kind: the nearest pair of primitives, one of each, and the k nearest.
+/// Nearness searches of two trees of any kind: the nearest pair of primitives, one of each tree,
+/// and the k nearest pairs.
 
 #include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/near_pair_walk.hpp>
@@ -23,7 +24,7 @@ namespace treeform {
 
 namespace detail {
 
-/// Adds the nearest pairs of two trees to those `found`.
+/// Adds the nearest pairs of two trees to `found`.
 template <bool has_empty_slots, std::size_t D, class Kept, class DistanceOf>
 [[nodiscard]] Kept nearest_pairs(const transformed<D>& a, const transformed<D>& b, std::size_t k,
                                  Kept found, const DistanceOf& distance_of) {
@@ -52,8 +53,8 @@ template <bool has_empty_slots, std::size_t D, class Kept, class DistanceOf>
         });
 }
 
-/// The same by parts of two trees of trees: the nearest first, one pair of them after the other, so
-/// that what is kept depends on no timing.
+/// The same for the parts of two trees of trees: pairs of parts one after the other, the nearest
+/// first, so that the result does not depend on timing.
 template <std::size_t D, class A, class B, class Kept, class DistanceOf>
 [[nodiscard]] Kept nearest_pairs_of_parts(const transformed<D, A>& first,
                                           const transformed<D, B>& second, std::size_t k,
@@ -86,19 +87,21 @@ template <std::size_t D, class A, class B, class Kept, class DistanceOf>
 /// ascending by distance, then by their numbers; fewer when there are fewer within `radius` (not
 /// squared, inclusive).
 ///
-/// `distance_of(a, b)` is the squared distance of two primitives, as in `nearest`; it is called by
-/// several threads at once, and for no pair twice. Either tree may be treated as transformed
-/// (`treeform::transformed`): then `distance_of` is about the moved primitives.
+/// `distance_of(a, b)` returns the squared distance of two primitives, as in `nearest`. It is
+/// called from several threads at once, at most once for each pair. Either tree may be
+/// `transformed`; `distance_of` must then return distances of the moved primitives.
 ///
-/// Nothing is passed over but pairs whose boxes prove them further than k found ones. Only a
-/// distance of exactly zero ends the search early: when more than k pairs touch, k of them are
+/// Pairs are only skipped if their boxes prove that they are further apart than k pairs found so
+/// far. The search ends early only at distance zero: if more than k pairs touch, k of them are
 /// returned, the same in every run.
 ///
-/// \throws std::invalid_argument when the radius is negative or NaN
-/// \cost   O(log N) nodes where the nearest pair is clear, more where much of both is about as near
+/// \throws std::invalid_argument if the radius is negative or NaN
+/// \cost   O(log N) nodes if one pair is clearly the nearest; more if large parts of both are about
+///         equally near
 /// \same   on any number of threads
-/// \source Sajovic, Knez and Korez, tf::tree, section III-D, less its bound from above by the
-///         boxes, which their contents need not keep; the larger box is opened, eight at a time
+/// \source Sajovic, Knez and Korez, tf::tree, section III-D, without its upper bound from boxes,
+///         which does not hold for primitives smaller than their boxes; the larger box is opened,
+///         eight children at a time
 template <any_placed_tree A, any_placed_tree B, class DistanceOf>
 [[nodiscard]] auto k_nearest_pairs(const A& first, const B& second, std::size_t k,
                                    const DistanceOf& distance_of,
@@ -117,8 +120,8 @@ template <any_placed_tree A, any_placed_tree B, class DistanceOf>
     return std::move(found.sorted());
 }
 
-/// The nearest pair, of equally near ones that of the lowest numbers, but of those at distance zero
-/// any, the same in every run; none when a tree is empty or all are beyond the radius. See
+/// The nearest pair; of equally near pairs, that of the lowest numbers; of pairs at distance zero,
+/// any, but the same in every run. None if a tree is empty or all pairs are beyond the radius. See
 /// `k_nearest_pairs`.
 template <any_placed_tree A, any_placed_tree B, class DistanceOf>
 [[nodiscard]] auto nearest_pair(const A& a, const B& b, const DistanceOf& distance_of,

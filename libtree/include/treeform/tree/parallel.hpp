@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Parallel loops, work that is done once, progress of long work.
+/// Parallel loops, work that is done once, progress callbacks.
 
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
@@ -19,7 +19,7 @@ using progress_callback = std::function<bool(double done)>;
 /// Cuts [0, count) into chunks [begin, end) of `grain` elements (the last may be shorter), and runs
 /// `body(begin, end, chunk)` once for each, in parallel and in any order. Chunks are numbered from
 /// 0. Returns when all are done. If a body throws, the exception (one of them, if several throw) is
-///    rethrown, and chunks that have not begun may be skipped.
+/// rethrown, and chunks that have not begun may be skipped.
 ///
 /// \pre  grain > 0
 /// \cost a few microseconds a call beyond the first chunk; loops of one chunk run in place

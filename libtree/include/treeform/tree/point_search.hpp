@@ -25,7 +25,7 @@
 
 namespace treeform {
 
-/// A point of the cloud that is near a query, and how far it is.
+/// A point of the cloud near a query, and its distance.
 struct near_point {
     std::uint32_t id = 0;
     double distance = 0.0;  ///< not squared
@@ -34,26 +34,26 @@ struct near_point {
 
 /// A tree over N points, with a copy of their coordinates in leaf order.
 ///
-/// Distances are computed in double. A squared distance is right to 2^-50 of itself, or to 1e-150
-/// times the larger of the query and the cloud where that is more. Equally near points are ordered
-/// by number. Points may be equal.
+/// Distances are computed in double. The relative error of a squared distance is at most 2^-50; a
+/// distance below 1e-150 times the largest coordinate of the query and the cloud may be wrong by
+/// that much. Equally near points are ordered by number. Points may be equal.
 ///
 /// Queries are const and may run on any threads. `radius` is inclusive and not squared.
 /// Coordinates of a query that are not finite, or a negative radius, throw std::invalid_argument.
 ///
 /// \cost   56 bytes a point in space, 40 in the plane. A search opens O(log N + k) nodes for most
-///         queries; many when the query is further away than 1e5 times the extent of the cloud
+///         queries; many if the query is further away than 1e5 times the extent of the cloud
 /// \source the tree and its search: nearness.hpp
 template <std::size_t D>
 class TREEFORM_API point_search {
   public:
     using point = std::array<double, D>;
 
-    /// No points: every search finds nothing.
+    /// An empty cloud, in which searches find nothing.
     point_search() = default;
 
-    /// The points of any range; copies the coordinates. `position_of` gives the position of an
-    /// element, anything with []. It is a function or a member, as in
+    /// Copies the coordinates of the points of any range. `position_of` returns the position of an
+    /// element, anything with []. It is a function or a pointer to a member, as in
     /// `point_search<3>(stars, &star::at)`.
     ///
     /// \throws std::invalid_argument naming the first point that is not finite
@@ -72,10 +72,11 @@ class TREEFORM_API point_search {
     }
 
     [[nodiscard]] std::size_t size() const { return tree_.size(); }
-    /// The tree over the points, valid as long as this. Its ids are the numbers of the points.
+    /// The tree over the points, valid during the lifetime of this object. Its ids are the numbers
+    /// of the points.
     [[nodiscard]] const tree<D>& points_tree() const { return tree_; }
 
-    /// The nearest point, none when all are beyond the radius.
+    /// The nearest point; none if all are beyond the radius.
     [[nodiscard]] std::optional<near_point> nearest(const point& query,
                                                     double radius = any_distance) const;
     /// The k nearest points, nearest first.
@@ -84,16 +85,16 @@ class TREEFORM_API point_search {
     /// All points within `radius`, nearest first.
     [[nodiscard]] std::vector<near_point> all_within(const point& query, double radius) const;
 
-    /// The same for many queries in parallel; answers in the order of the queries, and the same as
-    /// those of single searches.
+    /// [Q] The same for many queries in parallel, in the order of the queries, with the same
+    /// results as single searches.
     [[nodiscard]] answer_lists<near_point> k_nearest(std::span<const point> queries, std::size_t k,
                                                      double radius = any_distance) const;
     [[nodiscard]] answer_lists<near_point> all_within(std::span<const point> queries,
                                                       double radius) const;
 
     /// All pairs of points within `radius` of each other, ascending, each once with the lower
-    /// number first. None when `progress` asked to stop; it gets 0, as it is not known how much is
-    /// left.
+    /// number first. None if `progress` returned false; it is always called with 0, since the
+    /// remaining work is unknown.
     ///
     /// \cost   O(N log N + P) for P pairs whose points are within about twice the radius; 90 bytes
     ///         a point
@@ -106,7 +107,7 @@ class TREEFORM_API point_search {
     void copy(const Points& points, const Position& position_of);
 
     tree<D> tree_;
-    /// [blocks][D][8] in leaf order; NaN in slots without a point, which is near nothing.
+    /// [blocks][D][8] in leaf order; NaN in slots without a point, so that they are never found.
     detail::buffer<double> coordinates_;
     double largest_ = 0.0;  ///< magnitude of a coordinate
 };

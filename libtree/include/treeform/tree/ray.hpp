@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Ray casting in any kind of tree: the first hit, all hits, any hit. Two trees of which one moves
-/// along a line: the pairs that may meet first.
+/// Ray casting in any kind of tree: the first hit, all hits, any hit. Sweeps of two trees, of which
+/// one moves along a line: the pairs that may meet first.
 
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
@@ -21,8 +21,8 @@
 namespace treeform {
 
 /// The points origin + t direction for t_min <= t <= t_max. By default a ray; with a finite t_max a
-/// segment, with t_min = -inf a line. The direction need not have length 1; t is in its lengths.
-/// With a zero direction it is a point, with t_min > t_max it is empty.
+/// segment, with t_min = -inf a line. The direction need not have length 1; t is in units of its
+/// length. With a zero direction, the ray is a point; with t_min > t_max, it is empty.
 template <std::floating_point T, std::size_t D>
 struct ray {
     std::array<T, D> origin{};
@@ -31,7 +31,7 @@ struct ray {
     T t_max = std::numeric_limits<T>::infinity();
 };
 
-/// A primitive that a ray hits, and what the caller's `hit_of` returned for it.
+/// A primitive that a ray hits, and the value that the caller's `hit_of` returned for it.
 template <class Hit>
 struct ray_hit {
     std::uint32_t id;
@@ -89,8 +89,8 @@ template <std::floating_point T, std::size_t D>
 /// enters later are skipped, and -inf ends the search.
 ///
 /// No box is missed because of rounding: not for zero, tiny or huge components, not for boxes that
-/// the ray only touches, not for an origin far away. What `visit` returns may be too small by 2^-40
-/// of itself.
+/// the ray only touches, not for an origin far away. The returned t_max may be too small by a
+/// relative error of 2^-40.
 ///
 /// \throws std::invalid_argument for an origin or direction that is not finite, or a NaN parameter
 /// \cost   O(log N + boxes met) for most rays; serial; no allocation
@@ -107,12 +107,12 @@ void visit_along(const Tree& tree, const ray<T, Tree::dimensions>& ray, const Vi
 /// The hit with the least t; of equal t, that of the lowest primitive. None if there is no hit.
 ///
 /// `hit_of(id)` returns whether and where the ray hits a primitive: a `std::optional` of a number
-/// t, or of a struct with a member t. A t outside [t_min, t_max], or NaN, is no hit. A hit has to
-/// lie in the primitive's box, and its t may be wrong by at most 2^-40 of itself.
+/// t, or of a struct with a member t. A t outside [t_min, t_max], or NaN, is no hit. A hit must lie
+/// in the primitive's box, and the relative error of its t must be at most 2^-40.
 ///
 /// \throws std::invalid_argument as `visit_along`
 /// \cost   O(log N + boxes entered before the hit) for most rays
-/// \same   as a loop over all primitives, whatever the order of the tree
+/// \same   as a loop over all primitives, for any order of the tree
 template <any_tree Tree, std::floating_point T, class HitOf>
 [[nodiscard]] auto first_hit(const Tree& tree, const ray<T, Tree::dimensions>& ray,
                              const HitOf& hit_of) {
@@ -164,7 +164,8 @@ template <any_tree Tree, std::floating_point T, class HitOf>
 ///
 /// \throws std::invalid_argument as `visit_along`
 /// \cost   at most that of `all_hits`
-/// \same   as `first_hit` in its answer; which primitives are asked may depend on the processor
+/// \same   as `first_hit` in its answer; for which primitives `hit_of` is called may depend on the
+///         processor
 template <any_tree Tree, std::floating_point T, class HitOf>
 [[nodiscard]] bool any_hit(const Tree& tree, const ray<T, Tree::dimensions>& ray,
                            const HitOf& hit_of) {

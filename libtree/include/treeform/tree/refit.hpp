@@ -25,14 +25,14 @@ namespace treeform {
 
 /// [N] the place of each primitive in leaf order: the inverse of `tree.ids()`.
 ///
-/// \pre  the tree is as `build` made it
+/// \pre  the tree has no empty slots (`build` makes none)
 /// \same on any number of threads
 template <std::size_t D>
 [[nodiscard]] TREEFORM_API std::vector<std::uint32_t> places_of(const tree<D>& tree);
 
 /// How expensive a tree is to search: the sum of the extents of all node boxes, divided by those of
-/// the root. That is how many nodes a random plane (in 2D: line) through the root's box opens on
-/// average. 1 for a tree of one node, or when all primitives are one point.
+/// the root. This is the number of nodes that a random plane (in 2D: line) through the root's box
+/// opens on average. 1 for a tree of one node, or if all primitives are the same point.
 ///
 /// Compare it with the value after the build: searches open more nodes in about this ratio. From a
 /// ratio of 1.3 on, a rebuild pays off after a few searches for all primitives.
@@ -60,9 +60,9 @@ void check_size(const tree<D>& tree, const Range& range) {
                                 " is empty or not finite");
 }
 
-/// Calls `write(writer, i)` for i in [0, count), which `put`s boxes until one is not sound, and
-/// `lift_blocks(begin, end)` for each chunk, as long as its leaf blocks are in the cache. Returns
-/// the lowest primitive that a chunk had to stop at, or `no_primitive`.
+/// Calls `write(writer, i)` for i in [0, count), which `put`s boxes until one is invalid, and
+/// `lift_blocks(begin, end)` after each chunk, while its leaf blocks are in the cache. Returns the
+/// lowest primitive at which a chunk stopped, or `no_primitive`.
 template <std::size_t D, class Write, class Lift>
 [[nodiscard]] std::uint32_t write_in_chunks(tree<D>& tree, std::size_t count, std::size_t grain,
                                             const Write& write, const Lift& lift_blocks) {
@@ -77,7 +77,7 @@ template <std::size_t D, class Write, class Lift>
     return bad.empty() ? no_primitive : *std::min_element(bad.begin(), bad.end());
 }
 
-/// The boxes of the elements of a range, which are asked for in the order of the leaves.
+/// The boxes of the elements of a range, requested in leaf order.
 template <class Range, class MakeBox>
 struct element_boxes {
     const Range& range;
@@ -89,7 +89,7 @@ struct element_boxes {
     }
     auto operator()(std::uint32_t id) const { return make_aabb(element(id)); }
 
-    /// Elements come from anywhere in memory: those that are objects are asked for early.
+    /// Elements may be anywhere in memory; those that are objects are prefetched.
     void prefetch(std::uint32_t id) const {
         if constexpr (std::is_lvalue_reference_v<decltype(element(id))>) {
             const char* const first = reinterpret_cast<const char*>(std::addressof(element(id)));
@@ -101,7 +101,7 @@ struct element_boxes {
 template <class Range, class MakeBox>
 element_boxes(const Range&, const MakeBox&) -> element_boxes<Range, MakeBox>;
 
-/// Writes all boxes and corrects the levels above. Returns as `write_in_chunks`.
+/// Writes all boxes and updates the levels above. Returns as `write_in_chunks`.
 template <std::size_t D, class BoxOf>
 [[nodiscard]] std::uint32_t refit_all(tree<D>& tree, const BoxOf& box_of) {
     constexpr std::size_t ahead = 24;
@@ -121,8 +121,8 @@ template <std::size_t D, class BoxOf>
     return bad;
 }
 
-/// Calls `visit(place)` for the places of `slots` until it returns false, and returns whether it
-/// never did.
+/// Calls `visit(place)` for the places of `slots` until it returns false; returns false in that
+/// case, else true.
 template <class Visit>
 bool for_places(const leaf_slots& slots, const Visit& visit) {
     for (unsigned rest = slots.slots; rest != 0; rest &= rest - 1)
@@ -168,15 +168,15 @@ template <std::size_t D, class BoxOf>
 }  // namespace detail
 
 /// Replaces the box of every primitive of `tree` by the one that `make_aabb` returns for its
-/// element of `range`. The leaf order and the frame stay. Searches are correct for any boxes, and
-/// as fast as before if neighbors stay neighbors (see `relative_extent`). With unchanged boxes, the
-/// tree does not change.
+/// element of `range`. The leaf order and the frame do not change. Searches are correct for any
+/// boxes, and as fast as before if neighbors stay neighbors (see `relative_extent`). With unchanged
+/// boxes, the tree does not change.
 ///
 /// \throws std::invalid_argument if the size of the range differs from that of the tree; naming an
 ///         element whose box is not finite or is empty. Some other elements then have their new
 ///         boxes; a refit with valid boxes makes the tree valid again
 /// \cost   O(N), about a third of a build
-/// \same   on any number of threads; `make_aabb` is called once an element
+/// \same   on any number of threads; `make_aabb` is called once for each element
 /// \source van den Bergen, Efficient Collision Detection of Complex Deformable Models using AABB
 ///         Trees, JGT 2 (1997)
 template <std::size_t D, std::ranges::random_access_range Range, class MakeBox>
@@ -190,9 +190,9 @@ void refit(tree<D>& tree, const Range& range, const MakeBox& make_aabb) {
 /// The same only for the primitives at `places` of the leaf order (`places_of`); all others keep
 /// their boxes. Places may be in any order, and may repeat.
 ///
-/// \throws std::invalid_argument also naming a place out of range; then nothing was changed
-/// \cost   O(P log N) for P places: only they and their ancestors are touched; when P is above
-///         N / 128, also a pass over O(N / 8) bytes
+/// \throws std::invalid_argument also naming a place out of range; the tree is then unchanged
+/// \cost   O(P log N) for P places and their ancestors; if P is above N / 128, also a pass over N /
+///         8 bytes
 template <std::size_t D, std::ranges::random_access_range Range, class MakeBox>
 requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>>
 void refit(tree<D>& tree, const Range& range, const MakeBox& make_aabb,

@@ -1,11 +1,9 @@
 #pragma once
 /// \file
-/// Search of any kind of tree by a box, or by any function that tests boxes. Here and in
-/// `search_pair.hpp` are all searches: `search`, `search_any`, `search_all` by one query and of two
-/// trees; `search_self`, `search_self_any`, `search_self_all`; and by blocks, `search_broad` by one
-/// query and of two trees, `search_self_broad`.
-///
-/// Search of a tree of any kind by itself: every pair of primitives whose boxes overlap, once.
+/// Overlap searches. One query (a box, or a function that tests boxes) in any kind of tree:
+/// `search`, `search_any`, `search_all`, and `search_broad` for blocks. All pairs of primitives of
+/// one tree whose boxes overlap, each once: `search_self`, `search_self_any`, `search_self_all`,
+/// `search_self_broad`. For two trees, see `search_pair.hpp`.
 
 #include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -91,11 +89,11 @@ template <any_tree Tree, tree_query<Tree::dimensions> Query>
 
 namespace detail {
 
-/// Nodes of a tree, marked.
+/// A set of nodes of a tree.
 template <std::size_t D>
 class node_marks {
   public:
-    /// None.
+    /// The empty set.
     explicit node_marks(const tree<D>& tree) : marks_(tree.levels()) {
         for (unsigned level = 0; level < tree.levels(); ++level)
             marks_[level].resize(tree.nodes_in_level(level));
@@ -115,7 +113,7 @@ class node_marks {
 
 /// The search of a tree by itself, cut into chunks that depend on the tree alone.
 ///
-/// The caller runs the chunks, as a rule with `for_chunks(search.chunks(), 1, ...)`, and keeps a
+/// The caller runs the chunks, usually with `for_chunks(search.chunks(), 1, ...)`, and keeps a
 /// state of its own for each: chunks share nothing, and joining the states in order gives the same
 /// result on any number of threads.
 ///
@@ -126,15 +124,15 @@ class TREEFORM_API self_search {
     /// \pre `tree` outlives the search and is not rebuilt meanwhile
     explicit self_search(const tree<D>& tree) : self_search(tree, nullptr) {}
 
-    /// Without the pairs among the primitives below a marked node.
-    /// \pre so do `skipped`
+    /// Omits the pairs among the primitives below a marked node.
+    /// \pre also `skipped` outlives the search
     self_search(const tree<D>& tree, const detail::node_marks<D>& skipped)
         : self_search(tree, &skipped) {}
 
     [[nodiscard]] std::size_t chunks() const;
 
     /// Calls `visit` for the blocks of one chunk, in order, until it returns false. All chunks
-    /// together hold every pair of primitives whose boxes overlap (touching counts) exactly once,
+    /// together have every pair of primitives whose boxes overlap (touching counts) exactly once,
     /// and some whose boxes miss by less than the rounding of the tree's float boxes.
     ///
     /// \cost over all chunks O(N + pairs of overlapping nodes + P) for P candidates
@@ -146,7 +144,7 @@ class TREEFORM_API self_search {
 
     const tree<D>* tree_;
     const detail::node_marks<D>* skipped_;
-    unsigned level_ = 0;  ///< of the nodes that the items pair
+    unsigned level_ = 0;  ///< level of the nodes in `items_`
     std::vector<detail::node_pair> items_;
 };
 
@@ -158,7 +156,8 @@ template <std::size_t D>
     return pairs_of_tree(self_search<D>(tree), ids, ids);
 }
 
-/// The parts that may hold pairs, by twos, ascending; each with itself as well.
+/// The pairs of parts that may have pairs of primitives, ascending; each part is also paired with
+/// itself.
 template <tree_of_trees Trees>
 [[nodiscard]] std::vector<id_pair> self_pairs_of_parts(const Trees& trees) {
     auto parts = all_pairs<true>(self_pairs(trees.top()), every_pair);
@@ -233,7 +232,7 @@ template <any_tree Tree, class Accept>
     return detail::all_pairs<true>(detail::self_pairs(tree), accept);
 }
 
-/// The pairs whose boxes, as the tree holds them, overlap.
+/// The pairs whose boxes, as stored in the tree, overlap.
 template <any_tree Tree>
 [[nodiscard]] std::vector<id_pair> search_self_all(const Tree& tree) {
     return search_self_all(tree, detail::every_pair);

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Search of two trees of any kind: every pair of a primitive of each whose boxes overlap, once.
+/// Overlap searches of two trees of any kind: every pair of primitives, one of each tree, whose
+/// boxes overlap, once: `search`, `search_any`, `search_all`, and `search_broad` for blocks.
 
 #include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -20,14 +21,15 @@ namespace treeform {
 
 namespace detail {
 
-/// Two trees, and how boxes of each come into the frame in which they are compared.
+/// Two trees, and the maps of their boxes to the frame in which they are compared.
 template <std::size_t D>
 struct two_trees {
     const tree<D>* a;
     const tree<D>* b;
     frame_map<D> map_a;
     frame_map<D> map_b;
-    /// Whether boxes are also compared in the frame of the moved tree, and how they come there.
+    /// Whether boxes are also compared in the frame of the moved tree; by the maps `own_a` and
+    /// `own_b`.
     bool both_frames = false;
     frame_map<D> own_a{};
     frame_map<D> own_b{};
@@ -37,7 +39,7 @@ struct two_trees {
 
 /// The search of two trees, cut into chunks that depend on the trees and their transforms alone.
 ///
-/// The caller runs the chunks, as a rule with `for_chunks(search.chunks(), 1, ...)`, and keeps a
+/// The caller runs the chunks, usually with `for_chunks(search.chunks(), 1, ...)`, and keeps a
 /// state of its own for each: chunks share nothing, and joining the states in order gives the same
 /// result on any number of threads.
 ///
@@ -60,9 +62,9 @@ class TREEFORM_API pair_search {
     [[nodiscard]] std::size_t chunks() const;
 
     /// Calls `visit` for the blocks of one chunk, in order, until it returns false. All chunks
-    /// together hold every pair of primitives whose boxes overlap (touching counts) exactly once,
+    /// together have every pair of primitives whose boxes overlap (touching counts) exactly once,
     /// and some whose boxes miss by less than the rounding of the float boxes and, under a
-    /// transform, of the boxes around turned boxes. An empty tree has no pairs.
+    /// transform, of the boxes around rotated boxes. An empty tree has no pairs.
     ///
     /// \cost over all chunks O(pairs of overlapping nodes + P) for P candidates
     search_statistics visit(std::size_t chunk,
@@ -76,7 +78,7 @@ class TREEFORM_API pair_search {
 
   private:
     detail::two_trees<D> trees_;
-    unsigned height_a_ = 0;  ///< of the nodes that the items pair, above the leaf blocks
+    unsigned height_a_ = 0;  ///< height above the leaf blocks of the nodes in `items_`
     unsigned height_b_ = 0;
     std::vector<detail::node_pair> items_;
 };
@@ -89,7 +91,7 @@ template <std::size_t D>
                          b.original().ids().data());
 }
 
-/// The parts of two trees, one of each, that may hold pairs, ascending.
+/// The pairs of parts, one of each tree, that may have pairs of primitives, ascending.
 template <class SideA, class SideB>
 [[nodiscard]] std::vector<id_pair> pairs_of_parts_of(const SideA& a, const SideB& b) {
     return all_pairs<false>(pairs_of(a.top(), b.top()), every_pair);
@@ -164,8 +166,8 @@ template <placed_tree A, placed_tree B, class Accept>
 
 }  // namespace detail
 
-/// Whether `accept(a, b)` is true for some pair of primitives whose boxes
-/// overlap. `accept` is called from several threads, and may be asked about a pair twice.
+/// Whether `accept(a, b)` is true for some pair of primitives whose boxes overlap. `accept` is
+/// called from several threads, and may be called twice for a pair.
 template <any_placed_tree A, any_placed_tree B, class Accept>
 [[nodiscard]] bool search_any(const A& first, const B& second, const Accept& accept) {
     if constexpr (placed_tree<A> && placed_tree<B>) {
@@ -192,7 +194,7 @@ template <any_placed_tree A, any_placed_tree B, class Accept>
     return detail::all_pairs<false>(detail::pairs_of(transformed(a), transformed(b)), accept);
 }
 
-/// The pairs whose boxes, as the trees hold them, overlap.
+/// The pairs whose boxes, as stored in the trees, overlap.
 template <any_placed_tree A, any_placed_tree B>
 [[nodiscard]] std::vector<id_pair> search_all(const A& a, const B& b) {
     return search_all(a, b, detail::every_pair);

@@ -17,8 +17,8 @@
 
 namespace treeform {
 
-/// Eight boxes side by side, so that one query box is tested against all of them at once. A slot
-/// without a box holds [+inf, -inf], which overlaps nothing.
+/// Eight boxes as a structure of arrays, so that one query box is tested against all of them at
+/// once. A slot without a box contains [+inf, -inf], which overlaps nothing.
 template <std::size_t D>
 struct alignas(64) wide_node {
     static constexpr std::size_t width = 8;
@@ -40,13 +40,13 @@ struct tree_frame {
 /// A balanced 8-ary tree of boxes over N primitives, packed: every node is full, except for the
 /// last of its level.
 ///
-/// The shape follows from N alone, so it is stored nowhere. `ids()` is a permutation of the
-/// primitives; leaf block i holds the boxes of the primitives at its places 8i ... 8i+7, box s that
-/// of ids()[8i + s]. On the levels above, node i holds the boxes of its children, nodes
-/// 8i ... 8i+7 of the level below. Level 0 is the root. So a node of level l covers the places
-/// [i * capacity(l), (i + 1) * capacity(l)), as far as there are any, and every level has an eighth
-/// of the nodes of the next: 32 bytes a primitive in space, 23 in the plane, ids included, and one
-/// node of a level that is not full. The tree refers to nothing; copies are deep.
+/// The shape follows from N alone and is not stored. `ids()` is a permutation of the primitives.
+/// Leaf block i has the boxes of the primitives at places 8i ... 8i+7: slot s has the box of
+/// ids()[8i + s]. On the levels above, node i holds the boxes of its children, nodes 8i ... 8i+7 of
+/// the level below. Level 0 is the root. So node i of level l covers the places [i * capacity(l),
+/// (i + 1) * capacity(l)), up to N, and every level has an eighth of the nodes of the level below
+/// it. Memory: 32 bytes a primitive in space, 23 in the plane, ids included, plus up to one partly
+/// filled node for each level. The tree owns its data; copies are deep.
 ///
 /// \source the balanced n-ary layout of Sajovic, Knez and Korez, tf::tree, section III-A, with
 ///         boxes stored in their parent and no offsets; packed as by Kamel and Faloutsos, On
@@ -61,7 +61,7 @@ class tree {
     /// `reset`.
     tree() = default;
 
-    /// Takes the shape for `size` primitives. Memory is reused; contents are undefined.
+    /// Sets the shape for `size` primitives. Memory is reused; contents are undefined.
     void reset(std::size_t size) {
         assert(size <= max_size);
         size_ = size;
@@ -71,29 +71,29 @@ class tree {
         nodes_.resize(level_begin(levels_));
     }
 
-    /// Primitives in the tree, at most `max_size`.
+    /// Number of primitives, at most `max_size`.
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] bool empty() const { return size_ == 0; }
     static constexpr std::size_t max_size = 0xFFFFFFF8;
 
-    /// [N] the primitives in leaf order, by their place in the range the tree was built over.
+    /// [N] the primitives in leaf order, as positions in the range over which the tree was built.
     [[nodiscard]] std::span<const std::uint32_t> ids() const { return ids_.span(); }
     [[nodiscard]] std::uint32_t* ids_data() { return ids_.data(); }
 
-    /// Node levels, leaf blocks included; level 0 is the root.
+    /// Number of levels, leaf blocks included; level 0 is the root.
     [[nodiscard]] unsigned levels() const { return levels_; }
     [[nodiscard]] bool is_leaf_level(unsigned level) const { return level + 1 == levels_; }
-    /// Primitives below a full node of `level`.
+    /// Number of primitives below a full node of `level`.
     [[nodiscard]] std::size_t capacity(unsigned level) const {
         const unsigned height = levels_ - level;
         assert(height <= 11);  // a full root of 11 levels is more than max_size
         return std::size_t{1} << (3 * height);
     }
-    /// At least the root, also for a tree built over an empty range.
+    /// Number of nodes of `level`; at least the root, also for a tree built over an empty range.
     [[nodiscard]] std::size_t nodes_in_level(unsigned level) const {
         return level == 0 ? 1 : (size_ + capacity(level) - 1) / capacity(level);
     }
-    /// Children of node `node` of `level`; on the last level, its primitives.
+    /// Number of children of node `node` of `level`; on the last level, of its primitives.
     [[nodiscard]] std::size_t children(unsigned level, std::size_t node) const {
         const std::size_t below = is_leaf_level(level) ? size_ : nodes_in_level(level + 1);
         return std::min(width, below - width * node);
@@ -110,7 +110,7 @@ class tree {
     void set_frame(const tree_frame<D>& frame) { frame_ = frame; }
 
   private:
-    /// Nodes above `level`.
+    /// Number of nodes above `level`.
     [[nodiscard]] std::size_t level_begin(unsigned level) const {
         std::size_t begin = 0;
         for (unsigned l = 0; l < level; ++l) begin += nodes_in_level(l);
@@ -124,13 +124,13 @@ class tree {
     tree_frame<D> frame_;
 };
 
-/// Several trees, the parts, that are searched as one. Every search accepts them like a `tree`,
-/// with the same results as on a tree over all their primitives.
+/// Several trees (parts) that are searched as one. Every search accepts them like a `tree`, with
+/// the same results as on a tree over all their primitives.
 ///
 /// `top()` is a tree over boxes around the parts; its `ids()` are the numbers of parts. `part(n)`
-/// is the tree of part n. It may be built when a search first asks for it, from several threads at
-/// once. Its `ids()` are primitives of the whole set, each in one part, or 0xFFFFFFFF for an empty
-/// slot. The leaf order of the whole is that of the top, then that within each part.
+/// is the tree of part n. The tree may be built at the first call, which may come from several
+/// threads at once. Its `ids()` are primitives of the whole set, each in one part, or 0xFFFFFFFF
+/// for an empty slot. The leaf order of the whole is that of the top, then that within each part.
 template <class T>
 concept tree_of_trees = requires(const T& whole, std::uint32_t number) {
     { whole.size() } -> std::convertible_to<std::size_t>;  // primitives
@@ -150,7 +150,7 @@ inline constexpr bool is_tree<tree<D>> = true;
 
 }  // namespace detail
 
-/// What a search by one query takes: a `tree`, or trees searched as one.
+/// Any tree that a search by one query accepts: a `tree`, or a `tree_of_trees`.
 template <class T>
 concept any_tree = detail::is_tree<T> || tree_of_trees<T>;
 
@@ -160,8 +160,8 @@ concept any_tree = detail::is_tree<T> || tree_of_trees<T>;
 /// Nothing is rebuilt. Boxes are moved when a search opens their node. A moved box is larger than
 /// the original, except for a translation or a quarter turn: under another rotation up to sqrt(D)
 /// times its longest side in each direction. It contains the exact images of the primitives, and
-/// also the images that `transform::operator()` rounds to double. So no pair is missed, whichever
-/// of the two you test.
+/// also the images that `transform::operator()` rounds to double. So no pair is missed, whether you
+/// test exact or rounded images.
 ///
 /// \source Arvo, Transforming Axis-Aligned Bounding Boxes, Graphics Gems, 1990
 template <std::size_t D, class Tree = tree<D>>
@@ -175,7 +175,7 @@ class transformed {
         if (!by.finite())
             throw std::invalid_argument("treeform::transformed: an entry of the map is not finite");
     }
-    /// A tree as it is.
+    /// The tree without a transform.
     transformed(const Tree& tree) : tree_(&tree) {}  // NOLINT: meant to be implicit
 
     [[nodiscard]] const Tree& original() const { return *tree_; }

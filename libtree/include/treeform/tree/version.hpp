@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which treeform this is: the version of the headers, and that of the library loaded beside them.
+/// The version of the treeform headers, and of the loaded library.
 
 #include <treeform/tree/detail/export.hpp>
 
@@ -19,8 +19,8 @@
 
 namespace treeform {
 
-/// The version of the library that is loaded, comparable with `TREEFORM_VERSION`. The two differ
-/// when a program runs with another shared library than it was compiled for.
+/// The version of the loaded library, comparable with `TREEFORM_VERSION`. They differ if a program
+/// runs with another shared library than it was compiled for.
 [[nodiscard]] TREEFORM_API int version() noexcept;
 
 /// The same as text: "0.1.0".

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A search of two trees in motion that does not open more nodes than it may.
+/// A search of two trees in motion with a limit on the nodes opened.
 
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
@@ -12,8 +12,8 @@
 
 namespace treeform::detail {
 
-/// As `visit_swept`, but ends after opening `most` pairs of nodes, or visiting those of pairs of
-/// leaves. Returns how many these were: more than `most`, then, by one.
+/// As `visit_swept`, but stops when the number of processed pairs of nodes (opened, or visited as
+/// pairs of leaf blocks) exceeds `most`. Returns that number: `most` + 1 if it stopped early.
 template <std::size_t D>
 TREEFORM_API std::uint64_t sweep_within(const transformed<D>& a, const transformed<D>& b,
                                         const std::array<double, D>& motion, double latest,

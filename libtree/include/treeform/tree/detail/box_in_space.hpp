@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Boxes from the frame of a tree to space, and from space into it.
+/// Converts boxes from the frame of a tree to space, and back.
 
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/tree.hpp>
@@ -13,14 +13,14 @@
 
 namespace treeform::detail {
 
-/// A box of space that holds box `slot` of `node`. Below, the sum with the origin is off by at most
-/// 2^-53 of itself, the subtraction of the margin by as much, and scaling by less than 1e-307.
+/// A box in space that contains box `slot` of `node`. Errors: the sum with the origin at most 2^-53
+/// of itself, the subtraction of the margin as much, and scaling less than 1e-307.
 template <std::size_t D>
 [[nodiscard]] aabb<double, D> box_in_space(const tree_frame<D>& frame, const wide_node<D>& node,
                                            std::size_t slot) {
     constexpr double largest = std::numeric_limits<double>::max();
-    // Where the build had to clamp, a side that faces inward says only that the coordinate is that
-    // far out or differs from the origin by more than the largest double.
+    // A side that the build clamped inward only means that the coordinate is at least that far out,
+    // or differs from the origin by more than the largest double.
     const auto difference = [&](float side) { return static_cast<double>(side) / frame.scale; };
     const auto outward = [](double x) { return 0x1p-51 * std::abs(x) + 1e-306; };
     aabb<double, D> box;
@@ -33,10 +33,11 @@ template <std::size_t D>
     return box;
 }
 
-/// `box` in a frame, rounded outward: the difference is off by 2^-53 of itself, the float nearest
-/// to it by 2^-24, or below the least normal float by less than 1.2e-38, and 1.2e-7 > 2^-23 covers
-/// both and the rounding of the sum. A coordinate beyond the range of float moves out to infinity;
-/// inward it stays at the end of the range, where the build clamps what lies as far out.
+/// `box` in a frame, rounded outward. The relative error of the difference is 2^-53, that of the
+/// nearest float 2^-24 (below the least normal float, an absolute error of less than 1.2e-38); the
+/// margin 1.2e-7 > 2^-23 covers both and the rounding of the sum. A coordinate beyond the range of
+/// float is moved outward to infinity; inward it stays at the end of the range, to which the build
+/// also clamps.
 template <std::size_t D, std::floating_point T>
 [[nodiscard]] aabb<float, D> box_in_frame(const tree_frame<D>& frame, const aabb<T, D>& box) {
     const auto nearest = [&](double x, std::size_t k) {
@@ -54,7 +55,7 @@ template <std::size_t D, std::floating_point T>
     return rounded;
 }
 
-/// A box of space, all of it finite, that holds what is in `tree`; empty when nothing is.
+/// A finite box in space that contains all primitives of `tree`; empty if there are none.
 template <std::size_t D>
 [[nodiscard]] aabb<double, D> box_of_root(const tree<D>& tree) {
     constexpr double largest = std::numeric_limits<double>::max();
@@ -62,7 +63,7 @@ template <std::size_t D>
     if (tree.empty()) return box;
     const wide_node<D>& root = tree.level(0)[0];
     for (std::size_t slot = 0; slot < tree.children(0, 0); ++slot)
-        if (root.min[0][slot] <= root.max[0][slot])  // else all below has been removed
+        if (root.min[0][slot] <= root.max[0][slot])  // else all below were removed
             box.include(box_in_space(tree.frame(), root, slot));
     for (std::size_t k = 0; k < D && !box.empty(); ++k) {
         box.min[k] = std::max(box.min[k], -largest);

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// An array whose elements start out unwritten, so that the loop that fills it also faults its
-/// pages in, on the threads that will use them.
+/// An array that does not initialize its elements, so that the loop that fills it also page-faults
+/// its memory, on the threads that will use it.
 
 #include <treeform/tree/detail/export.hpp>
 
@@ -13,15 +13,15 @@
 
 namespace treeform::detail {
 
-/// Memory aligned to a cache line; large pieces ask for huge pages, which the kernel clears and
+/// Memory aligned to a cache line. Large buffers request huge pages, which the kernel clears and
 /// maps several times faster.
 ///
 /// \throws std::bad_alloc
 [[nodiscard]] TREEFORM_API void* allocate_buffer(std::size_t bytes);
 TREEFORM_API void free_buffer(void* memory);
 
-/// Aligned to cache lines; copies deeply; `resize` keeps the memory when it suffices but not the
-/// contents.
+/// An uninitialized array, aligned to cache lines. Copies are deep. `resize` reuses the memory if
+/// it suffices, but does not keep the contents.
 template <class T>
 requires(std::is_trivially_copyable_v<T>&& std::is_trivially_destructible_v<T>) class buffer {
   public:

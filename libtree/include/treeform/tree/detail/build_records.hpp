@@ -18,15 +18,15 @@ namespace treeform::detail {
 /// with a scratch array, so it has no `partition` over arbitrary iterators.
 struct bracketed_select {};
 
-/// How far a primitive's box reaches from the center in its record, in eight bytes, since gathering
-/// them by primitive is a random access: D floats of 21 bits each, without a sign and rounded up,
+/// The half extents of a primitive's box about the center in its record. Packed into eight bytes,
+/// since they are gathered by random access: D floats of 21 bits each, without a sign, rounded up,
 /// the last axis in the lowest bits.
 class half_extents {
   public:
     static constexpr unsigned kept = 21;  ///< 8 of exponent, 13 of mantissa
     static constexpr unsigned dropped = 10;
 
-    /// At least the extent on axis `k` of D, and at most 2^-13 of it more.
+    /// The half extent on axis `k` of D, rounded up by at most 2^-13 of it.
     template <std::size_t D>
     [[nodiscard]] float on_axis(std::size_t k) const {
         const std::uint64_t bits = bits_ >> (kept * (D - 1 - k)) & ((1U << kept) - 1);
@@ -37,23 +37,24 @@ class half_extents {
     std::uint64_t bits_;
 };
 
-/// What a build needs beside the tree itself; kept by `builder`, a rebuild allocates nothing.
+/// The memory of a build besides the tree. `builder` keeps it, so that a rebuild allocates nothing.
 struct build_memory {
     buffer<split_record> records;
     buffer<half_extents> extents;
 };
 
-/// Selection in place: no record of [first, nth) behind one of [nth, last) along `axis`.
+/// Selection in place: reorders so that no record of [first, nth) is beyond one of [nth, last)
+/// along `axis`.
 using select_records =
     function_ref<void(split_record* first, split_record* nth, split_record* last, int axis)>;
 
-/// Where the records [N] belong before `build_from_records`; the shape of `tree` is set.
+/// The array [N] to fill with records before `build_from_records`. The shape of `tree` must be set.
 template <std::size_t D>
 [[nodiscard]] TREEFORM_API split_record* records_of(tree<D>& tree, build_memory& memory,
                                                     const select_records* select);
 
 /// Fills `tree`, whose shape and frame are set, from the records at `records_of` and
-/// `memory.extents` [N]. `select` replaces the default selection where it is not null.
+/// `memory.extents` [N]. `select` replaces the default selection unless it is null.
 /// \same on any number of threads
 template <std::size_t D>
 TREEFORM_API void build_from_records(tree<D>& tree, build_memory& memory,

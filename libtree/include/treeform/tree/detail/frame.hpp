@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Choosing the frame of a tree: where its float boxes are centered.
+/// Chooses the frame of a tree: the origin and scale of its float boxes.
 
 #include <treeform/tree/tree.hpp>
 
@@ -12,9 +12,9 @@
 
 namespace treeform::detail {
 
-/// Chooses origin and scale from a sample of up to 64 boxes at places that depend on `size` only:
-/// the median of their corners, which a few stray boxes do not move, and the power of two that
-/// brings their extent near 1. Any choice is correct; this one keeps boxes tight.
+/// Chooses origin and scale from a sample of up to 64 boxes, at positions that depend on `size`
+/// only. The origin is the median of their corners, which is robust to outliers; the scale is the
+/// power of two that brings their extent near 1. Any choice is correct; this one keeps boxes tight.
 template <std::size_t D, class BoxOf>
 [[nodiscard]] tree_frame<D> frame_of(std::size_t size, const BoxOf& box_of) {
     tree_frame<D> frame;
@@ -29,7 +29,7 @@ template <std::size_t D, class BoxOf>
     for (std::size_t k = 0; k < D; ++k) {
         const auto end = sample[k].begin() + static_cast<std::ptrdiff_t>(count);
         for (auto value = sample[k].begin(); value != end; ++value)
-            if (!std::isfinite(*value)) *value = 0.0;  // the fill that follows reports it
+            if (!std::isfinite(*value)) *value = 0.0;  // reported when the boxes are rounded
         std::sort(sample[k].begin(), end);
         frame.origin[k] = sample[k][count / 2];
         // Halved, so that the extent of two extreme doubles is finite.
@@ -40,7 +40,7 @@ template <std::size_t D, class BoxOf>
     return frame;
 }
 
-/// Whether a tree can hold a box: not empty, no NaN, no infinity.
+/// Whether a tree can contain the box: not empty, no NaN, no infinity.
 template <class Box>
 [[nodiscard]] bool is_finite(const Box& box) {
     using scalar = typename Box::scalar;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A callable by reference: what a compiled function takes where a template would take a lambda.
+/// A reference to a callable: the parameter type of compiled functions that call a lambda.
 
 #include <memory>
 #include <type_traits>
@@ -11,7 +11,8 @@ namespace treeform::detail {
 template <class Signature>
 class function_ref;
 
-/// Refers to a callable that outlives the call it is passed to; two words, never null.
+/// Refers to a callable, which must outlive the call to which this is passed. Two words; never
+/// null.
 template <class R, class... Args>
 class function_ref<R(Args...)> {
   public:

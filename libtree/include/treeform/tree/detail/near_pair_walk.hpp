@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The walk through two trees toward their nearest pairs, cut into chunks for many threads.
+/// Traversal of two trees toward their nearest pairs, in chunks for parallel execution.
 
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/frame_map.hpp>
@@ -16,22 +16,23 @@
 
 namespace treeform::detail {
 
-/// Two leaf blocks, and how far apart the boxes of their primitives are.
+/// Two leaf blocks, and the distances of the boxes of their primitives.
 struct block_pair {
     std::uint32_t a;
     std::uint32_t b;
-    const float (&squared)[8][8];  ///< of those present, as `near_bound` takes it
-    unsigned present_a;            ///< slots with a primitive that may be near, a bit each
+    /// squared distances of present slots, comparable with `near_bound`
+    const float (&squared)[8][8];
+    unsigned present_a;  ///< bit mask of the slots with a primitive that may be near
     unsigned present_b;
     const near_bound& bound_of;
 
-    /// Whether slot i of a and slot j of b may be within `bound`, what `bound_of` says of a limit.
+    /// Whether slot i of a and slot j of b may be within `bound`, a result of `bound_of`.
     [[nodiscard]] bool within(std::size_t i, std::size_t j, float bound) const {
         return (present_a >> i & present_b >> j & 1U) != 0 && squared[i][j] <= bound;
     }
 };
 
-/// A pair of nodes that may hold near pairs; boxes in the common frame.
+/// A pair of nodes that may contain near pairs; boxes in the common frame.
 template <std::size_t D>
 struct pair_entry {
     struct side {
@@ -45,45 +46,48 @@ struct pair_entry {
     side b;
 };
 
-/// A node that is opened, and the node of the other tree that its children are held against.
+/// A node that is opened, and the node of the other tree with which its children are compared.
 struct opened_node {
-    bool of_a;  ///< the one opened
+    bool of_a;  ///< whether the opened node is of tree a
     std::uint32_t level;
     std::uint32_t index;
     std::uint32_t other_level;
     std::uint32_t other_index;
 };
 
-/// What a caller knows of nodes beyond their boxes: raises the squared distances in `squared` of
-/// the children in `mask` from the other node, as far as it can, and returns those of the mask
-/// that are within `bound` still. What `near_bound` asks of a distance of boxes holds for these.
+/// Tighter bounds that a caller has for nodes, beyond their boxes: raises the squared distances in
+/// `squared` of the children in `mask` from the other node where it can, and returns the mask of
+/// those that are still within `bound`. The raised values must satisfy the same guarantees as box
+/// distances; see `near_bound`.
 using raise_bounds =
     function_ref<unsigned(const opened_node&, unsigned mask, float bound, float* squared)>;
 
-/// What a visitor returns: the squared distance beyond which it wants no pair; it may only fall.
+/// A visitor of pairs of leaf blocks. It returns the squared distance beyond which it needs no
+/// pairs; this must not increase.
 using visit_blocks = function_ref<double(const block_pair&)>;
 
 template <std::size_t D>
 class TREEFORM_API pair_walk {
   public:
-    /// Squared distances will be those of coordinates times `unit`, a power of two.
+    /// Squared distances are those of coordinates times `unit`, a power of two.
     pair_walk(const transformed<D>& a, const transformed<D>& b, double unit);
 
-    /// Walks best first for a while: to the end when that is near. Then cuts what is left into
-    /// pairs of nodes, the nearest first, to be searched depth first. `stop` says, after each
-    /// visit, when nothing is of interest any more.
+    /// Traverses best first for a limited number of steps; small searches end here. Then cuts the
+    /// rest into pairs of nodes, the nearest first, which `visit` searches depth first. `stop` is
+    /// called after each visit; if it returns true, the search ends.
     void begin(double squared, function_ref<bool()> stop, visit_blocks visit);
 
     [[nodiscard]] std::size_t chunks() const { return chunk_count(items_.size(), grain); }
-    /// Visits what is left in a chunk. The limit that `visit` returns is joined with `shared`,
-    /// which others may lower meanwhile; `stop` says when the rest is of no interest.
+    /// Visits the pairs of a chunk. The limit is the lesser of what `visit` returned and `shared`,
+    /// which other threads may lower meanwhile. If `stop` returns true, the rest of the chunk is
+    /// skipped.
     void visit(std::size_t chunk, const std::atomic<double>& shared, function_ref<bool()> stop,
                visit_blocks visit) const;
 
-    /// How coordinates of the trees come into the common frame.
+    /// The maps of the trees' boxes into the common frame.
     [[nodiscard]] const frame_map<D>& map_a() const { return map_a_; }
     [[nodiscard]] const frame_map<D>& map_b() const { return map_b_; }
-    /// From now on children that are nodes are held against `raise` as well; it outlives the walk.
+    /// From now on, also uses `raise`, which must outlive the walk, for children that are nodes.
     void raise_by(const raise_bounds& raise) { raise_ = &raise; }
 
     struct context;
@@ -104,15 +108,15 @@ class TREEFORM_API pair_walk {
 extern template class pair_walk<2>;
 extern template class pair_walk<3>;
 
-/// Runs `walk` on the threads at hand. `all` is what is kept, and has a `bound()`, a squared
-/// distance, and a `done()`, when zero is reached; `visit(blocks, kept, limit)` fills it;
-/// `fork(all)` makes an empty one with its bound for each chunk, and `join(all, part)` joins these
-/// in order.
+/// Runs `walk` in parallel, and returns the pairs kept. `all` has a `bound()`, a squared distance,
+/// and a `done()`, true once the bound is zero. `visit(blocks, kept, limit)` adds pairs to it;
+/// `fork(all)` makes an empty one with the same bound for each chunk; `join(all, part)` merges
+/// these in order.
 ///
-/// The result depends on no timing: pairs are skipped only when strictly further than the bound of
-/// some chunk, which is never below the final one, so whatever belongs to the result is found. The
-/// order within a chunk is fixed. A chunk that is `done()`, at zero, ends itself and later ones
-/// only, and these are not joined.
+/// The result does not depend on timing: pairs are skipped only if they are strictly further than
+/// the bound of some chunk, which is never below the final bound, so all pairs of the result are
+/// found. The order within a chunk is fixed. A chunk that is `done()` ends only itself and later
+/// chunks, which are not joined.
 template <std::size_t D, class Kept, class Visit, class Fork, class Join>
 [[nodiscard]] Kept walk_pairs(pair_walk<D>& walk, Kept all, const Visit& visit, const Fork& fork,
                               const Join& join) {

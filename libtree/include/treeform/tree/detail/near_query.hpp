@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// What is searched for in a tree's neighborhood, as floats in the frame of the tree.
+/// The query of a nearness search, as floats in the frame of the tree, and the bound to which box
+/// distances are compared.
 
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/tree.hpp>
@@ -12,8 +13,8 @@
 
 namespace treeform::detail {
 
-/// A float not below x, nor above the largest; for |x| below that, more by at most 2^-21 |x| or
-/// 1e-36.
+/// A float that is at least x, at most the largest float; if |x| is in range, it exceeds x by at
+/// most 2^-21 |x| or 1e-36.
 inline float float_above(double x) {
     constexpr float limit = std::numeric_limits<float>::max();
     if (x >= static_cast<double>(limit)) return limit;
@@ -22,23 +23,22 @@ inline float float_above(double x) {
     return up < limit ? up : limit;
 }
 
-/// What a squared distance of boxes in a frame, in float, must exceed before nothing in them is as
-/// near as one found.
+/// The bound that a squared distance of boxes, computed in float in a frame, must exceed to prove
+/// that nothing in the boxes is as near as a given squared distance.
 ///
 /// A node test computes, in float and in any rounding mode, the sum over the axes of the squares of
 /// max(0, min - high, low - max), for boxes rounded outward. Let S be the exact squared distance of
 /// their contents in the frame; the exact sum is at most S. With u = 2^-23, a difference, its
 /// square and the sums (D <= 3, fused or not) are off by a factor of at most (1 + u)^5 < 1 +
 /// 2^-20.6, and by 2^-126 for each flushed square or denormal read as zero, together below 1e-37.
-/// So the computed value s obeys
-///   s <= S (1 + 2^-20.6) + 1e-37,
-/// and s > bound(best) proves S > best (1 + 2^-21): what is passed over is further than `best`,
-/// even by a caller's own measure as long as that is not below the truth by more than 2^-22 of it.
+/// So the computed value s obeys s <= S (1 + 2^-20.6) + 1e-37, and s > bound(best) proves S > best
+/// (1 + 2^-21): skipped boxes are further than `best`, even by the caller's own distances if these
+/// are not too small by more than a relative error of 2^-22.
 ///
-/// When s overflows while the bound is finite, S > best as well; an infinite bound passes over
-/// nothing. Sides beyond the range of float are cut to its limits where they face inward. Only
-/// where differences of coordinates overflow double before they do float, for frames of an extent
-/// beyond 1e267, would a cut side lie further out than the truth; there the bound stays infinite.
+/// When s overflows while the bound is finite, S > best as well; with an infinite bound nothing is
+/// skipped. Sides beyond the range of float are clamped inward to its limits. Only for frames with
+/// an extent beyond 1e267, where differences of coordinates overflow double before they overflow
+/// float, would a clamped side be further out than the exact one; there the bound stays infinite.
 class near_bound {
   public:
     /// Squared distances will be those of coordinates times `unit`, a power of two.
@@ -46,8 +46,8 @@ class near_bound {
         : scale_(frame_scale < 0x1p-890 ? std::numeric_limits<double>::infinity()
                                         : frame_scale / unit) {}
 
-    /// Multiplied in two steps: the square of the scale may not be a double. Where a product
-    /// underflows, the last term is far larger than what is lost.
+    /// Multiplied in two steps, since the square of the scale may overflow. If a product
+    /// underflows, the last term is far larger than the loss.
     [[nodiscard]] float operator()(double squared) const {
         const double scaled = squared * scale_ * scale_;
         if (!(scaled < 3e38)) return std::numeric_limits<float>::infinity();
@@ -58,9 +58,9 @@ class near_bound {
     double scale_;
 };
 
-/// A box, or a point as the box around it, that boxes of a tree are measured from: as floats in the
-/// frame of the tree, rounded outward. Beyond the range of float they are cut to its limits; no
-/// side that faces them is stored further out.
+/// The box (or point) from which the boxes of a tree are measured, as floats in the frame of the
+/// tree, rounded outward. Coordinates beyond the range of float are clamped to its limits; no
+/// opposing side is stored further out.
 template <std::size_t D>
 class near_query {
   public:
@@ -77,14 +77,15 @@ class near_query {
     near_bound bound_of;
 };
 
-/// A node that is still to be opened, or passed over.
+/// A node still to be opened or skipped.
 struct near_entry {
     float lower;
     std::uint32_t index;
     unsigned level;
 };
 
-/// The most entries a depth-first search leaves behind: eleven levels of 8 hold 2^33 primitives.
+/// Largest number of pending entries of a depth-first search: eleven levels of 8, for 2^33
+/// primitives.
 inline constexpr std::size_t near_depth = 88;
 
 }  // namespace treeform::detail

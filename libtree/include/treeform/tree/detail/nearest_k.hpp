@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The k nearest of those offered.
+/// Keeps the k nearest of all neighbors offered.
 
 #include <treeform/tree/answers.hpp>
 
@@ -11,12 +11,13 @@
 
 namespace treeform::detail {
 
-/// Few are kept sorted: a new one is moved in place. Many are kept as a heap, the furthest on top.
+/// Keeps the k nearest of all neighbors offered. If k is small, they are sorted by insertion;
+/// otherwise they are a heap with the furthest on top.
 template <class Neighbor>
 class nearest_k {
   public:
     nearest_k(std::size_t k, double squared_radius) : k_(k) {
-        kept_.reserve(std::min<std::size_t>(k, 4096));  // a caller may ask for all there are
+        kept_.reserve(std::min<std::size_t>(k, 4096));  // k may be the number of all primitives
         reset(squared_radius);
     }
 
@@ -36,26 +37,26 @@ class nearest_k {
         if (kept_.size() == k_) bound_ = furthest().squared_distance();
     }
 
-    /// The largest squared distance at which one more would be kept.
+    /// The largest squared distance at which another neighbor would be kept.
     [[nodiscard]] double bound() const { return bound_; }
 
-    /// Whether no other offer can be nearer: all that are wanted are at distance zero.
+    /// Whether no other offer can be nearer: k neighbors at distance zero are kept.
     [[nodiscard]] bool done() const { return kept_.size() == k_ && bound_ <= 0.0; }
 
-    /// Those kept, nearest first; nothing can be offered until the next `reset`.
+    /// The neighbors kept, nearest first. Call `reset` before the next offer.
     [[nodiscard]] std::vector<Neighbor>& sorted() {
         if (!few()) std::sort_heap(kept_.begin(), kept_.end(), order);
         return kept_;
     }
 
-    /// Forgets all and starts again, keeping the memory.
+    /// Removes all neighbors; keeps the memory.
     void reset(double squared_radius) {
         kept_.clear();
         bound_ = k_ == 0 ? -1.0 : squared_radius;
     }
 
   private:
-    /// By what `nearer` says of the type.
+    /// By `nearer`, found by argument-dependent lookup.
     static constexpr auto order = [](const Neighbor& a, const Neighbor& b) { return nearer(a, b); };
 
     [[nodiscard]] bool few() const { return k_ <= 32; }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The box of a node, for the slot that its parent keeps for it.
+/// The box of a node, for its slot in the parent.
 
 #include <treeform/tree/tree.hpp>
 
@@ -10,7 +10,7 @@
 
 namespace treeform::detail {
 
-/// The box around the boxes of a node; [+inf, -inf] when it has none.
+/// The box around the boxes of a node; [+inf, -inf] if it has none.
 template <std::size_t D>
 struct node_bounds {
     std::array<float, D> min, max;
@@ -23,7 +23,7 @@ struct node_bounds {
     }
 
   private:
-    /// By halves, which compilers turn into vectors. Some element, bit for bit.
+    /// By halves, which compilers vectorize. The result is one of the elements, bit for bit.
     template <bool Greatest>
     static float least(const float (&of)[8]) {
         const auto better = [](float a, float b) { return (Greatest ? a > b : a < b) ? a : b; };

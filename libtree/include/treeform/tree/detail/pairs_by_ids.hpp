@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Searches for pairs of primitives, by chunks: of `tree`s directly, of other trees by their parts.
+/// Searches for pairs of primitives in chunks: of two `tree`s directly, of other trees part by
+/// part.
 
 #include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/search_chunks.hpp>
@@ -16,8 +17,8 @@
 
 namespace treeform::detail {
 
-/// A search of two trees or of one by itself. `visit` gets blocks with the primitives [N] that
-/// the places of each side stand for.
+/// A search of two trees, or of one tree with itself. `visit(block, ids_a, ids_b)` also gets the
+/// primitives [N] at the places of each side.
 template <class Search>
 class pairs_of_tree {
   public:
@@ -77,7 +78,7 @@ class pairs_of_parts {
     std::vector<piece> pieces_;
 };
 
-/// Calls `apply(a, b)` for the pairs of a block, until it is true.
+/// Calls `apply(a, b)` for the pairs of a block until it returns true; returns whether it did.
 template <bool has_empty_slots, class Apply>
 bool any_of_block(const candidate_block& block, const std::uint32_t* ids_a,
                   const std::uint32_t* ids_b, const Apply& apply) {
@@ -101,7 +102,7 @@ template <class State, class Pairs, class Apply>
     });
 }
 
-/// The pairs for which `accept(a, b)` is true, ascending; with a < b where they are `unordered`.
+/// The pairs for which `accept(a, b)` is true, ascending; with a < b if `unordered`.
 template <bool unordered, class Pairs, class Accept>
 [[nodiscard]] std::vector<id_pair> all_pairs(const Pairs& pairs, const Accept& accept) {
     using found_pairs = std::vector<id_pair>;
@@ -116,8 +117,8 @@ template <bool unordered, class Pairs, class Accept>
 
 inline constexpr auto every_pair = [](std::uint32_t, std::uint32_t) { return true; };
 
-/// Whether `search_parts(x, y, accept)` is true for some of the pairs of parts, where its `accept`
-/// is the one given for pairs of primitives. Looks at no more once one is known.
+/// Whether `search_parts(x, y, accepted)` is true for some pair of parts. `accepted` calls `accept`
+/// for pairs of primitives. Stops at the first such pair.
 template <class Accept, class SearchParts>
 [[nodiscard]] bool any_of_parts(const std::vector<id_pair>& parts, const Accept& accept,
                                 const SearchParts& search_parts) {
@@ -134,8 +135,8 @@ template <class Accept, class SearchParts>
     return found.load();
 }
 
-/// Calls `add(x, y)` for the pairs of parts in order, after `prepare(x, y)` on all threads: so that
-/// parts that are made when they are asked for are made in parallel.
+/// Calls `add(x, y)` for the pairs of parts in order, after `prepare(x, y)` for all pairs in
+/// parallel, so that parts that are built on demand are built in parallel.
 template <class Prepare, class Add>
 void for_parts(const std::vector<id_pair>& parts, const Prepare& prepare, const Add& add) {
     for_chunks(parts.size(), 1, [&](std::size_t i, std::size_t, std::size_t) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The compiled half of a refit: new boxes into leaf slots, and what follows from them above.
+/// The compiled half of a refit: writes new boxes into leaf slots, and updates the levels above.
 
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/detail/round_boxes.hpp>
@@ -15,38 +15,40 @@
 
 namespace treeform::detail {
 
-/// Some slots of a leaf block, a bit each.
+/// A set of slots of a leaf block, as a bit mask.
 struct leaf_slots {
     std::uint32_t block;
     std::uint8_t slots;
 };
 
-/// The slots at `places`, by block, ascending; a place that is named twice counts once.
+/// The slots at `places`, grouped by block, ascending; repeated places count once.
 /// \pre  every place is below `size`
-/// \cost O(P log P) for few of P places, O(P + size / 8) for many
+/// \cost for P places: O(P log P) if P is small compared with `size`, else O(P + size / 8)
 [[nodiscard]] TREEFORM_API std::vector<leaf_slots> slots_at(std::span<const std::uint32_t> places,
                                                             std::size_t size);
 
 /// Writes boxes into leaf slots, box j at place `places[j]`, rounded outward as a build does.
-/// Returns how many precede the first that is empty or not finite; it and those behind it stay.
+/// Returns the number of boxes before the first that is empty or not finite; from there on nothing
+/// is written.
 template <std::size_t D>
 [[nodiscard]] TREEFORM_API std::size_t write_boxes(tree<D>& tree, const box_block<D>& boxes,
                                                    std::span<const std::uint32_t> places);
 
-/// Corrects the levels above those that hold the boxes of leaf blocks: all of them, or what is
-/// above the blocks that have changed.
+/// Updates the levels above the parents of leaf blocks: all of them, or only the ancestors of the
+/// changed blocks.
 template <std::size_t D>
 TREEFORM_API void lift_inner(tree<D>& tree);
 template <std::size_t D>
 TREEFORM_API void lift_inner(tree<D>& tree, std::span<const leaf_slots> changed);
 
-/// Gathers boxes with their places and writes them a block at a time.
+/// Collects boxes with their places, and writes them block by block.
 template <std::size_t D>
 class slot_writer {
   public:
     explicit slot_writer(tree<D>& tree) : tree_(&tree) {}
 
-    /// False when a box that was given is empty or not finite; no more are written from there on.
+    /// Returns false if a box passed so far is empty or not finite; from there on nothing is
+    /// written.
     template <class Box>
     bool put(std::uint32_t place, const Box& box) {
         boxes_.set(count_, box);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Rounding boxes outward into the frame of a tree: the first pass of a build.
+/// Rounds boxes outward into the frame of a tree: the first pass of a build.
 
 #include <treeform/tree/detail/build_records.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -11,7 +11,7 @@
 
 namespace treeform::detail {
 
-/// Some boxes, coordinate by coordinate.
+/// A block of boxes, as a structure of arrays.
 template <std::size_t D>
 struct box_block {
     static constexpr std::size_t size = 256;  ///< a multiple of the lanes of any vector
@@ -27,9 +27,9 @@ struct box_block {
     }
 };
 
-/// Writes the records of the elements first_id ... first_id + count - 1, whose boxes are the first
-/// `count` of `boxes`, and how far these reach from there. Returns how many boxes precede the first
-/// one that is empty or not finite: `count` when there is none.
+/// Writes the records and half extents of the elements first_id ... first_id + count - 1, whose
+/// boxes are the first `count` of `boxes`. Returns the number of boxes before the first that is
+/// empty or not finite; `count` if all are valid.
 template <std::size_t D>
 [[nodiscard]] TREEFORM_API std::size_t round_boxes(const tree_frame<D>& frame,
                                                    const box_block<D>& boxes, std::size_t count,

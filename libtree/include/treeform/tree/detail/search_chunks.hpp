@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Running the chunks of a search for pairs on all threads.
+/// Runs the chunks of a search for pairs in parallel.
 
 #include <treeform/tree/answers.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -14,7 +14,7 @@
 
 namespace treeform::detail {
 
-/// Two nodes whose candidate pairs are wanted, of levels known from elsewhere.
+/// Two nodes whose candidate pairs are searched for. Their levels are known to the owner.
 struct node_pair {
     std::uint32_t a, b;
 };
@@ -25,7 +25,7 @@ inline void lower(std::atomic<std::size_t>& value, std::size_t to) {
     }
 }
 
-/// What `apply` returns, or false when it returns nothing.
+/// The value that `apply` returns, or false if it returns nothing.
 template <class Apply, class... Args>
 bool asks_to_stop(const Apply& apply, Args&&... args) {
     if constexpr (std::is_void_v<std::invoke_result_t<const Apply&, Args...>>) {
@@ -36,8 +36,8 @@ bool asks_to_stop(const Apply& apply, Args&&... args) {
     }
 }
 
-/// Runs every chunk of `search` with a state of its own, `on_block(state, ...)` for each block that
-/// it visits, and returns the states in order. Where it returned true, the search stops there: that
+/// Runs every chunk of `search` with its own state: calls `on_block(state, ...)` for each visited
+/// block, and returns the states in order. If `on_block` returns true, the search stops, and that
 /// chunk's state is the last.
 template <class State, class Search, class OnBlock>
 [[nodiscard]] std::vector<State> search_states(const Search& search, const OnBlock& on_block) {
@@ -45,7 +45,7 @@ template <class State, class Search, class OnBlock>
     std::vector<State> states(search.chunks());
     std::atomic<std::size_t> last{states.size()};  // the first chunk that asked to stop
     for_chunks(states.size(), 1, [&](std::size_t chunk, std::size_t, std::size_t) {
-        State mine{};  // states of neighbors share cache lines
+        State mine{};  // local: elements of `states` share cache lines
         search.visit(chunk, [&](const auto&... block) {
             if (chunk > last.load(std::memory_order_relaxed)) return false;
             if (!on_block(mine, block...)) return true;
@@ -58,7 +58,7 @@ template <class State, class Search, class OnBlock>
     return states;
 }
 
-/// Whether `on_block(block)` is true for some block; looks at no more once one is known.
+/// Whether `on_block(block)` is true for some block; stops at the first such block.
 template <class Search, class OnBlock>
 [[nodiscard]] bool search_for_any(const Search& search, const OnBlock& on_block) {
     std::atomic<bool> found{false};
@@ -73,7 +73,7 @@ template <class Search, class OnBlock>
     return found.load();
 }
 
-/// The vectors of all chunks as one.
+/// The concatenated vectors of all chunks.
 template <class T>
 [[nodiscard]] std::vector<T> joined(const std::vector<std::vector<T>>& parts) {
     std::size_t total = 0;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Halving a set of primitives by the position of their centers: the inner loop of the build.
+/// Halves a set of primitives by the positions of their centers: the inner loop of the build.
 
 #include <bit>
 #include <cstddef>
@@ -8,18 +8,18 @@
 
 namespace treeform::detail {
 
-/// Center of a primitive's box in the frame of the tree, and the primitive. Coordinates are finite;
-/// in the plane the third is 0, which no split chooses. Sixteen bytes: one vector register.
+/// A primitive, and the center of its box in the frame of the tree. Coordinates are finite; in the
+/// plane the third is 0, and is never split. Sixteen bytes: one vector register.
 struct split_record {
     float center[3];
     std::uint32_t id;
 };
 
-/// How the places of a packed tree are cut in two, again and again, down to its leaf blocks.
+/// The plan by which the places of a packed tree are halved recursively, down to its leaf blocks.
 ///
-/// A node is cut between children: round by round until each part is one child, whose own rounds
-/// follow. The root has as many rounds as its number of children asks for, every other node three;
-/// a node that is not full may be one child before its last round, and then rests.
+/// Nodes are cut between children, in rounds, until each part is one child, whose own rounds
+/// follow. The root needs ceil(log2(children)) rounds, every other node three. A part of a node
+/// that is not full may be a single child before the last round; it then waits.
 struct split_plan {
     std::size_t size;
     unsigned levels;
@@ -36,19 +36,19 @@ struct split_plan {
     [[nodiscard]] unsigned rounds() const {
         return levels == 1 ? 0 : root_rounds + 3 * (levels - 2);
     }
-    /// Records of a full child of the nodes that are cut in round `round`.
+    /// Number of records of a full child of the nodes that are cut in round `round`.
     [[nodiscard]] std::size_t unit(unsigned round) const {
         const unsigned level = round < root_rounds ? 0 : 1 + (round - root_rounds) / 3;
         return std::size_t{1} << (3 * (levels - 1 - level));
     }
-    /// How many of the `count` records of a part go left in round `round`; all, where it rests.
+    /// How many of the `count` records of a part go left in round `round`; all, if the part waits.
     [[nodiscard]] std::size_t left(std::size_t count, unsigned round) const {
         const std::size_t child = unit(round);
         return count <= child ? count : (count + child - 1) / child / 2 * child;
     }
 };
 
-/// The box of some centers.
+/// The bounding box of a set of centers.
 struct center_range {
     float min[3];
     float max[3];
@@ -78,15 +78,15 @@ struct split_axis {
     return {axis, range.min[axis], range.max[axis]};
 }
 
-/// Moves `count` records from `from` to `to` so that none of the first `left` lies behind any of
-/// the others along the axis on which a sample of them spreads most, up to a thousandth of its
-/// range in sets of a few. `from` is overwritten. Which of several records with equal keys go left
-/// depends on their order in `from` alone.
+/// Moves `count` records from `from` to `to` so that none of the first `left` is beyond any of the
+/// others along the axis on which a sample of them spreads most. In small sets this holds up to a
+/// thousandth of the range. `from` is overwritten. Which of several records with equal keys go left
+/// depends only on their order in `from`.
 ///
-/// \cost O(count) expected, whatever the order of the records
+/// \cost O(count) expected, for any order of the records
 void split(split_record* from, split_record* to, std::size_t count, std::size_t left);
 
-/// Some records from one round of halving on: [begin, begin + count), in one of two arrays by the
+/// The records [begin, begin + count) before round `round` of halving; in one of two arrays, by the
 /// parity of `round`.
 struct split_part {
     std::size_t begin;

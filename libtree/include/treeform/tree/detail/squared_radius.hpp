@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Radii, which callers give and are told plain, as the squares that searches compare.
+/// Converts radii of callers, which are not squared, to the squares that searches compare.
 
 #include <cmath>
 #include <limits>
@@ -9,9 +9,9 @@
 
 namespace treeform::detail {
 
-/// The largest double whose root, rounded, is not above `radius`: a distance is the root of a
-/// square, and one that is returned as equal to the radius must be within it. That is a few units
-/// in the last place above the square of the radius.
+/// The largest double whose rounded square root is at most `radius`, so that a returned distance
+/// equal to the radius counts as within it. It is a few units in the last place above the square of
+/// the radius.
 /// \pre radius >= 0
 [[nodiscard]] inline double squared_limit(double radius) {
     constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A side of a search for pairs, of any kind of tree: its parts and a tree over them.
+/// One side of a search for pairs, for any kind of tree: its parts, and a tree over them.
 
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/detail/box_in_space.hpp>
@@ -13,12 +13,12 @@
 
 namespace treeform::detail {
 
-/// A tree over finite boxes with the leaves in their order; `ids()` are the places of those that
-/// are not empty. For few boxes: the top of a tree of trees.
+/// A tree over finite boxes, with leaves in the order of `boxes`. `ids()` are the positions of the
+/// boxes that are not empty. For few boxes: the top of a tree of trees.
 template <std::size_t D>
 [[nodiscard]] TREEFORM_API tree<D> tree_in_order(std::span<const aabb<double, D>> boxes);
 
-/// A tree of trees where it is, whether it is moved or not.
+/// A tree of trees, transformed or not.
 template <std::size_t D, class Trees>
 class trees_side {
   public:

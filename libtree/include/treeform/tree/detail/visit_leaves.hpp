@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The way down a tree by one query.
+/// Traversal of a tree by one query.
 
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/answers.hpp>
@@ -15,10 +15,10 @@
 
 namespace treeform::detail {
 
-/// Primitives of one leaf block: those at places `first` + each bit of `mask`.
+/// Visitor of primitives of one leaf block: those at places `first` + each bit of `mask`.
 using leaf_visitor = function_ref<bool(std::uint32_t first, unsigned mask)>;
 
-/// Calls `at_leaf(first, mask)` for the leaf blocks that are reached through slots of
+/// Calls `at_leaf(first, mask)` for the leaf blocks that are reached through the slots in
 /// `mask_of(node, count)`, in leaf order, until it returns true.
 template <std::size_t D, class MaskOf, class AtLeaf>
 search_statistics visit_leaves(const tree<D>& tree, const MaskOf& mask_of, const AtLeaf& at_leaf) {
@@ -26,7 +26,7 @@ search_statistics visit_leaves(const tree<D>& tree, const MaskOf& mask_of, const
         std::uint32_t node;
         unsigned level;
     };
-    // Of a node's children all but the one next visited wait: 7 a level, and the root.
+    // All children of a node except the next visited are pending: 7 for each level, and the root.
     std::array<entry, 7 * 11 + 1> stack{};
     std::size_t waiting = 0;
     search_statistics seen;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The way down a tree of any kind by a box or a check.
+/// Traversal of any kind of tree by a box or a check.
 
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/answers.hpp>
@@ -16,21 +16,21 @@
 
 namespace treeform {
 
-/// A query that can be held against boxes: true where something in the box may be wanted.
+/// A query as a predicate of boxes: true if the box may contain a match.
 template <class F, std::size_t D>
 concept box_check = requires(const F& check, const aabb<double, D>& box) {
     { check(box) } -> std::convertible_to<bool>;
 };
 
-/// What a search by one query takes: a box of float or double, or a `box_check`.
+/// A query of `search`: a box of float or double, or a `box_check`.
 template <class Q, std::size_t D>
 concept tree_query =
     box_check<Q, D> || std::same_as<Q, aabb<float, D>> || std::same_as<Q, aabb<double, D>>;
 
 namespace detail {
 
-/// Calls `at_leaf(ids, mask)` for the leaf blocks with primitives that `query` may want: those of
-/// `ids` at each bit of the mask. Stops where it returns true.
+/// Calls `at_leaf(ids, mask)` for the leaf blocks with primitives that may match `query`: those of
+/// `ids` at each bit of the mask. Stops if it returns true.
 template <std::size_t D, box_check<D> Query, class AtLeaf>
 search_statistics visit_query(const tree<D>& tree, const Query& query, const AtLeaf& at_leaf) {
     const std::uint32_t* const ids = tree.ids().data();
@@ -39,7 +39,7 @@ search_statistics visit_query(const tree<D>& tree, const Query& query, const AtL
         [&](const wide_node<D>& node, std::size_t count) {
             unsigned mask = 0;
             for (std::size_t slot = 0; slot < count; ++slot)
-                if (node.min[0][slot] <= node.max[0][slot])  // else all below has been removed
+                if (node.min[0][slot] <= node.max[0][slot])  // else all below were removed
                     mask |= static_cast<unsigned>(
                                 static_cast<bool>(query(box_in_space(tree.frame(), node, slot))))
                             << slot;
@@ -60,7 +60,7 @@ search_statistics visit_query(const tree<D>& tree, const aabb<T, D>& query, cons
         [&](std::uint32_t first, unsigned mask) { return at_leaf(ids + first, mask); });
 }
 
-/// The slots of `mask` that hold a primitive.
+/// The slots of `mask` that have a primitive.
 inline unsigned with_primitive(const std::uint32_t* ids, unsigned mask) {
     for (unsigned rest = mask; rest != 0; rest &= rest - 1)
         if (ids[std::countr_zero(rest)] == no_primitive) mask &= ~(rest & (0U - rest));
