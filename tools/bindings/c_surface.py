@@ -30,10 +30,9 @@ ENUMS = {
     "scalar_type": ("treeform_scalar", {"float32": "SCALAR_FLOAT32", "float64": "SCALAR_FLOAT64"}),
 }
 
-MESSAGE = Member("const char* message", "the result in words, without a full stop",
+MESSAGE = Member("const char* message", "the outcome as a clause for people, without a full stop",
                  "to.message = kept.keep(from.message()).c_str();")
-FILE = Member("const treeform_file* file", "for a mesh from a file: the result with its "
-                                           "attributes; otherwise null")
+FILE = Member("const treeform_file* file", "for a file: the result with its attributes; else null")
 
 
 BOUND = [
@@ -71,12 +70,11 @@ BOUND = [
         "part": [
             Member("treeform_arrays mesh", "only the intersecting faces",
                    "to.mesh = arrays(from.part.mesh);"),
-            Member("const uint32_t* face_in_file", "[F] for each of these faces, its number in "
-                                                   "the file",
+            Member("const uint32_t* face_in_file", "[F] number of each face in the file",
                    "to.face_in_file = faces_in_file(kept, from.part).data();"),
-            Member("uint64_t degenerate", "triangles without area",
+            Member("uint64_t degenerate", "number of triangles without area",
                    "to.degenerate = from.part.degenerate;"),
-            Member("uint64_t non_finite", "triangles with a coordinate that is not finite",
+            Member("uint64_t non_finite", "number of triangles that are not finite",
                    "to.non_finite = from.part.non_finite;")]}),
     # solids.h
     Bound("boolean_options"),
@@ -115,15 +113,16 @@ BOUND = [
                    f"to.nearest_{x} = from.on_{x}.face;"),
             Member(f"double on_{x}[3]", f"the nearest point on the surface of `{x}`",
                    f"copy(from.on_{x}.point, to.on_{x});"),
-            Member(f"double barycentric_{x}[3]", "its barycentric coordinates in that face",
+            Member(f"double barycentric_{x}[3]", f"barycentric coordinates of `on_{x}` in that "
+                                                 f"face",
                    f"std::copy(from.on_{x}.barycentric.begin(), from.on_{x}.barycentric.end(), "
                    f"to.barycentric_{x});")] for x in "ab"}),
     Bound("deviation_options", custom={"band": [
-        Member("double band_low", "lowest and highest signed distance within tolerance; NaN: no "
+        Member("double band_low", "lower end of the tolerance band of signed distances; NaN: no "
                                   "band", "",
                "if (!std::isnan(o.band_low) || !std::isnan(o.band_high))"
                " how.band = {o.band_low, o.band_high};", "to.band_low = not_known;"),
-        Member("double band_high", "", "", "", "to.band_high = not_known;")]}),
+        Member("double band_high", "its upper end", "", "", "to.band_high = not_known;")]}),
     Bound("deviation_result", leave="winding_numbers",
           counts={"distances": "count", "faces": "", "histogram": "bins"}),
     # weld.h
@@ -142,36 +141,35 @@ BOUND = [
           counts={"group_of_point": "point_count", "first_of_group": "group_count"}),
     # streams.h
     Bound("weld_stream_options", leave="las_scale las_offset shared step_done", custom={"+": [
-        Member("const char* format", "of the inputs; null: determined by the content"),
-        Member("const char* removed", "a file for the dropped points, or null"),
-        Member("const char* label", "write all points, with the number of their group as a "
-                                    "property of this name; or null"),
-        Member("int32_t withhold", "write all points, and set the LAS flag \"withheld\" for dropped"
-                                   " ones"),
+        Member("const char* format", "format of the inputs; null: by content"),
+        Member("const char* removed", "write the dropped points to this file; or null"),
+        Member("const char* label", "write all points, with their group in this property; or null"),
+        Member("int32_t withhold", 'write all points, with the flag "withheld" of LAS'),
         Member("void (*map)(const uint64_t* numbers, size_t count, void* data)",
-               "Called with the new numbers of the next input points, from the first to the last; or "
-               "null."),
+               "Called with the new numbers of consecutive input points, from the first point to "
+               "the last; or null."),
         Member("void* map_data"),
         Member("const treeform_write_options* write", "how to write the output; or null"),
         Member("const treeform_named_column* columns",
                "[column_count] as in `treeform_read_options`"),
         Member("size_t column_count"),
-        Member("int32_t mixed", "allow LAS files with different coordinate reference systems or "
-                                "time types; the output has those of the first file")]}),
+        Member("int32_t mixed", "join LAS files of different coordinate systems or time types; "
+               "the output then has those of the first")]}),
     Bound("weld_stream_result", leave="kept_apart removed label_replaced las_moved", custom={
         "survey": [Member(f"{type} {name}", doc, f"to.{name} = from.survey.{name};")
                    for type, name, doc in (
                        ("uint64_t", "points", ""),
-                       ("double", "tolerance", "the tolerance as a length"),
-                       ("uint64_t", "tiles", ""),
-                       ("uint64_t", "finished_tiles", "by an earlier run"))],
+                       ("double", "tolerance", "the tolerance as a length"), ("uint64_t", "tiles",
+                                                                              ""),
+                       ("uint64_t", "finished_tiles", "tiles finished by an earlier run"))],
         "max_displacement": [Member(
-            "double max_displacement", "upper bound of how far points moved",
+            "double max_displacement", "upper bound of the distance that a point moved",
             "to.max_displacement = from.statistics.max_displacement + from.survey.las_moved;")],
-        "welded": [Member("const char* format", "of the output",
+        "welded": [Member("const char* format", "format of the output",
                           'to.format = from.welded ? from.welded->format.c_str() : "";')],
         "mergeable": [
-            Member("uint64_t mergeable", "points that would be merged if the output were welded",
+            Member("uint64_t mergeable", "number of points that welding the output again would "
+                                         "merge",
                    "to.mergeable = from.mergeable.value_or(0);"),
             Member("int32_t mergeable_known", "",
                    "to.mergeable_known = from.mergeable.has_value();")]}),
@@ -185,7 +183,7 @@ BOUND = [
         "+": [MESSAGE]}),
     Bound("impact", leave="predicates", counts={"contacts": "contact_listed"}),
     Bound("face_contact", "impact_contact", "same", custom={"at": [
-        Member("uint8_t on_a", "the part of the face, as in `treeform_hit::at`"),
+        Member("uint8_t on_a", "corner, edge or interior of the face, as in `treeform_hit::at`"),
         Member("uint8_t on_b")]}),
     Bound("impact_options"),
     Bound("lay_flat_options"),
@@ -198,16 +196,16 @@ BOUND = [
     Bound("align_freedom", "freedom", "same"),
     Bound("align_result", leave="converged", counts={"points": "point_count"},
           custom={"+": [MESSAGE, Member(
-              "size_t undetermined", "the number of `freedoms` that the data does not determine",
+              "size_t undetermined", "number of `freedoms` that the data do not determine",
               "to.undetermined = from.undetermined();")]}),
     # assembly.h
     Bound("clash_options"),
     Bound("contact_region", kind="part",
           counts={"faces_a": "face_count_a", "faces_b": "face_count_b"}),
     Bound("part_clash", kind="part", custom={"nearest": [
-        Member("double on_a[3]", "the nearest points if the parts are too close, otherwise NaN",
+        Member("double on_a[3]", "for parts that are too close: the nearest point on a; else NaN",
                "copy(from.nearest ? (*from.nearest)[0] : nowhere, to.on_a);"),
-        Member("double on_b[3]", "",
+        Member("double on_b[3]", "the same on b",
                "copy(from.nearest ? (*from.nearest)[1] : nowhere, to.on_b);")]}),
     Bound("clash_result", "clashes", counts={"pairs": "count"}),
     Bound("pose_clash", kind="same"),
@@ -215,17 +213,16 @@ BOUND = [
     Bound("io_warning", "warning", "part"),
     Bound("column", kind="part", leave="role", custom={
         "list_length": [
-            Member("int32_t is_list", "each row is a list of values",
+            Member("int32_t is_list", "whether each row has a list of values",
                    "to.is_list = from.list_length.has_value();"),
-            Member("int32_t is_stored_elsewhere", "the values are those of points or faces, and "
-                                                  "stored there",
+            Member("int32_t is_stored_elsewhere", "whether the values are those of points and "
+                                                  "faces, and not here",
                    "to.is_stored_elsewhere = from.role != tf::column_role::data;")],
-        "values": [Member("const void* values", "[value_count] of the type",
+        "values": [Member("const void* values", "[value_count] values of `type`",
                           "to.values = from.values.data();"),
                    Member("size_t value_count", "", "to.value_count = from.size();")],
-        "list_begin": [Member("const uint64_t* list_begin", "[rows + 1] where the list of each "
-                                                            "row begins; null if there are no "
-                                                            "lists",
+        "list_begin": [Member("const uint64_t* list_begin",
+                              "[rows + 1] first value of each list; else null",
                               "if (from.list_length) to.list_begin = from.list_begin.data();")]}),
     Bound("element", "rows", "part"),
     Bound("part", "named_faces", "part"),
@@ -235,38 +232,41 @@ BOUND = [
                     Member("size_t texture_count", "",
                            "to.texture_count = from.attributes.corners.texture.size();")],
         "las": [Member("int32_t is_las", "", "to.is_las = from.las.has_value();"),
-                Member("double las_scale[3]", "", "if (from.las) std::copy(from.las->scale.begin(), "
+                Member("double las_scale[3]", "", "if (from.las) "
+                                                  "std::copy(from.las->scale.begin(), "
                        "from.las->scale.end(), to.las_scale);"),
-                Member("double las_offset[3]", "", "if (from.las) std::copy(from.las->offset.begin()"
+                Member("double las_offset[3]", "", "if (from.las) "
+                                                   "std::copy(from.las->offset.begin()"
                        ", from.las->offset.end(), to.las_offset);")]}),
     Bound("read_options", custom={"+": [Member("const char* format", "null: determined by the "
                                                                      "content")]}),
     Bound("write_options", leave="keep_names round", custom={"+": [Member(
         "int32_t certified",
-        "the coordinates are certified: fail instead of rounding them. For `treeform_write_mesh`")]}),
+        "the coordinates are certified: fail instead of rounding them. For "
+        "`treeform_write_mesh`")]}),
     Bound("write_result", "written"),
     Bound("part_options"),
     Bound("usable_mesh", "part", leave="distinct stored_face", custom={
         "+": [Member("const uint32_t* face_in_file",
-                     "[F] the number in the file, counting polygons",
+                     "[F] number of each face in the file, counting polygons",
                      "to.face_in_file = faces_in_file(kept, from).data();")],
         "triangle_of_face": [Member(
             "const uint32_t* triangle_of_face",
-            "[F] for each face, the number of its triangle in the file; null: the same number",
+            "[F] number of each face's triangle in the file; null: the same numbers",
             "to.triangle_of_face = or_null(from.triangle_of_face);")],
         "component": [Member("const uint32_t* component",
-                             "[F] with `details`: the component of each face; otherwise null",
+                             "[F] with `details`: component of each face; else null",
                              "to.component = or_null(from.component);")]}),
     Bound("urdf_joint", "robot_joint", "part", leave="origin axis mimics mimic_line", custom={
-        "limits": [Member("double lower", "the limits; NaN: unlimited",
+        "limits": [Member("double lower", "least value; NaN without limits",
                           "to.lower = from.limits ? (*from.limits)[0] : not_known;"),
-                   Member("double upper", "",
+                   Member("double upper", "greatest value",
                           "to.upper = from.limits ? (*from.limits)[1] : not_known;")]}),
     Bound("urdf_mesh", "robot_mesh", "part", custom={
-        "file": [Member("const char* file", "\"\" if it was generated",
+        "file": [Member("const char* file", 'empty for a box, a cylinder or a sphere',
                         "to.file = kept.keep(from.file.string()).c_str();")],
         "shape": [
-            Member("const double* points", "[point_count][3] of generated meshes",
+            Member("const double* points", "[point_count][3] points of a box, cylinder or sphere",
                    "to.points = flat(from.shape.points);"),
             Member("size_t point_count", "", "to.point_count = from.shape.points.size();"),
             Member("const uint32_t* faces", "[face_count][3]",
@@ -275,8 +275,8 @@ BOUND = [
     Bound("urdf_robot", "robot_view", leave="approximated skipped", counts={"links": "link_count"},
           custom={"+": [
               Member("const uint32_t* adjacent",
-                     "[adjacent_count][2] pairs of links that are connected by a joint, and "
-                     "always touch",
+                     "[adjacent_count][2] pairs of links connected by a joint, which need not be "
+                     "compared",
                      "const auto& adjacent = kept.keep(from.adjacent()); "
                      "to.adjacent = flat(adjacent);"),
               Member("size_t adjacent_count", "", "to.adjacent_count = adjacent.size();")]}),
@@ -286,8 +286,9 @@ BOUND = [
 LISTS = [
     List("mesh_feature", "features", "features", "Features, largest area first."),
     List("mesh_part", "mesh_parts", "parts", "Parts of a mesh."),
-    List("intersection_region", "regions", "regions", "Regions, in the order of their lowest faces."),
+    List("intersection_region", "regions", "regions", "Regions, in the order of their lowest "
+                                                      "faces."),
     List("uint32_t", "indices", "values", "A list of numbers."),
-    List("double", "heights", "heights", "Numbers."),
+    List("double", "heights", "heights", "A list of heights."),
     List("string", "strings", "values", "A list of strings."),
 ]

@@ -9,8 +9,8 @@
 
 namespace glue {
 
-/// The bodies of `files` [count], which are called `labels` [count]: for `treeform_clash` and all
-/// placements. Files are copied.
+/// The bodies of `files` [count], for `treeform_clash` and all placements. `labels` [count] are the
+/// names of the files in messages. Files are copied.
 inline answer_of<treeform_bodies> bodies_of(const treeform_file* const* files,
                                             const char* const* labels, std::size_t count,
                                             treeform_body_kind kind) {
@@ -39,9 +39,9 @@ inline answer_of<treeform_bodies> bodies_of(const treeform_file* const* files,
     return made;
 }
 
-/// The file of a body with its points moved to `points` [count][3], those of a placement, and all
-/// other points of the file moved by `matrix` [12]. The bodies hold the file from there on; their
-/// meshes stay.
+/// Replaces the body's points in its file by `points` [count][3], those of a placement, transforms
+/// all other points of the file by `matrix` [12], and returns the file. The meshes of the bodies do
+/// not change.
 inline tf::mesh_file put_back(treeform_bodies* bodies, std::size_t body, const double* points,
                               std::size_t count, const double* matrix, tf::precision written_as) {
     auto& set = kept_in<tf::body_set>(need(bodies, "bodies"), "bodies");
@@ -55,8 +55,9 @@ inline tf::mesh_file put_back(treeform_bodies* bodies, std::size_t body, const d
     return set.file_of(body).content;
 }
 
-/// All pairs of parts of which one's name matches `first`, and the other's `second`, where * stands
-/// for any characters and ? for one: [count / 2][2], for `ignored`.
+/// All pairs of parts of which one matches the pattern `first` by its name, and the other the
+/// pattern `second`; * matches any characters, ? one character. [count / 2][2], for
+/// `treeform_clash_options::ignored`.
 inline std::vector<std::uint32_t> pairs_named(std::span<const std::string> names,
                                               const std::string& first, const std::string& second) {
     std::vector<std::uint32_t> flat;
@@ -65,8 +66,8 @@ inline std::vector<std::uint32_t> pairs_named(std::span<const std::string> names
     return flat;
 }
 
-/// What clashes in each of many poses: `poses` [pose_count][count][12] has a matrix for each part,
-/// pose after pose. Exact, for the corners as moved.
+/// The clashes in each of many poses: `poses` [pose_count][count][12] has a matrix for each part,
+/// pose after pose. Exact for the moved corners, rounded to double.
 inline answer_of<treeform_poses_result> check_poses(const treeform_mesh* const* parts,
                                                     std::size_t count, const double* poses,
                                                     std::size_t pose_count,

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Attributes carried to results, and colors, in C.
+/// Attributes transferred to results, and colors, in C.
 
 #include <treeform/mesh/deviation.hpp>
 #include <treeform/mesh/placement.hpp>
@@ -12,7 +12,8 @@ namespace glue {
 
 inline std::size_t faces_of(const tf::carry_source& input) { return input.file->mesh.faces.size(); }
 
-/// Elements of the operands, each of which is there; `count_of(input)` is how many there are.
+/// Elements of the operands, checked to be in range; `count_of(input)` is the number of elements of
+/// an operand.
 template <class CountOf>
 std::span<const tf::operand_element> elements(const treeform_element* data, std::size_t count,
                                               const char* name,
@@ -37,10 +38,10 @@ inline std::span<const std::uint32_t> numbers(const std::uint32_t* data, std::si
     return all;
 }
 
-/// Gives `file`, whose mesh was made of the `inputs` [count], their attributes: columns of vertices
-/// and faces, texture coordinates and normals, materials; of a single input, also names of parts.
-/// `face_source` [F], `vertex_source` [V] and `face_of_cut_vertex` ([V] or null) are those of a
-/// `treeform_boolean_result`.
+/// Gives `file`, whose mesh is a result of the `inputs` [count], their attributes: columns of
+/// vertices and faces, texture coordinates and normals, materials; from a single input, also the
+/// names of its parts. `face_source` [F], `vertex_source` [V] and `face_of_cut_vertex` ([V] or
+/// null) are those of a `treeform_boolean_result`.
 inline void carry(tf::mesh_file& file, const treeform_carry_source* inputs, std::size_t count,
                   const treeform_element* face_source, const treeform_element* vertex_source,
                   const treeform_element* face_of_cut_vertex) {
@@ -56,9 +57,9 @@ inline void carry(tf::mesh_file& file, const treeform_carry_source* inputs, std:
                elements(vertex_source, vertices, "vertex_source", from, points), cut);
 }
 
-/// The same for what was made of one input: `face_source` [F] and `vertex_source` [V] are those of
-/// a `treeform_repair_result` or `treeform_repair_result`; of a `treeform_simplify_result`, also
-/// `face_of_new_vertex` [V] and `corner_source` [3 F], else null.
+/// The same for a result of one input: `face_source` [F] and `vertex_source` [V] are those of a
+/// `treeform_repair_result`, `treeform_cut_piece` or `treeform_simplify_result`. For the last, also
+/// pass its `face_of_new_vertex` [V] and `corner_source` [3 F], else null.
 inline void carry_one(tf::mesh_file& file, const treeform_carry_source* input,
                       const std::uint32_t* face_source, const std::uint32_t* vertex_source,
                       const std::uint32_t* face_of_new_vertex, const std::uint32_t* corner_source) {
@@ -77,7 +78,8 @@ inline void carry_one(tf::mesh_file& file, const treeform_carry_source* input,
 }
 
 /// A group for each face of all inputs, for `treeform_boolean_options::face_groups`. With
-/// `by_values` a group has one material and equal values, with `by_input` faces of one input only.
+/// `by_values`, a group has one material and equal values; with `by_input`, faces of one input
+/// only.
 inline std::vector<std::uint32_t> face_groups(const treeform_carry_source* inputs,
                                               std::size_t count, bool by_values, bool by_input) {
     const carry_inputs files(inputs, count);
@@ -85,15 +87,16 @@ inline std::vector<std::uint32_t> face_groups(const treeform_carry_source* input
         .face_groups(by_values, by_input);
 }
 
-/// A group for each corner [3 F] of an input, for `treeform_simplify_options::corner_groups`:
-/// seams, and borders of materials and values, are kept. None where there are no values.
+/// A group for each corner [3 F] of an input, for `treeform_simplify_options::corner_groups`, which
+/// preserves seams and borders between materials and values. Empty if all corners at each point
+/// would be in one group.
 inline std::vector<std::uint32_t> corner_groups(const treeform_carry_source* input) {
     const carry_inputs files(input, 1);
     return tf::carry_sources({files.sources().begin(), files.sources().end()}).corner_groups();
 }
 
-/// Gives faces the columns NAME_mesh and NAME_face: the operand that each comes from, and its
-/// number there; a comment for each of `inputs` [count] says its name.
+/// Gives faces the columns NAME_mesh and NAME_face: the operand and the face number of each source.
+/// A comment names each of `inputs` [count].
 inline void add_source_columns(tf::mesh_file& file, const std::string& name,
                                const treeform_element* face_source,
                                std::span<const std::string> inputs) {
@@ -102,16 +105,16 @@ inline void add_source_columns(tf::mesh_file& file, const std::string& name,
         rows_of<tf::operand_element>(face_source, file.mesh.faces.size(), "face_source"), inputs);
 }
 
-/// Gives the vertices of a file the property "distance" and colors from blue (`low`) over white (0)
-/// to red (`high`); `distances` [count] has one for each point.
+/// Gives the vertices of a file the property "distance", and colors from blue (`low` or less) over
+/// white (0) to red (`high` or more). `distances` [count] has one value for each point.
 inline void color_distances(tf::mesh_file& file, std::span<const double> distances, double low,
                             double high) {
     tf::deviation_result::color(file, distances, low, high);
 }
 
-/// Gives the triangles of a file (of a cloud, its points) the property tf_class and its color:
-/// `relations` [count] are those of `treeform_face_relations`. Triangles up to twice `halo` wide
-/// around them have a tint.
+/// Gives the triangles of a file (for a cloud, its points) the property tf_class and its color;
+/// `relations` [count] are those of `treeform_face_relations`. Small triangles near those that are
+/// not separate, with edges of at most twice `halo`, get a tint.
 inline void color_contacts(tf::mesh_file& file, std::span<const std::uint8_t> relations,
                            double halo) {
     std::vector<tf::mesh_relation> all;

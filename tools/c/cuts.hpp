@@ -9,15 +9,15 @@
 
 namespace glue {
 
-/// Heights above `plane` (null: as above) of the middles of layers of this thickness, from the
-/// lowest point of the mesh to the highest.
+/// Heights above `plane` (null: the plane z = 0) of the middles of layers of this thickness, from
+/// the lowest point of the mesh to the highest.
 inline std::vector<double> layer_heights(tf::mesh_view mesh, const tf::oriented_plane& plane,
                                          double thickness) {
     return plane.layer_heights(mesh.points, thickness);
 }
 
-/// Writes sections as svg, dxf, obj or json: `format`, or by the extension where that is null.
-/// `unit` of lengths: mm, cm, m, in, ft or um, or null: SVG has no size on paper then.
+/// Writes sections as svg, dxf, obj or json: `format`, or if null, the extension. `unit` of
+/// lengths: mm, cm, m, in, ft or um; if null, SVG has no size on paper.
 inline void write_section(const std::filesystem::path& path, const treeform_section_result* section,
                           std::string_view format, std::string_view unit) {
     const treeform_section_result& s = need(section, "section");
@@ -29,16 +29,17 @@ inline void write_section(const std::filesystem::path& path, const treeform_sect
     tf::write_section(path, copy, std::string(format), std::string(unit));
 }
 
-/// The faces that corners link, as meshes, by their lowest faces; a cavity goes with what is around
-/// it. Parts of a volume below `min_volume` are left out (open ones have none), and all but the
-/// `largest` ones where that is not 0.
+/// The connected components of a mesh (faces linked by common corners), in the order of their
+/// lowest faces; a cavity is returned with the component around it. Parts with a volume below
+/// `min_volume` are omitted (open parts have volume 0). If `largest` is not 0, only that many parts
+/// are returned, those of the greatest volume.
 inline std::vector<tf::mesh_part> components(const tf::mesh_ref& mesh, double min_volume,
                                              std::size_t largest) {
     return tf::components(mesh, min_volume, largest);
 }
 
-/// Points and faces of all meshes, one after the other; nothing is joined. `index` [F] is the mesh
-/// that each face is of.
+/// The points and faces of all meshes, one mesh after the other; points are not joined. `index` [F]
+/// is the number of each face's mesh.
 inline made_mesh concatenate(const treeform_mesh* const* meshes, std::size_t count) {
     const std::vector<tf::mesh_view> all = views(meshes, count, "meshes");
     std::vector<std::uint32_t> mesh_of_face;

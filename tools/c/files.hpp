@@ -20,14 +20,14 @@ namespace glue {
 // ---- reading ----
 
 /// Reads the file at `path`, UTF-8; "-" is standard input. `format` is an extension without its dot
-/// ("stl", "ply", ...), or null: the content decides, then the extension. Coordinates are as
-/// stored.
+/// ("stl", "ply", ...), or null: detected by content, then by extension. Coordinates are as stored.
 inline tf::mesh_file read(const std::filesystem::path& path, std::string_view format) {
     return tf::read(path, format);
 }
 
 /// The mesh of the file at `path`, in one call: corners with equal coordinates are one vertex,
-/// triangles that are not finite are left out. `treeform_read` and `treeform_as_mesh` tell which.
+/// triangles that are not finite are dropped. To know which ones, use `treeform_read` and
+/// `treeform_as_mesh`.
 inline answer_of<treeform_mesh> read_mesh(const std::filesystem::path& path) {
     tf::mesh own = tf::read_mesh(path).mesh;
     const std::span<const tf::face> faces = own.faces;  // stay where they are when moved
@@ -41,14 +41,14 @@ inline tf::mesh_file read_as(const std::filesystem::path& path,
     return tf::read(path, text(o.format), read(o));
 }
 
-/// The same of bytes in memory. Errors say `name`.
+/// The same for bytes in memory. Errors have `name` instead of the path.
 inline tf::mesh_file read_memory(const void* bytes, std::size_t size, const char* name,
                                  std::string_view format) {
     return tf::read(array(static_cast<const std::byte*>(bytes), size, "bytes"),
                     name ? name : "memory", format);
 }
 
-/// A file without attributes, with copies of the points and faces of a mesh or cloud.
+/// Creates a file without attributes, with copies of the points and faces of a mesh or cloud.
 inline tf::mesh_file file_create(const treeform_mesh* mesh) {
     tf::mesh_file made;
     made.mesh = copy_of(mesh);
@@ -59,7 +59,7 @@ inline tf::mesh_file file_create(const treeform_mesh* mesh) {
 /// A copy of a file.
 inline tf::mesh_file file_copy(const tf::mesh_file& file) { return file; }
 
-/// Looks into a file.
+/// The content of a file, as arrays that the file owns.
 inline answer_of<treeform_file_view> file_look(const tf::mesh_file& file) {
     auto made = make<treeform_file_view>();
     fill(*made, file, made->value);
@@ -76,7 +76,8 @@ inline std::size_t rows_in(const tf::mesh_file& file, std::string_view element) 
     return found ? found->rows : static_cast<std::size_t>(-1);
 }
 
-/// Replaces the points [count][3], which must be as many as there are: what a placement returns.
+/// Replaces the points [count][3], for example by those of a placement; `count` must be the number
+/// of points.
 inline void file_set_points(tf::mesh_file& file, std::span<const tf::point3> points) {
     if (points.size() != file.mesh.points.size())
         throw std::invalid_argument(std::to_string(points.size()) + " points for a file of " +
@@ -85,9 +86,9 @@ inline void file_set_points(tf::mesh_file& file, std::span<const tf::point3> poi
     if (!tf::fits_single(file.mesh.points)) file.stored_as = tf::precision::float64;
 }
 
-/// Sets a column of `element` ("vertex", "face"), one value a row, `values` [rows] of `type`. The
-/// rows of vertices and faces are those that the file has. Columns that stand for coordinates or
-/// corners are refused.
+/// Sets a column of `element` ("vertex", "face") with one value for each row: `values` [rows] of
+/// `type`. For vertices and faces, `rows` must be their number in the file. Names of columns of
+/// coordinates or corners are an error.
 inline void file_set_column(tf::mesh_file& file, const std::string& element,
                             const std::string& name, tf::scalar_type type, const void* values,
                             std::size_t rows) {
@@ -108,8 +109,8 @@ inline void file_set_column(tf::mesh_file& file, const std::string& element,
     file.attributes.find_or_add(element, rows).set(std::move(column));
 }
 
-/// Sets texture coordinates `texture` [texture_count][3] and their numbers at each corner of each
-/// triangle `of_corner` [F][3], `TREEFORM_NONE` for none.
+/// Sets texture coordinates `texture` [texture_count][3], and the number of those at each corner of
+/// each triangle, `of_corner` [F][3]; `TREEFORM_NONE` for none.
 inline void file_set_texture(tf::mesh_file& file, const double* texture, std::size_t texture_count,
                              const std::uint32_t* of_corner) {
     const std::span corners = faces(of_corner, file.mesh.faces.size(), "of_corner");
@@ -123,8 +124,7 @@ inline void file_set_texture(tf::mesh_file& file, const double* texture, std::si
     file.attributes.corners = std::move(made);
 }
 
-/// Adds a name for the faces from `first_face` on; strings may be null. Names come by ascending
-/// faces.
+/// Names the faces from `first_face` on; strings may be null. Call it in ascending order of faces.
 inline void file_add_part(tf::mesh_file& file, const char* object, const char* group,
                           const char* material, std::uint32_t first_face) {
     std::vector<tf::part>& parts = file.attributes.parts;
@@ -134,7 +134,7 @@ inline void file_add_part(tf::mesh_file& file, const char* object, const char* g
     parts.push_back({text(object), text(group), text(material), first_face});
 }
 
-/// Adds such a line.
+/// Adds a line of text: a comment, a remark, or the name of a material or texture file, by `what`.
 inline void file_add_text(tf::mesh_file& file, treeform_text what, const std::string& text) {
     tf::attributes& a = file.attributes;
     const std::array lists{&a.comments, &a.obj_info, &a.material_files, &a.texture_files};
@@ -144,34 +144,34 @@ inline void file_add_text(tf::mesh_file& file, treeform_text what, const std::st
 /// Makes each triangle a face of its own.
 inline void file_split_polygons(tf::mesh_file& file) { file.split_polygons(); }
 
-/// Moves the coordinates to those that a LAS file can hold; `moved` is the furthest that one went.
+/// Rounds the coordinates to those of a LAS file; `moved` is the largest change of a coordinate.
 inline double file_round_to_las(tf::mesh_file& file) { return tf::round_to_las(file); }
 
-/// Moves the coordinates to 32-bit floats; `moved` is the furthest that one went.
+/// Rounds the coordinates to 32-bit floats; `moved` is the largest change of a coordinate.
 inline double file_round_to_float32(tf::mesh_file& file) { return file.round_to_float32(); }
 
-/// Moves all of the file by a matrix; where it mirrors, faces are turned over, so that they look
-/// outward as before.
+/// Transforms the points and normals of the file by a matrix. If it mirrors, faces are flipped, so
+/// that they still point outward.
 inline void file_transform(tf::mesh_file& file, const double* matrix) {
     file.move(finite_matrix(matrix));
 }
 
-/// Turns the normals of the file as a matrix does; where it mirrors, for faces that are turned
-/// over.
+/// Transforms the normals of the file by a matrix. If it mirrors, outward normals stay outward, as
+/// for flipped faces.
 inline void file_turn_normals(tf::mesh_file& file, const double* matrix) {
     file.turn_normals(finite_matrix(matrix));
 }
 
 // ---- writing ----
 
-/// Writes a file to `path`, whole or not at all; "-" is standard output. What a format does not
-/// hold is left out: `written` says what.
+/// Writes a file to `path`, completely or not at all; "-" is standard output. Data that the format
+/// cannot store is omitted; `written` lists it.
 inline tf::write_result write(const std::filesystem::path& path, const tf::mesh_file& file,
                               const tf::write_options& options) {
     return tf::write(path, file, options);
 }
 
-/// The same of a mesh without attributes. `written` may be null.
+/// The same for a mesh without attributes. `written` may be null.
 inline tf::write_result write_mesh(const std::filesystem::path& path, const treeform_mesh* mesh,
                                    const treeform_write_options* options) {
     struct certified_mesh {  // as `write` takes one
@@ -185,7 +185,7 @@ inline tf::write_result write_mesh(const std::filesystem::path& path, const tree
     return tf::write(path, std::move(copy), read(o));
 }
 
-/// The bytes of the file, of the format that `options` name.
+/// The bytes of the file, in the format in `options`.
 inline answer_of<treeform_bytes> write_memory(const tf::mesh_file& file,
                                               const tf::write_options& options) {
     auto made = make<treeform_bytes>();
@@ -197,13 +197,13 @@ inline answer_of<treeform_bytes> write_memory(const tf::mesh_file& file,
 
 // ---- meshes and scenes ----
 
-/// The part of a file's mesh that can be used. Points that only faces left out use go, too.
+/// The usable part of a file's mesh. Points that only dropped faces use are dropped as well.
 inline tf::usable_mesh usable_part(const tf::mesh_file& file, const tf::part_options& options) {
     return tf::usable_part(file.mesh, file.stored_face, options);
 }
 
 /// The whole mesh of a file: corners with equal coordinates become one vertex, triangles that are
-/// not finite are left out. Points keep their numbers, so that attributes can be carried.
+/// not finite are dropped. Points keep their numbers, so that attributes can be transferred.
 inline tf::usable_mesh as_mesh(const tf::mesh_file& file) {
     tf::mesh_file plain;
     plain.mesh = file.mesh;
@@ -213,7 +213,7 @@ inline tf::usable_mesh as_mesh(const tf::mesh_file& file) {
     return tf::as_mesh(std::move(plain));
 }
 
-/// Or numbers of the inputs, where there are none.
+/// The names as strings; if null, the numbers of the inputs.
 inline std::vector<std::string> names_of(const char* const* names, std::size_t count) {
     if (names) return texts(names, count, "names");
     std::vector<std::string> result;
@@ -221,7 +221,8 @@ inline std::vector<std::string> names_of(const char* const* names, std::size_t c
     return result;
 }
 
-/// One file with the points and faces of all. `names` [count] are for warnings; or null.
+/// Concatenates files: one file with all points and faces. `names` [count], or null, are for
+/// warnings.
 inline tf::mesh_file join_files(const treeform_file* const* files, const char* const* names,
                                 std::size_t count) {
     std::vector<tf::mesh_file> all;
@@ -231,7 +232,7 @@ inline tf::mesh_file join_files(const treeform_file* const* files, const char* c
     return tf::join(std::move(all), names_of(names, count));
 }
 
-/// All files in one scene, each under its name, with materials and textures.
+/// One scene of all files, each under its name, with materials and textures.
 inline tf::mesh_file scene(const treeform_file* const* files, const char* const* names,
                            std::size_t count) {
     const std::span all = array(files, count, "files");
@@ -242,8 +243,8 @@ inline tf::mesh_file scene(const treeform_file* const* files, const char* const*
     return tf::scene_of(members, labels, labels);
 }
 
-/// The parts of a file by its objects, groups or nodes, each as a file of its own. Parts that have
-/// points or open edges in common are one.
+/// The parts of a file, by its objects, groups or nodes, each as a file of its own. Parts with
+/// common points or coinciding open edges are combined.
 inline answer_of<treeform_scene_parts> split_parts(const tf::mesh_file& file) {
     auto made = make<treeform_scene_parts>();
     auto& all = made->keep(std::vector<treeform_scene_part>());
@@ -257,14 +258,14 @@ inline answer_of<treeform_scene_parts> split_parts(const tf::mesh_file& file) {
 
 // ---- robots ----
 
-/// Looks into a robot.
+/// The content of a robot, as arrays that the robot owns.
 inline answer_of<treeform_robot_view> robot_look(const tf::urdf_robot& robot) {
     auto made = make<treeform_robot_view>();
     fill(*made, robot, made->value);
     return made;
 }
 
-/// The parts of a robot; reads the files of its meshes.
+/// The parts of a robot: one mesh for each link with faces. Reads the files of its meshes.
 inline answer_of<treeform_robot_parts> robot_parts_of(const tf::urdf_robot& robot) {
     auto made = make<treeform_robot_parts>();
     auto& from = made->keep(robot.parts(
@@ -284,8 +285,8 @@ inline answer_of<treeform_robot_parts> robot_parts_of(const tf::urdf_robot& robo
     return made;
 }
 
-/// `places` [link_count][12]: where each link is when `joints` [count] have these `values`, in
-/// radians or lengths. Joints without a value are at 0.
+/// `places` [link_count][12]: the matrix from each link's frame to the robot's frame, if `joints`
+/// [count] have these `values`, in radians or lengths. Joints without a value are at 0.
 inline void link_transforms(const tf::urdf_robot& robot, const char* const* joints,
                             const double* values, std::size_t count, double* places) {
     const std::vector<std::string> names = texts(joints, count, "joints");

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What all functions of the C surface share: exceptions become codes, arguments are checked, and
+/// Common to all functions of the C interface: exceptions become codes, arguments are checked, and
 /// results are kept until they are freed.
 
 #include <treeform/mesh/as_mesh.hpp>
@@ -42,7 +42,8 @@ namespace glue {
 
 namespace tf = treeform;
 
-/// What `treeform_free` deletes: its address is the first member of all that is handed out.
+/// The base of everything that `treeform_free` deletes. Its address is the first member of every
+/// returned struct.
 struct owned {
     owned() = default;
     owned(const owned&) = delete;
@@ -50,9 +51,9 @@ struct owned {
     virtual ~owned() = default;
 };
 
-/// Keeps what the arrays of structs belong to.
+/// Owns the data to which the arrays of structs refer.
 struct keeper : owned {
-    /// `what`, as long as this exists.
+    /// Moves `what` here, and returns a reference that is valid as long as this exists.
     template <class T>
     T& keep(T what) {
         auto place = std::make_shared<T>(std::move(what));
@@ -63,7 +64,7 @@ struct keeper : owned {
     std::vector<std::shared_ptr<void>> kept;
 };
 
-/// A struct that is handed out.
+/// A struct returned to the caller, with the data that it owns.
 template <class C>
 struct answer final : keeper {
     answer() { value.owner = static_cast<owned*>(this); }
@@ -78,7 +79,7 @@ template <class C>
     return std::make_unique<answer<C>>();
 }
 
-/// Hands it out.
+/// Releases it to the caller.
 template <class C>
 treeform_code give(answer_of<C> made, C** out) {
     *out = &made.release()->value;
@@ -88,20 +89,20 @@ treeform_code give(answer_of<C> made, C** out) {
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-/// `progress` asked to stop.
+/// Thrown if `progress` returned other than 0.
 struct cancelled {};
 
-/// \throws cancelled where that is how it ended
+/// \throws cancelled if the status is `cancelled`
 inline void check(tf::status status) {
     if (status == tf::status::cancelled) throw cancelled{};
 }
 
-/// Says what is wrong, for `treeform_last_error`.
+/// Sets the message of `treeform_last_error`.
 void say(const char* what) noexcept;
 /// The code of the exception that is being handled.
 [[nodiscard]] treeform_code code_of_exception() noexcept;
 
-/// Runs the body of a function; exceptions become codes. The body may return a code of its own.
+/// Runs the body of a function, and converts exceptions to codes. The body may also return a code.
 template <class Body>
 [[nodiscard]] treeform_code guard(const Body& body) noexcept {
     try {
@@ -124,7 +125,7 @@ template <class T>
     return *what;
 }
 
-/// The place for a result, which is null until there is one.
+/// The caller's pointer for a result, set to null until there is one.
 template <class T>
 void start(T** out) {
     need(out, "the pointer to the result") = nullptr;
@@ -141,13 +142,13 @@ template <class T>
     (void)need(data, name);
     return {data[0], data[1], data[2]};
 }
-/// The identity for null.
+/// The transform of a matrix; the identity for null.
 [[nodiscard]] inline tf::transform<3> matrix(const double* data) {
     tf::transform<3> result;
     if (data) std::memcpy(result.rows.data(), data, sizeof result.rows);
     return result;
 }
-/// One that is there.
+/// The transform of a matrix, which must not be null and must be finite.
 [[nodiscard]] tf::transform<3> finite_matrix(const double* data);
 [[nodiscard]] inline std::optional<double> given(double value) {
     return std::isnan(value) ? std::nullopt : std::optional(value);
@@ -160,24 +161,24 @@ template <class T>
     const std::vector<std::string> all = texts(what, count, name);
     return {all.begin(), all.end()};
 }
-/// A point that is known to be finite, as the predicates need it.
+/// A point that is checked to be finite, as the predicates require.
 [[nodiscard]] tf::point3 finite(const double* data, const char* name);
 [[nodiscard]] tf::point2 finite2(const double* data, const char* name);
-/// Null: through the origin, across z.
+/// A plane; null: through the origin, perpendicular to z.
 [[nodiscard]] tf::oriented_plane plane(const treeform_plane* plane);
-/// Without any, the plane itself.
+/// Heights; if there are none, the plane itself.
 [[nodiscard]] std::vector<double> heights(const double* heights, std::size_t count);
 template <class T, class C>  // of the same bytes
 [[nodiscard]] std::span<const T> same_as(std::span<const C> all) {
     static_assert(sizeof(C) == sizeof(T) && alignof(C) == alignof(T));
     return {reinterpret_cast<const T*>(all.data()), all.size()};
 }
-/// Pairs of faces of a mesh, all of them there.
+/// Pairs of faces of a mesh, checked to be in range.
 [[nodiscard]] std::vector<tf::face_pair> pairs_of(std::size_t face_count,
                                                   const treeform_face_pair* pairs,
                                                   std::size_t count);
 [[nodiscard]] tf::box3 box(const treeform_box& b);
-/// None for null.
+/// An empty value for null.
 [[nodiscard]] inline std::optional<tf::box3> box(const treeform_box* b) {
     return b ? std::optional(box(*b)) : std::nullopt;
 }
@@ -188,7 +189,7 @@ template <class T, class C>  // of the same bytes
     if (!three) return std::nullopt;
     return std::array{three[0], three[1], three[2]};
 }
-/// Rows of equal numbers, or structs of C, as structs of them.
+/// Rows of numbers, or C structs, viewed as C++ structs of the same layout.
 template <class Row, class T>
 [[nodiscard]] std::span<const Row> rows_of(const T* data, std::size_t count, const char* name) {
     static_assert(sizeof(Row) % sizeof(T) == 0 && alignof(Row) == alignof(T));
@@ -219,7 +220,7 @@ template <class Row, class T>
 }
 [[nodiscard]] tf::pair_kinds kinds(std::uint32_t bits);
 using name_pairs = std::vector<std::pair<std::string, std::string>>;
-/// Null, and null among them, is an error that says `what`.
+/// Null, and null among the elements, is an error that names `what`.
 [[nodiscard]] name_pairs columns_of(const treeform_named_column* columns, std::size_t count,
                                     const char* what);
 [[nodiscard]] std::vector<tf::weld_condition> conditions(const treeform_weld_condition* same,
@@ -243,7 +244,7 @@ template <class Options>
     return progress(options.progress, options.progress_data);
 }
 
-/// Of work in steps, whose names C does not have.
+/// Progress of work in steps, without the names of the steps.
 template <class Options>
 [[nodiscard]] std::function<bool(std::string_view, double)> step_progress(const Options& options) {
     if (!options.progress) return {};
@@ -252,13 +253,14 @@ template <class Options>
     };
 }
 
-/// One that is alone for null.
+/// A communicator; a single process for null.
 [[nodiscard]] tf::communicator communicator_of(const treeform_communicator* of);
 
-/// What `treeform_set_progress` has set for this thread.
+/// The callback that `treeform_set_progress` set for this thread.
 [[nodiscard]] tf::progress_callback thread_progress();
 
-/// `body(begin, end)` for pieces of `count` questions, all at once where nobody wants to know.
+/// Calls `body(begin, end)` for pieces of `count` queries, so that progress can be reported; for
+/// all at once without a progress callback.
 ///
 /// \throws cancelled
 template <class Body>
@@ -269,7 +271,7 @@ void in_pieces(std::size_t count, const Body& body) {
         throw cancelled{};
 }
 
-/// Adds lists to others, [begin, all] as results have them; `begin` has a 0 at first.
+/// Appends lists to [begin, all], in the layout of results; initially, `begin` is {0}.
 template <class T>
 void append(std::vector<std::size_t>& begin, std::vector<T>& all, std::vector<std::size_t>&& more,
             std::vector<T>&& values) {
@@ -290,7 +292,7 @@ void init(C* options, std::size_t size, C defaults) noexcept {
     std::memcpy(options, &defaults, defaults.size);
 }
 
-/// The caller's options, with defaults where the struct is shorter than ours.
+/// The caller's options, with defaults for members beyond the size of the caller's struct.
 template <class C>
 [[nodiscard]] C chosen(const C* options, void (*init)(C*, std::size_t)) {
     C all{};
@@ -305,7 +307,7 @@ template <class C>
 
 // ---- results ----
 
-/// A struct, or an array of structs, that are the same in C and C++.
+/// A struct, or an array of structs, with the same layout in C and C++.
 template <class C, class T>
 [[nodiscard]] const C* same(const std::vector<T>& values) {
     static_assert(sizeof(C) == sizeof(T) && alignof(C) == alignof(T));
@@ -320,7 +322,7 @@ template <class C, class T>
     std::memcpy(&made, &value, sizeof made);
     return made;
 }
-/// The numbers of rows, one after the other.
+/// The numbers of rows as one array, row after row.
 [[nodiscard]] inline const double* flat(std::span<const tf::point3> values) {
     return reinterpret_cast<const double*>(values.data());
 }
@@ -356,17 +358,17 @@ void copy(const T& from, double* to) {
     return result;
 }
 
-/// [strings] for a struct; `owner` keeps the pointers, the strings stay where they are.
+/// An array of C strings for a struct. `owner` keeps the pointers; the strings must outlive it.
 [[nodiscard]] const char* const* words(keeper& owner, const std::vector<std::string>& strings);
 
-/// A struct of C of one of C++ that stays.
+/// The C struct of a C++ struct, which must outlive it.
 template <class C, class T>
 [[nodiscard]] C& filled(keeper& owner, const T& from) {
     C made{};
     fill(owner, from, made);
     return owner.keep(made);
 }
-/// The same of many.
+/// The same for many.
 template <class C, class T>
 [[nodiscard]] const C* list(keeper& owner, const std::vector<T>& from) {
     std::vector<C> made(from.size());
@@ -374,21 +376,21 @@ template <class C, class T>
     return owner.keep(std::move(made)).data();
 }
 
-/// One, or none, as a list.
+/// An optional value as a list of one or no element.
 template <class T>
 [[nodiscard]] std::vector<T> as_list(std::optional<T>&& one) {
     std::vector<T> made;
     if (one) made.push_back(std::move(*one));
     return made;
 }
-/// Hands out what a function of C++ returned.
+/// Returns the result of a C++ function to the caller.
 template <class C, class T>
 C& hand_out(T&& found, C** out) {
     auto made = make<C>();
     fill(*made, made->keep(std::forward<T>(found)), made->value);
     return *(*out = &made.release()->value);
 }
-/// What an answer was made of.
+/// The C++ value of which an answer was made.
 template <class T, class C>
 [[nodiscard]] T& kept_in(const C& given, const char* name) {
     auto* const owner = dynamic_cast<answer<C>*>(static_cast<owned*>(given.owner));
@@ -398,12 +400,12 @@ template <class T, class C>
 
 /// The code of a result with this certificate.
 ///
-/// \throws cancelled where that is how it ended
+/// \throws cancelled if the status is `cancelled`
 [[nodiscard]] treeform_code code_of(const tf::certificate& certificate);
 
-/// The same; nothing for an optional that is empty. What a handle holds becomes one.
+/// The same; no result for an empty optional. Values that handles own become handles.
 ///
-/// \throws cancelled where that is how it ended
+/// \throws cancelled if the status is `cancelled`
 template <class C, class T>
 [[nodiscard]] treeform_code give(T&& found, C** out) {
     treeform_code code = TREEFORM_OK;

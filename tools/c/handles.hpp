@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Meshes and files as C has them: as arguments, and in results.
+/// Handles of meshes and files: as arguments, and in results.
 
 #include <tools/c/glue.hpp>
 
@@ -8,8 +8,8 @@
 
 struct treeform_mesh {
     void* owner;
-    treeform::mesh arrays;                    ///< where they are not the caller's
-    treeform::prepared_mesh mine;             ///< unless it is one of a set
+    treeform::mesh arrays;                    ///< unless they are the caller's
+    treeform::prepared_mesh mine;             ///< unless the mesh belongs to a set
     const treeform::prepared_mesh* prepared;  ///< `mine`, or that of a set
     const void* set;
     bool one_use;
@@ -22,7 +22,7 @@ struct treeform_file {
 
 namespace glue {
 
-/// What a handle holds.
+/// The data of a handle.
 template <class Handle>
 [[nodiscard]] auto& content(Handle* handle, const char* name) {
     auto& found = need(handle, name).content;
@@ -34,7 +34,7 @@ template <class Handle>
 [[nodiscard]] inline tf::mesh_view view(const treeform_mesh* mesh) {
     return need(mesh, "mesh").prepared->view();
 }
-/// What a caller has given: a cloud has no faces.
+/// The mesh as the caller passed it: a cloud has no faces.
 [[nodiscard]] inline tf::mesh_view stored(const treeform_mesh* mesh) {
     const tf::mesh_view all = view(mesh);
     return mesh->prepared->is_cloud() ? tf::mesh_view{all.points, {}} : all;
@@ -46,14 +46,14 @@ template <class Handle>
 /// \throws std::invalid_argument naming a face with a corner that is not finite
 [[nodiscard]] tf::mesh_view finite_view(const treeform_mesh* mesh);
 
-/// A mesh as functions take it: what keeps its indexes, or a view that does not.
+/// A mesh as the argument of a function: prepared, so that it keeps its indexes, or a view.
 [[nodiscard]] tf::mesh_ref ref(const treeform_mesh* mesh, const char* name);
-/// The same for questions in pieces: a later piece finds the indexes that the first one has built.
+/// The same for queries in pieces: later pieces reuse the indexes that the first one built.
 [[nodiscard]] inline tf::mesh_ref ref_for_pieces(const treeform_mesh* mesh, const char* name) {
     return thread_progress() ? tf::mesh_ref(*need(mesh, name).prepared) : ref(mesh, name);
 }
 
-/// Handles on the meshes of a row, which keep their indexes.
+/// Handles of several meshes, which keep their indexes.
 [[nodiscard]] const treeform_mesh* const* handles(keeper& kept,
                                                   const std::vector<tf::prepared_mesh>& row);
 
@@ -68,7 +68,7 @@ template <class Handle>
     return pairs_of(view(mesh).faces.size(), pairs, count);
 }
 
-/// A mesh that was made, and perhaps what its elements come from.
+/// A resulting mesh, and optionally the sources of its elements.
 struct made_mesh {
     tf::mesh mesh;
     std::vector<std::uint32_t> index;
@@ -82,7 +82,7 @@ void fill(keeper& kept, const tf::mesh& from, treeform_made_mesh& to);
 
 /// A file within a result.
 [[nodiscard]] const treeform_file* keep(keeper& owner, tf::mesh_file&& file);
-/// What an operation on a file made, with the file.
+/// The result of an operation on a file, with the file.
 template <class C, class T>
 void give_file(T&& found, C** out) {
     auto made = make<C>();
@@ -92,7 +92,7 @@ void give_file(T&& found, C** out) {
     made->value.mesh = arrays(made->value.file->content.mesh);
     (void)give(std::move(made), out);
 }
-/// What was written, unless nobody wants to know.
+/// Returns the result of writing, unless the caller passed null.
 template <class Write>
 void give_written(const Write& write, treeform_written** out) {
     if (out) *out = nullptr;
@@ -101,8 +101,8 @@ void give_written(const Write& write, treeform_written** out) {
     if (out) (void)give(std::move(written), out);
 }
 
-/// `ask(a, b, positions)` for `count` positions, of matrices one after the other; null: the mesh
-/// stays where it is. Its answers go to `out`.
+/// Calls `ask(a, b, positions)` for `count` positions, given as consecutive matrices; null: the
+/// mesh is not moved. Writes the answers to `out`.
 template <class Ask, class T>
 void in_positions(const treeform_mesh* a, const treeform_mesh* b, const double* moves_a,
                   const double* moves_b, std::size_t count, const Ask& ask, std::span<T> out,

@@ -11,7 +11,7 @@
 
 namespace glue {
 
-/// A file without the faces that no operation takes.
+/// A file without unusable faces.
 class usable_input {
   public:
     explicit usable_input(const tf::mesh_file& file)
@@ -27,8 +27,8 @@ class usable_input {
     std::size_t non_finite_;
 };
 
-/// Inputs as `carry_sources` takes them: with the faces that the operation saw. A file all of whose
-/// faces it saw is not copied.
+/// Inputs for `carry_sources`: with the faces that the operation used. A file is not copied if all
+/// of its faces were used.
 class carry_inputs {
   public:
     carry_inputs(const treeform_carry_source* inputs, std::size_t count) {

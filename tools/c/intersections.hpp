@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which faces meet, in C.
+/// Intersections of meshes, in C.
 
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/clash.hpp>
@@ -26,15 +26,15 @@ inline tf::intersection_result self_intersections(const tf::mesh_ref& mesh,
     return tf::self_intersections(mesh, how);
 }
 
-/// Whether a face of `a` and a face of `b` have a common point, with each moved by a matrix (null:
-/// where it is); exact.
+/// Whether a face of `a` and a face of `b` have a common point, each moved by a matrix (null: not
+/// moved); exact.
 inline bool intersects(const tf::mesh_ref& a, const tf::mesh_ref& b, const tf::transform<3>& move_a,
                        const tf::transform<3>& move_b) {
     return tf::intersects(a, b, tf::mesh_positions{move_a, move_b});
 }
 
-/// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null where
-/// the mesh stays; `meet` is [count].
+/// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null if
+/// the mesh is not moved; `meet` is [count].
 inline void intersects_poses(const treeform_mesh* a, const treeform_mesh* b, const double* moves_a,
                              const double* moves_b, std::size_t count, std::uint8_t* meet) {
     const std::span out = array(meet, count, "meet");
@@ -58,14 +58,15 @@ inline answer_of<treeform_segments> intersection_curves(tf::mesh_view mesh,
     return made;
 }
 
-/// Writes them as lines, OBJ or PLY, by `format` or, where it is null, the extension of `path`.
+/// Writes the intersection curves of pairs as lines, OBJ or PLY, by `format` or, if null, by the
+/// extension of `path`.
 inline void write_curves(const std::filesystem::path& path, tf::mesh_view mesh,
                          std::span<const tf::face_pair> pairs, std::string_view format) {
     tf::write_curves(path, mesh, pairs, {}, std::string(format));
 }
 
-/// Gives `file` the colors of its faces that meet, and the properties tf_class and tf_region.
-/// `part` is what was looked at, of this file, and `pairs` are those of its mesh.
+/// Colors the faces of `file` that meet, and gives faces the properties tf_class and tf_region.
+/// `part` is the part of this file that was searched, and `pairs` are pairs of faces of its mesh.
 inline void color_pairs(tf::mesh_file& file, const treeform_part* part,
                         const treeform_face_pair* pairs, std::size_t count) {
     const treeform_part& p = need(part, "part");
@@ -83,43 +84,41 @@ inline void color_pairs(tf::mesh_file& file, const treeform_part* part,
     tf::face_marks(faces, found, tf::group_pairs(looked_at.mesh, found)).color(file, looked_at);
 }
 
-/// Whether the file is of a format that is searched in tiles; an error when it cannot be read, or
+/// Whether the file has a format that can be searched in tiles; an error if it cannot be read, or
 /// its header is damaged. `format` may be null.
 inline bool is_searched_in_tiles(const std::filesystem::path& path, std::string_view format) {
     return tf::shared_search::accepts(path, format);
 }
 
-/// Begins: all processes give the same input and options. Only the progress of `options` may
-/// differ.
-inline tf::shared_search shared_search_create(const std::filesystem::path& path,
-                                              const tf::stream_search_options& options) {
+/// Begins a search. All processes must pass the same input and options, except for `progress`.
+inline tf::shared_search search_create(const std::filesystem::path& path,
+                                       const tf::stream_search_options& options) {
     return {path, options};
 }
 
-/// Gives each tile its faces, unless they have them; `tiles` is their number. One process does it.
-inline std::size_t shared_search_scatter(tf::shared_search& search) {
+/// Writes the faces of each tile, unless already done; `tiles` is the number of tiles. Called by
+/// one process.
+inline std::size_t search_scatter(tf::shared_search& search) {
     check(search.scatter());
     return search.tiles();
 }
 
-/// The tiles that are to be searched.
-inline std::vector<std::uint32_t> shared_search_unfinished(tf::shared_search& search) {
+/// Numbers of the tiles that are not finished.
+inline std::vector<std::uint32_t> search_unfinished(tf::shared_search& search) {
     const auto found = search.unfinished();
     return {found.begin(), found.end()};
 }
 
-/// Searches a tile, unless that is done. Each process does its share.
-inline void shared_search_tile(tf::shared_search& search, std::size_t tile) {
-    check(search.shared_search_tile(tile));
+/// Searches a tile, unless it is finished. Each process calls it for its share of the tiles.
+inline void search_tile(tf::shared_search& search, std::size_t tile) {
+    check(search.search_tile(tile));
 }
 
-/// Puts together what was found, when all tiles are searched. Steps that come before their turn
-/// fail, and end the search.
-inline tf::stream_search_result shared_search_finish(tf::shared_search& search) {
-    return search.finish();
-}
+/// Combines the results of all tiles; an error unless all tiles are finished. A step that is called
+/// too early fails, and ends the search.
+inline tf::stream_search_result search_finish(tf::shared_search& search) { return search.finish(); }
 
-/// Removes the folder.
-inline void shared_search_remove_folder(tf::shared_search& search) { search.remove_folder(); }
+/// Removes the folder of the tiles.
+inline void search_remove_folder(tf::shared_search& search) { search.remove_folder(); }
 
 }  // namespace glue

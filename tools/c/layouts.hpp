@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What packing and alignment say in C where they have not succeeded.
+/// The codes of packing and alignment that did not succeed.
 
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/pack.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Meshes of a caller's arrays; meshes joined, selected from and rounded, in C.
+/// Meshes from a caller's arrays; joining, selecting and rounding, in C.
 
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/certificate.hpp>
@@ -11,8 +11,8 @@
 
 namespace glue {
 
-/// The handle for points and faces, which are in `own` where it has some. Every function may rely
-/// on the numbers of corners: they are checked here.
+/// The handle for points and faces, which are in `own` unless that is empty. Checks the numbers of
+/// corners, so that functions may rely on them.
 inline answer_of<treeform_mesh> mesh_of(tf::mesh own, tf::points_view points,
                                         std::span<const tf::face> faces, bool cloud,
                                         std::uint32_t flags) {
@@ -41,7 +41,7 @@ inline answer_of<treeform_mesh> mesh_of(tf::mesh own, tf::points_view points,
     return made;
 }
 
-/// No more than 32 bits can number.
+/// Checks that 32 bits can number the elements.
 inline void check_counts(std::size_t points, std::size_t faces) {
     constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
     if (points >= most || faces >= most)
@@ -58,11 +58,11 @@ inline std::vector<tf::point3> widened(const float* points, std::size_t count) {
 
 /// A mesh of `points` [point_count][3] and `faces` [face_count][3].
 ///
-/// Without `TREEFORM_COPY` both arrays are borrowed: they must stay, unchanged, as long as the mesh
-/// exists. Nothing is copied then. Coordinates may be NaN or infinite; verbs that need finite ones
-/// say which is not. Arrays without elements may be null.
+/// Without `TREEFORM_COPY` both arrays are borrowed, not copied: they must stay unchanged as long
+/// as the mesh exists. Coordinates may be NaN or infinite; functions that need finite coordinates
+/// report an error that names the element. Empty arrays may be null.
 ///
-/// A corner that is not less than `point_count` is `TREEFORM_INVALID`, naming the face. O(F).
+/// Returns `TREEFORM_INVALID`, naming the face, if a corner is not less than `point_count`. O(F).
 inline answer_of<treeform_mesh> mesh_create(const double* points, std::size_t point_count,
                                             const std::uint32_t* faces, std::size_t face_count,
                                             std::uint32_t flags) {
@@ -71,8 +71,8 @@ inline answer_of<treeform_mesh> mesh_create(const double* points, std::size_t po
                    glue::faces(faces, face_count, "faces"), false, flags);
 }
 
-/// The same of 32-bit floats, which become doubles without loss: points are copied, faces are
-/// borrowed unless `flags` say otherwise.
+/// The same for 32-bit floats, which are converted to doubles exactly. Points are copied; faces are
+/// borrowed unless `flags` contain `TREEFORM_COPY`.
 inline answer_of<treeform_mesh> mesh_create_float(const float* points, std::size_t point_count,
                                                   const std::uint32_t* faces,
                                                   std::size_t face_count, std::uint32_t flags) {
@@ -81,25 +81,26 @@ inline answer_of<treeform_mesh> mesh_create_float(const float* points, std::size
                    false, flags);
 }
 
-/// A cloud of points, to be measured, moved, welded and aligned as meshes are: each point is a face
-/// without area, and has its number. A cloud bounds no solid. Flags as for meshes.
+/// A point cloud, which can be measured, moved, welded and aligned like a mesh. Each point is a
+/// degenerate face, so face numbers are point numbers. A cloud bounds no solid. `flags` as for
+/// meshes.
 inline answer_of<treeform_mesh> cloud_create(const double* points, std::size_t point_count,
                                              std::uint32_t flags) {
     check_counts(point_count, 0);
     return mesh_of({}, glue::points(points, point_count, "points"), {}, true, flags);
 }
 
-/// The same of 32-bit floats, which are copied.
+/// The same for 32-bit floats, which are copied.
 inline answer_of<treeform_mesh> cloud_create_float(const float* points, std::size_t point_count,
                                                    std::uint32_t flags) {
     check_counts(point_count, 0);
     return mesh_of({widened(points, point_count), {}}, {}, {}, true, flags);
 }
 
-/// The arrays of a mesh, borrowed as long as it exists. Those of a cloud have no faces.
+/// The arrays of a mesh, valid as long as the mesh exists. A cloud has no faces.
 inline treeform_arrays mesh_arrays(const treeform_mesh* mesh) { return arrays(stored(mesh)); }
 
-/// Whether it is a cloud.
+/// Whether the mesh is a point cloud.
 inline bool mesh_is_cloud(const treeform_mesh* mesh) {
     return need(mesh, "mesh").prepared->is_cloud();
 }
@@ -109,9 +110,10 @@ inline std::uint64_t mesh_indexes_built(const treeform_mesh* mesh) {
     return need(mesh, "mesh").prepared->indexes_built();
 }
 
-/// Meshes for functions that take several of them, such as `treeform_clash` and `treeform_slide`:
-/// with `set->meshes` these keep their indexes from call to call, with meshes of different origin
-/// they build them for each call. The arrays are those of `meshes`, which must outlive the set.
+/// A set of meshes for functions of several meshes, such as `treeform_clash` and `treeform_slide`.
+/// With `set->meshes` as argument, indexes are kept from call to call; with meshes that were
+/// created separately, each call builds them again. The set refers to the arrays of `meshes`, which
+/// must outlive it.
 inline answer_of<treeform_mesh_set> mesh_set_create(const treeform_mesh* const* meshes,
                                                     std::size_t count) {
     auto made = make<treeform_mesh_set>();
@@ -134,8 +136,8 @@ inline made_mesh join_equal_points(tf::mesh_view mesh) {
     return {std::move(joined), std::move(groups.group_of_point)};
 }
 
-/// The faces of all meshes one after the other, with equal points joined. `index` [F] is the mesh
-/// that each face is of. Points that are not finite become 0 and may not be used by a face.
+/// The faces of all meshes, one mesh after the other, with equal points joined. `index` [F] is the
+/// number of each face's mesh. Points that are not finite become 0, and must not be used by a face.
 inline made_mesh join_meshes(const treeform_mesh* const* meshes, std::size_t count) {
     std::vector<tf::mesh_view> views;
     for (const treeform_mesh* one : array(meshes, count, "meshes"))
@@ -152,15 +154,15 @@ inline tf::mesh select_faces(const tf::mesh_ref& mesh, std::span<const std::uint
 }
 
 /// The mesh with each coordinate rounded to the nearest number of the precision; infinite beyond
-/// its range. `treeform_rounding_effects` says what that breaks.
+/// its range. `treeform_rounding_effects` finds the defects that this causes.
 inline tf::mesh round(tf::mesh_view mesh, tf::precision precision) {
     return {tf::rounded(mesh.points, precision), {mesh.faces.begin(), mesh.faces.end()}};
 }
 
-/// Compares `placed` [V][3] with the points of the mesh moved by `matrix` [12] (null: not moved),
-/// of precision `before` and written as `after`; with `always_compare`, faces too where the step is
-/// too small to be noticed. Exact: faces that meet now, and did not, are found by
-/// `treeform_self_intersections`.
+/// Compares `placed` [V][3], of precision `after`, with the points of the mesh, of precision
+/// `before`, moved by `matrix` [12] (null: not moved). If coordinates became coarser, or with
+/// `always_compare`, also finds the faces that became degenerate, and the pairs of faces that newly
+/// meet; exact (`treeform_self_intersections`).
 inline tf::rounding_effects rounding_effects(const treeform_mesh* mesh,
                                              const tf::transform<3>& matrix, const double* placed,
                                              tf::precision before, tf::precision after,

@@ -17,8 +17,8 @@ namespace glue {
 // ---- distances ----
 
 /// The points of the surface nearest to `queries` [count][3]: `faces` [count], `distances` [count],
-/// `points` [count][3]. Beyond `radius` (infinite for none) they are `TREEFORM_NONE`, infinite,
-/// NaN. Of several faces at the same distance, the lowest.
+/// `points` [count][3]. If none is within `radius` (may be infinite), these are `TREEFORM_NONE`,
+/// infinite and NaN. Of several faces at the same distance, the lowest.
 inline void closest_point(const treeform_mesh* mesh, const double* queries, std::size_t count,
                           double radius, std::uint32_t* faces, double* distances, double* points) {
     const tf::points_view from = glue::points(queries, count, "queries");
@@ -34,8 +34,8 @@ inline void closest_point(const treeform_mesh* mesh, const double* queries, std:
     });
 }
 
-/// The nearest points of the surfaces `a` and `b`, each moved by a matrix (null: where it is), not
-/// further apart than `radius`.
+/// The nearest points of the surfaces `a` and `b`, each moved by a matrix (null: not moved), at
+/// most `radius` apart.
 inline treeform_closest closest_points(const tf::mesh_ref& a, const tf::mesh_ref& b,
                                        const tf::transform<3>& move_a,
                                        const tf::transform<3>& move_b, double radius) {
@@ -45,14 +45,14 @@ inline treeform_closest closest_points(const tf::mesh_ref& a, const tf::mesh_ref
                                                 nowhere}));
 }
 
-/// The distance of the surfaces; infinite where one has no faces.
+/// The distance of the surfaces; infinite if one has no faces.
 inline double distance(const tf::mesh_ref& a, const tf::mesh_ref& b, const tf::transform<3>& move_a,
                        const tf::transform<3>& move_b) {
     return tf::distance(a, b, tf::mesh_positions{move_a, move_b});
 }
 
-/// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null where
-/// the mesh stays; `distances` [count] are infinite beyond `radius`.
+/// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null if
+/// the mesh is not moved; `distances` [count] are infinite beyond `radius`.
 inline void distance_poses(const treeform_mesh* a, const treeform_mesh* b, const double* moves_a,
                            const double* moves_b, std::size_t count, double radius,
                            double* distances) {
@@ -79,10 +79,10 @@ inline void answer_all(std::span<const tf::point_location> found, std::uint8_t* 
     }
 }
 
-/// Where `points` [count][3] are with respect to a closed mesh, exactly: `where` [count] (a
-/// `treeform_location` each), `winding` [count] how often the surface winds around the point, `on`
-/// [count] the lowest face that holds a point of the boundary, else `TREEFORM_NONE`. An open mesh
-/// is `TREEFORM_INVALID`, naming an edge.
+/// The positions of `points` [count][3] relative to a closed mesh, exactly. `where` [count] is a
+/// `treeform_location` for each; `winding` [count] how often the surface winds around the point;
+/// `on` [count] the lowest face that contains a point on the boundary, else `TREEFORM_NONE`.
+/// Returns `TREEFORM_INVALID`, naming an edge, if the mesh is open.
 inline void locate(const treeform_mesh* mesh, const double* points, std::size_t count,
                    std::uint8_t* where, std::int32_t* winding, std::uint32_t* on) {
     const tf::points_view all = glue::points(points, count, "points");
@@ -93,7 +93,7 @@ inline void locate(const treeform_mesh* mesh, const double* points, std::size_t 
     });
 }
 
-/// `inside` [count]: 1 for points inside the closed mesh or on its surface.
+/// `inside` [count]: 1 for points inside the closed mesh or on its surface, else 0.
 inline void contains(const treeform_mesh* mesh, const double* points, std::size_t count,
                      std::uint8_t* inside) {
     const std::span out = array(inside, count, "inside");
@@ -109,7 +109,8 @@ inline void winding_number(const treeform_mesh* mesh, const double* points, std:
 }
 
 /// The same for closed curves in the plane: `points` [point_count][2], `edges` [edge_count][2] by
-/// numbers of points, the inside on their left; `queries` [count][2]. Answers as `treeform_locate`.
+/// point numbers, with the inside on their left; `queries` [count][2]. Answers as
+/// `treeform_locate`.
 inline void locate_in_curves(const double* points, std::size_t point_count,
                              const std::uint32_t* edges, std::size_t edge_count,
                              const double* queries, std::size_t count, std::uint8_t* where,
@@ -136,7 +137,8 @@ void along_rays(const treeform_mesh* mesh, const treeform_ray* rays, std::size_t
     });
 }
 
-/// `hits` [count]: the face that each ray hits first, exactly; of several at one point the lowest.
+/// `hits` [count]: the first face that each ray hits, exactly; of several faces at the same point,
+/// the lowest.
 inline void raycast(const treeform_mesh* mesh, const treeform_ray* rays, std::size_t count,
                     treeform_hit* hits) {
     const std::span out = array(hits, count, "hits");
@@ -147,7 +149,7 @@ inline void raycast(const treeform_mesh* mesh, const treeform_ray* rays, std::si
     });
 }
 
-/// `hit` [count]: 1 where the ray hits any face.
+/// `hit` [count]: 1 if the ray hits any face, else 0.
 inline void raycast_any(const treeform_mesh* mesh, const treeform_ray* rays, std::size_t count,
                         std::uint8_t* hit) {
     const std::span out = array(hit, count, "hit");
@@ -174,15 +176,15 @@ inline answer_of<treeform_hits> raycast_all(const treeform_mesh* mesh, const tre
 
 // ---- two meshes ----
 
-/// Only how they lie, exactly: separate, touching or penetrating.
+/// Only the relation, exactly: separate, touching or penetrating.
 inline tf::mesh_relation relate(const tf::mesh_ref& a, const tf::mesh_ref& b,
                                 tf::vertex_identity vertices) {
     return tf::relation(a, b, {.vertices = vertices}).relation;
 }
 
-/// The length of a short translation `move` that takes `a` out of `b`, verified exactly: an upper
-/// bound of the depth of penetration. `depth` is 0 and `move` zero where they do not penetrate.
-/// What the search took comes in `effort`, which may be null.
+/// `depth` is the length of a short translation `move` that separates `a` from `b`, verified
+/// exactly: an upper bound of the penetration depth. Both are 0 if the meshes do not penetrate each
+/// other. `effort` is the effort of the search; may be null.
 inline void penetration_depth(const tf::mesh_ref& a, const tf::mesh_ref& b,
                               const tf::measure_options& options, double* depth, double move[3],
                               treeform_search_effort* effort) {
@@ -196,8 +198,9 @@ inline void penetration_depth(const tf::mesh_ref& a, const tf::mesh_ref& b,
     if (effort) *effort = same<treeform_search_effort>(found.effort);
 }
 
-/// Counts `points` [count][3] by where they are with respect to `solids` [solid_count], exactly:
-/// counts[0] inside any, counts[1] on the surface of any, counts[2] outside of all.
+/// Counts `points` [count][3] by their position relative to `solids` [solid_count], exactly:
+/// counts[0] strictly inside any solid, counts[1] else on the surface of any, counts[2] outside of
+/// all.
 inline void count_sides(std::span<const tf::point3> points, const tf::mesh_refs& solids,
                         std::uint64_t counts[3]) {
     (void)need(counts, "counts");

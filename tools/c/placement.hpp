@@ -18,8 +18,8 @@ inline treeform_code give(tf::placement&& at, treeform_placement** out) {
     return TREEFORM_NO_PLACE;
 }
 
-/// Moves `moving` down, along `direction` (null: 0, 0, -1), onto the bed or one of `fixed`, of
-/// which there may be none.
+/// Moves `moving` down, along `direction` (null: 0, 0, -1), onto the bed or one of `fixed`; `fixed`
+/// may be empty.
 inline tf::placement drop(const tf::mesh_ref& moving, const tf::mesh_refs& fixed,
                           const double* direction, const tf::placement_options& options) {
     return tf::drop(moving, fixed, options,
@@ -40,7 +40,7 @@ inline tf::mesh_feature feature_of(const treeform_feature* from, const char* nam
     return feature;
 }
 
-/// Brings two planes, or two axes, together, and slides `moving` until it meets one of `fixed`.
+/// Aligns two planes, or two axes, and slides `moving` until it meets one of `fixed`.
 inline tf::placement mate_features(const tf::mesh_ref& moving, const tf::mesh_refs& fixed,
                                    const treeform_feature* of_moving,
                                    const treeform_feature* of_fixed,
@@ -49,7 +49,8 @@ inline tf::placement mate_features(const tf::mesh_ref& moving, const tf::mesh_re
                              feature_of(of_fixed, "of_fixed"), options);
 }
 
-/// How each face lies to the other meshes; `placement` is one of `moving` among `fixed`.
+/// The relation of each face to the other meshes; `placement` is a placement of `moving` among
+/// `fixed`.
 inline answer_of<treeform_face_relations> find_face_relations(const treeform_mesh* moving,
                                                               const tf::mesh_refs& fixed,
                                                               const treeform_placement* placement) {

@@ -15,21 +15,21 @@
 
 namespace glue {
 
-/// `value` of all points being finite, which the library takes for granted.
+/// Returns `value`, after checking that all points are finite, which the library requires.
 inline double of_finite(const treeform_mesh* mesh, double (*value)(const tf::mesh_ref&)) {
     const double result = value(view(mesh));
     return std::isfinite(result) ? result : value(finite_view(mesh));
 }
 
-/// The volume inside a closed mesh, in cubic units; negative when it is inside out. For an open
-/// mesh, the sum of the signed volumes of the tetrahedra from the origin to its faces. O(F).
+/// The volume inside a closed mesh, in cubic units; negative if it is inside out. For an open mesh,
+/// the sum of the signed volumes of the tetrahedra from the origin to its faces. O(F).
 inline double volume(const treeform_mesh* mesh) { return of_finite(mesh, tf::signed_volume); }
 
 /// The sum of the areas of all faces, in square units, rounded. O(F).
 inline double area(const treeform_mesh* mesh) { return of_finite(mesh, tf::surface_area); }
 
-/// Volume, center of mass and inertia of what a closed mesh encloses. Where the volume is 0, or
-/// noise beside what cancels in it, it is 0 and the others are NaN. O(F).
+/// Volume, center of mass and inertia of the solid that a closed mesh bounds. If the volume is 0,
+/// or too small compared with the terms of its sum, it is 0, and the others are NaN. O(F).
 inline treeform_mass_properties find_mass_properties(const tf::mesh_ref& mesh) {
     constexpr std::array none{not_known, not_known, not_known};
     treeform_mass_properties to{};
@@ -41,14 +41,14 @@ inline treeform_mass_properties find_mass_properties(const tf::mesh_ref& mesh) {
     return to;
 }
 
-/// The smallest box around all finite points; without any, min is +infinity and max -infinity.
-/// O(V).
+/// The smallest box around all finite points; if there are none, min is +infinity and max
+/// -infinity. O(V).
 inline treeform_box bounds(tf::mesh_view mesh) {
     constexpr tf::box3 none{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
     return copied(tf::bounding_box(mesh.points).value_or(none));
 }
 
-/// Whether the mesh bounds a solid, as an operand of `treeform_boolean` has to.
+/// Whether the mesh bounds a solid, as operands of `treeform_boolean` must.
 inline bool is_solid(const tf::mesh_ref& mesh) { return static_cast<bool>(tf::check_solid(mesh)); }
 
 /// Counts edges, components and defects. Join equal points first (`treeform_join_equal_points`).
@@ -56,8 +56,8 @@ inline tf::topology_counts count_topology(tf::mesh_view mesh) {
     return tf::count_topology(mesh.points.size(), mesh.faces);
 }
 
-/// `component` [F]: the component of each face, by shared corners, numbered in the order of their
-/// lowest face; `count` is how many there are.
+/// `component` [F]: the connected component of each face, by shared corners; components are
+/// numbered in the order of their lowest faces. `count` is their number.
 inline void face_components(tf::mesh_view mesh, std::uint32_t* component, std::size_t* count) {
     const std::span out = array(component, mesh.faces.size(), "component");
     (void)need(count, "count");
@@ -66,8 +66,8 @@ inline void face_components(tf::mesh_view mesh, std::uint32_t* component, std::s
     *count = found.empty() ? 0 : *std::max_element(found.begin(), found.end()) + std::size_t{1};
 }
 
-/// The two points of the lowest edge at which the mesh is open, by numbers of points; both
-/// `TREEFORM_NONE` when it is closed, so that winding numbers are defined.
+/// The point numbers of the lowest edge at which the mesh is open; both `TREEFORM_NONE` if the mesh
+/// is closed, so that winding numbers are defined.
 inline void find_open_edge(tf::mesh_view mesh, std::uint32_t edge[2]) {
     (void)need(edge, "edge");
     const auto found = tf::find_open_edge(mesh).value_or(std::array{TREEFORM_NONE, TREEFORM_NONE});
@@ -75,8 +75,8 @@ inline void find_open_edge(tf::mesh_view mesh, std::uint32_t edge[2]) {
     edge[1] = found[1];
 }
 
-/// `which` of `tolerances` [count] is the first that closes the mesh when points within it are
-/// joined; `count` when joining equal points does so already, or none does.
+/// `which` is the index of the first of `tolerances` [count] that closes the mesh if points within
+/// it are joined; `count` if joining equal points already closes it, or if none does.
 inline std::size_t closing_tolerance(tf::mesh_view mesh, std::span<const double> tolerances) {
     return tf::closing_tolerance(mesh, tolerances).value_or(tolerances.size());
 }
@@ -98,7 +98,7 @@ inline std::vector<tf::mesh_feature> find_features(tf::mesh_view mesh, tf::featu
     return found;
 }
 
-/// The region around a face; `count` is 0 where that is neither flat nor cylindrical.
+/// The region around a face; `count` is 0 if it is neither flat nor cylindrical.
 inline std::optional<tf::mesh_feature> feature_at_face(tf::mesh_view mesh, tf::feature_kind kind,
                                                        std::uint32_t face,
                                                        const tf::feature_options& options) {
@@ -141,7 +141,7 @@ inline answer_of<treeform_hull> convex_hull(tf::mesh_view mesh,
     return made;
 }
 
-/// What triangles `a` and `b`, three points each, have in common; exact.
+/// The intersection of triangles `a` and `b`, three points each; exact.
 inline treeform_triangle_contact intersect_triangles(const double a[9], const double b[9]) {
     const auto triangle = [](const double* data, const char* name) {
         (void)need(data, name);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Lines of equal values in C.
+/// Isolines in C.
 
 #include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/section.hpp>
@@ -9,26 +9,27 @@
 
 namespace glue {
 
-/// One for each point.
+/// Checks that there is one value for each point.
 inline std::span<const double> values_of(const tf::mesh_ref& mesh, const double* values) {
     return array(values, mesh.view().points.size(), "values");
 }
 
-/// Lines along which a value, `values` [V], linear in each face, has one of the `levels` [count].
+/// Isolines: lines along which `values` [V], interpolated linearly in each face, have one of the
+/// `levels` [count].
 inline tf::isolines_result isolines(const tf::mesh_ref& mesh, const double* values,
                                     std::span<const double> levels,
                                     const tf::progress_callback& progress) {
     return tf::isolines(mesh, values_of(mesh, values), levels, {progress});
 }
 
-/// The mesh cut along these lines: count + 1 pieces, by value, from the lowest up.
+/// The mesh cut along its isolines: count + 1 pieces, ascending by value.
 inline tf::cut_result cut_along(const tf::mesh_ref& mesh, const double* values,
                                 std::span<const double> levels, const tf::cut_options& options) {
     return tf::cut_along(mesh, values_of(mesh, values), levels, options);
 }
 
-/// Writes isolines as `treeform_write_section` does sections; SVG as seen from where `normal`
-/// points (null: z).
+/// Writes isolines in the formats of `treeform_write_section`. SVG shows them as seen against the
+/// direction `normal` (null: z).
 inline void write_isolines(const std::filesystem::path& path, const treeform_isolines_result* lines,
                            const double normal[3], std::string_view format, std::string_view unit) {
     const treeform_isolines_result& given = need(lines, "lines");

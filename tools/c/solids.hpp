@@ -11,15 +11,15 @@
 
 namespace glue {
 
-/// The solid that `expression` makes of the `operands` [count]: a formula over a, b, c, ..., with +
-/// or | union, * or & intersection, - difference, ^ exclusive or, and brackets: "(a-b)*c". Exact,
-/// then rounded and checked. No operand is copied. Each has to bound a solid.
+/// The solid that `expression` defines over the `operands` [count]: a formula of a, b, c, ... with
+/// + or | union, * or & intersection, - difference, ^ symmetric difference, and parentheses:
+/// "(a-b)*c". Exact, then rounded and checked. Operands are not copied. Each must bound a solid.
 inline tf::boolean_result boolean(const tf::mesh_refs& operands, const std::string& expression,
                                   const tf::boolean_options& options) {
     return tf::boolean(operands, expression.c_str(), options);
 }
 
-/// The same with `names` [count] in place of letters: "body-(bolt_1+'left bolt')".
+/// The same with `names` [count] instead of letters: "body-(bolt_1+'left bolt')".
 inline tf::boolean_result boolean_named(const treeform_mesh* const* operands,
                                         const char* const* names, std::size_t count,
                                         const std::string& expression,
@@ -28,12 +28,12 @@ inline tf::boolean_result boolean_named(const treeform_mesh* const* operands,
                        tf::boolean_expression(expression, texts(names, count, "names")), options);
 }
 
-/// The names in a formula, each once, in the order in which they come first.
+/// The names in a formula, each once, in the order of first use.
 inline std::vector<std::string> names_in(const std::string& expression) {
     return tf::boolean_expression::names_in(expression);
 }
 
-/// What is in any operand [count], without a formula.
+/// The union of all `operands` [count], without a formula.
 inline tf::boolean_result unite_all(const tf::mesh_refs& operands,
                                     const tf::boolean_options& options) {
     return tf::boolean(operands, tf::boolean_expression::union_of(operands.size()), options);
@@ -52,13 +52,13 @@ inline treeform_code give(tf::repaired_file&& repaired, treeform_repair_result**
     return code;
 }
 
-/// The same of each part of a file, or of all as one, with its attributes. The mesh of the file is
-/// taken as it is read.
+/// The same for each part of a file, or for all parts as one mesh, with its attributes. The mesh of
+/// the file is used as it was read.
 inline tf::repaired_file repair_file(const tf::mesh_file& file, const tf::repair_options& options) {
     return tf::repair_file(usable_input(file).source(), options);
 }
 
-/// The same of all parts of a file together.
+/// The same for all parts of a file together.
 inline tf::solid_defects find_solid_defects_of_file(const tf::mesh_file& file,
                                                     const tf::progress_callback& progress) {
     const usable_input input(file);

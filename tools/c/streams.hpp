@@ -9,7 +9,7 @@
 
 namespace glue {
 
-/// A weld step by step.
+/// The handle of a weld in steps.
 struct shared_weld {
     tf::shared_weld steps;
     tf::weld_stream_outputs outputs;
@@ -66,9 +66,9 @@ inline tf::weld_stream_outputs outputs_of(const treeform_weld_stream_options& o,
 }
 
 /// Welds the cloud in the files `inputs` [count] (PLY, PCD, LAS, LAZ, PTS, XYZ, CSV), or the mesh
-/// in one file (PLY, binary STL), and writes `output`, whole or not at all: the same bytes as
-/// `treeform_weld_file` would lead to. The folder stays when the process is killed, and the same
-/// call goes on from there.
+/// in one file (PLY, binary STL), and writes `output`, completely or not at all: the same bytes as
+/// by `treeform_weld_file`. If the process is killed, the folder stays, and the same call resumes
+/// there.
 inline tf::weld_stream_result weld_stream(const char* const* inputs, std::size_t count,
                                           const char* output,
                                           const treeform_weld_stream_options* options) {
@@ -76,8 +76,9 @@ inline tf::weld_stream_result weld_stream(const char* const* inputs, std::size_t
     return tf::weld_stream(inputs_of(inputs, count, o), outputs_of(o, output), read(o));
 }
 
-/// Begins, and has a hold on the folder until it is freed: all processes give the same inputs and
-/// options. What options say of outputs is for `finish`; `communicator` is not for this.
+/// Begins a weld in steps, and locks the folder until the handle is freed. All processes must pass
+/// the same inputs and options. Options of outputs are used by `finish`; `communicator` is not
+/// used.
 inline shared_weld shared_weld_create(const char* const* inputs, std::size_t count,
                                       const treeform_weld_stream_options* options) {
     const auto o = chosen(options, treeform_weld_stream_options_init);
@@ -86,19 +87,19 @@ inline shared_weld shared_weld_create(const char* const* inputs, std::size_t cou
     return {tf::shared_weld(inputs_of(inputs, count, o), how), outputs_of(o, "")};
 }
 
-/// Gives each tile its points, unless they have them; `tiles` is their number.
+/// Writes the points of each tile, unless already done; `tiles` is the number of tiles.
 inline std::size_t shared_weld_scatter(shared_weld& weld) {
     check(weld.with_survey().scatter());
     return weld.steps.survey().tiles;
 }
 
-/// Welds a tile, unless that is done.
+/// Welds a tile, unless it is finished.
 inline void shared_weld_tile(shared_weld& weld, std::size_t tile) {
     check(weld.steps.weld_tile(tile));
 }
 
-/// Welds what lies along the borders of tiles, when all are welded and the others have let go of
-/// the folder, and writes `output`, whole or not at all.
+/// Welds the points along the borders of tiles, and writes `output`, completely or not at all. All
+/// tiles must be finished, and all other processes must have freed their handles.
 inline tf::weld_stream_result shared_weld_finish(shared_weld& weld, const std::string& output) {
     tf::weld_stream_outputs to = weld.outputs;
     to.welded->first = output;
@@ -109,20 +110,20 @@ inline tf::weld_stream_result shared_weld_finish(shared_weld& weld, const std::s
     return steps.result();
 }
 
-/// Removes the folder.
+/// Removes the folder of the tiles.
 inline void shared_weld_remove_folder(shared_weld& weld) { weld.steps.remove_folder(); }
 
-/// About how many bytes it takes to weld `points` points with the properties of the file in memory.
+/// Approximate memory in bytes to weld `points` points, with the properties of the file, in memory.
 inline std::uint64_t memory_to_weld(const tf::mesh_file& file, std::uint64_t points) {
     return tf::weld_stream_options::memory_to_weld(file, points);
 }
 
-/// The least memory with which they can be welded in tiles.
+/// The least memory in bytes with which they can be welded in tiles.
 inline std::uint64_t memory_to_stream(const tf::mesh_file& file, std::uint64_t points) {
     return tf::weld_stream_options::memory_to_stream(file, points);
 }
 
-/// Opens a file of points and reads its header. `format` may be null.
+/// Opens a point file and reads its header. `format` may be null.
 inline tf::point_reader point_reader_create(const std::filesystem::path& path,
                                             std::string_view format) {
     return tf::point_reader(path, format);
@@ -136,8 +137,8 @@ inline void point_reader_header(const tf::point_reader& reader, treeform_file** 
     (void)give(tf::mesh_file(reader.header()), header);
 }
 
-/// The next points, at most `most`, with their properties, as a file without faces; null when none
-/// are left.
+/// Reads the next points, at most `most`, with their properties, as a file without faces; null if
+/// none are left.
 inline std::optional<tf::mesh_file> point_reader_next(tf::point_reader& reader, std::size_t most) {
     if (most == 0) throw std::invalid_argument("most is 0, so no points would be read");
     tf::mesh_file block;
@@ -148,7 +149,8 @@ inline std::optional<tf::mesh_file> point_reader_next(tf::point_reader& reader, 
     return block;
 }
 
-/// Begins a file of `count` points like `header`, perhaps with columns added.
+/// Begins to write a file of `count` points with the format and columns of `header`; columns may
+/// have been added.
 inline tf::point_writer point_writer_create(const std::filesystem::path& path,
                                             const tf::mesh_file& header, std::uint64_t count,
                                             const tf::write_options& options) {
@@ -163,7 +165,7 @@ inline void point_writer_write(tf::point_writer& writer, const tf::mesh_file& bl
     writer.write(block.mesh.points, properties);
 }
 
-/// Finishes the file; without this call, none stays. `written` may be null.
+/// Finishes the file; without this call, the file is removed. `written` may be null.
 inline tf::write_result point_writer_commit(tf::point_writer& writer) { return writer.commit(); }
 
 }  // namespace glue

@@ -35,7 +35,7 @@ struct treeform_box_tree {
 
 namespace glue {
 
-/// Points of a caller, of D dimensions or of those of a tree.
+/// The caller's points, in D dimensions, or in those of a tree.
 template <std::size_t D>
 auto rows(const double* data, std::size_t count, const char* name) {
     return rows_of<std::array<double, D>>(data, count, name);
@@ -50,7 +50,7 @@ auto boxes_of(const double* mins, const double* maxs, std::size_t count) {
     return tools::boxes_of<D>(rows<D>(mins, count, "mins"), rows<D>(maxs, count, "maxs"));
 }
 
-/// `create(D)` with the dimensions as a type: 2 or 3.
+/// Calls `create` with the dimension, 2 or 3, as a type.
 template <class Tree, class Create>
 Tree of_dimensions(std::uint32_t dimensions, const Create& create) {
     if (dimensions == 2) return create(std::integral_constant<std::size_t, 2>{});
@@ -69,7 +69,7 @@ inline answer_of<treeform_id_pairs> pairs_of(const std::vector<tf::id_pair>& fou
     return made;
 }
 
-/// [count] lists that `list_of(i)` makes in parallel, one after the other.
+/// The [count] lists that `list_of(i)` returns, computed in parallel, as one array.
 template <class ListOf>
 answer_of<treeform_id_lists> lists_of(std::size_t count, const ListOf& list_of) {
     auto made = make<treeform_id_lists>();
@@ -86,7 +86,7 @@ answer_of<treeform_id_lists> lists_of(std::size_t count, const ListOf& list_of) 
 
 // ---- points ----
 
-/// The tree over `points` [count][dimensions]; 2 or 3 dimensions.
+/// A tree over `points` [count][dimensions]; 2 or 3 dimensions.
 inline point_tree point_tree_create(const double* points, std::size_t count,
                                     std::uint32_t dimensions) {
     return of_dimensions<point_tree>(dimensions, [&](auto d) {
@@ -101,8 +101,8 @@ inline std::size_t point_tree_size(const point_tree& tree) {
 
 /// The `k` nearest points of each of `queries` [count][dimensions], nearest first, within `radius`
 /// (inclusive; infinite for none): `ids` [count][k] and `distances` [count][k], either of which may
-/// be null. Where there are fewer, ids are `TREEFORM_NONE` and distances infinite. Equally near
-/// points come by number.
+/// be null. If there are fewer, the remaining ids are `TREEFORM_NONE` and distances infinite.
+/// Equally near points are ordered by number.
 inline void point_tree_nearest(const point_tree& tree, const double* queries, std::size_t count,
                                std::size_t k, double radius, std::uint32_t* ids,
                                double* distances) {
@@ -155,8 +155,9 @@ inline answer_of<treeform_id_pairs> point_tree_pairs(const point_tree& tree, dou
 
 // ---- boxes ----
 
-/// The tree over the boxes from `mins` [count][dimensions] to `maxs` [count][dimensions]; 2 or 3
-/// dimensions. A box that is not finite, or whose min exceeds its max, is `TREEFORM_INVALID`.
+/// A tree over the boxes from `mins` [count][dimensions] to `maxs` [count][dimensions]; 2 or 3
+/// dimensions. Returns `TREEFORM_INVALID` for a box that is not finite, or whose min exceeds its
+/// max.
 inline box_tree box_tree_create(const double* mins, const double* maxs, std::size_t count,
                                 std::uint32_t dimensions) {
     return of_dimensions<box_tree>(dimensions, [&](auto d) {
@@ -193,8 +194,8 @@ inline answer_of<treeform_id_pairs> box_tree_pairs_of(const box_tree& a, const b
         a);
 }
 
-/// The boxes that have a point in common with each of the query boxes [count], ascending; exact. A
-/// query may be infinite; one whose min exceeds its max finds nothing.
+/// The boxes that have a common point with each of the query boxes [count], ascending; exact. A
+/// query may be infinite; one whose min exceeds its max matches nothing.
 inline answer_of<treeform_id_lists> box_tree_query(const box_tree& tree, const double* mins,
                                                    const double* maxs, std::size_t count) {
     return std::visit(
@@ -205,9 +206,9 @@ inline answer_of<treeform_id_lists> box_tree_query(const box_tree& tree, const d
         tree);
 }
 
-/// The boxes that each ray, origin + t direction with t >= 0, meets, ascending: of `origins`
-/// [count][dimensions] and `directions`. Boxes are met up to the rounding of 32-bit floats: none is
-/// missed.
+/// The boxes that each ray meets, ascending. Rays are origin + t direction with t >= 0, for
+/// `origins` and `directions` [count][dimensions]. No box is missed; boxes that a ray misses by
+/// less than the rounding of 32-bit floats may be included.
 inline answer_of<treeform_id_lists> box_tree_rays(const box_tree& tree, const double* origins,
                                                   const double* directions, std::size_t count) {
     return std::visit(
@@ -228,8 +229,8 @@ inline answer_of<treeform_id_lists> box_tree_rays(const box_tree& tree, const do
         tree);
 }
 
-/// The `k` boxes nearest to each of `points` [count][dimensions], within `radius`; answers as
-/// `treeform_point_tree_nearest`. A point in a box is at distance 0.
+/// The `k` boxes nearest to each of `points` [count][dimensions], within `radius`; results as in
+/// `treeform_point_tree_nearest`. The distance of a point inside a box is 0.
 inline void box_tree_nearest(const box_tree& tree, const double* points, std::size_t count,
                              std::size_t k, double radius, std::uint32_t* ids, double* distances) {
     std::visit(

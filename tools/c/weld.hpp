@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Points merged, in C.
+/// Welding in C.
 
 #include <treeform/mesh/weld.hpp>
 
@@ -8,7 +8,7 @@
 
 namespace glue {
 
-/// The mesh or cloud with the points merged that are within the tolerance of each other: exact.
+/// Merges the points of a mesh or cloud that are within the tolerance of each other; exact.
 inline tf::weld_result weld(const treeform_mesh* mesh, const tf::weld_options& options) {
     return need(mesh, "mesh").prepared->is_cloud() ? tf::weld(view(mesh).points, options)
                                                    : tf::weld(ref(mesh, "mesh"), options);
@@ -20,12 +20,12 @@ inline treeform_code give(tf::file_weld_result&& welded, treeform_weld_result** 
     return TREEFORM_OK;
 }
 
-/// A file welded, with its attributes, parts and names.
+/// Welds a file, with its attributes, parts and names.
 inline tf::file_weld_result weld_file(const tf::mesh_file& file, const tf::weld_options& options) {
     return tf::weld(file, options);
 }
 
-/// Only the groups of the points of a mesh or cloud: `mesh` of the result is empty.
+/// Only the groups of the points of a mesh or cloud; `mesh` of the result is empty.
 inline tf::weld_result group_points(tf::mesh_view mesh, const tf::weld_options& options) {
     tf::weld_result groups;
     groups.groups = tf::group_points(mesh.points, options);
@@ -34,7 +34,7 @@ inline tf::weld_result group_points(tf::mesh_view mesh, const tf::weld_options& 
 }
 
 /// How many points of a welded file would be merged if it were written with this precision, read
-/// and welded again; `known` is 0 where points stay apart on purpose.
+/// and welded again; `known` is 0 if options keep points apart on purpose.
 inline void count_mergeable(const tf::mesh_file& welded, const tf::weld_options& options,
                             tf::precision written_as, std::uint64_t* count, std::int32_t* known) {
     (void)need(count, "count");
@@ -44,7 +44,7 @@ inline void count_mergeable(const tf::mesh_file& welded, const tf::weld_options&
     *known = found.has_value();
 }
 
-/// Sets the flag "withheld" of LAS at the points of `file` that `welded`, made of it, does not
+/// Sets the flag "withheld" of LAS at the points of `file` that its weld result `welded` does not
 /// keep.
 inline void withhold(tf::mesh_file& file, const treeform_weld_result* welded) {
     const treeform_weld_result& w = need(welded, "welded");

@@ -9,18 +9,19 @@
 /// Which parts of a file are bodies.
 typedef int32_t treeform_body_kind;
 enum {
-    TREEFORM_BODY_FILE = 0,   ///< all of it
-    TREEFORM_BODY_PARTS = 1,  ///< each object, group or node; those with common points are one
+    TREEFORM_BODY_FILE = 0,   ///< the whole file
+    TREEFORM_BODY_PARTS = 1,  ///< each object, group or node; those with common points are combined
     TREEFORM_BODY_NAMED = 2   ///< each object, group or node, even with common points
 };
 
 /// A body of a file.
 typedef struct treeform_body {
-    const treeform_mesh* mesh;     ///< finite faces, equal corners joined; it belongs to the bodies
-    uint32_t file;                 ///< number of its file
-    const char* name;              ///< of the part; "" when the file has only one
-    const char* label;             ///< for people: the file and the part
-    const uint32_t* face_in_file;  ///< [face_count] of a cloud, the numbers of points
+    const treeform_mesh* mesh;  ///< finite faces, equal corners joined; it belongs to the bodies
+    uint32_t file;              ///< number of its file
+    const char* name;           ///< name of the part; empty if the file has only one
+    const char* label;          ///< for messages: the names of the file and the part
+    /// [face_count] number of each face in the file; for a cloud, of each point
+    const uint32_t* face_in_file;
     size_t face_count;
 } treeform_body;
 
@@ -35,15 +36,15 @@ typedef struct treeform_bodies {
 // made of the headers of C++:
 //   bodies_of() put_back() clash_options contact_region part_clash clash_result clash()
 //   pairs_named() pose_clash
-/// The bodies of `files` [count], which are called `labels` [count]: for `treeform_clash` and all
-/// placements. Files are copied.
+/// The bodies of `files` [count], for `treeform_clash` and all placements. `labels` [count] are
+/// the names of the files in messages. Files are copied.
 TREEFORM_C_API treeform_code treeform_bodies_of(const treeform_file* const* files,
                                                 const char* const* labels, size_t count,
                                                 treeform_body_kind kind, treeform_bodies** bodies);
 
-/// The file of a body with its points moved to `points` [count][3], those of a placement, and all
-/// other points of the file moved by `matrix` [12]. The bodies hold the file from there on; their
-/// meshes stay.
+/// Replaces the body's points in its file by `points` [count][3], those of a placement, transforms
+/// all other points of the file by `matrix` [12], and returns the file. The meshes of the bodies
+/// do not change.
 TREEFORM_C_API treeform_code treeform_put_back(treeform_bodies* bodies, size_t body,
                                                const double* points, size_t count,
                                                const double* matrix, treeform_precision written_as,
@@ -90,9 +91,9 @@ typedef struct treeform_part_clash {
     int32_t a_inside_b;          ///< as in `treeform_measure`
     int32_t b_inside_a;          ///< the same with `a` and `b` swapped
     double distance;             ///< distance of the surfaces; 0 if they meet
-    double on_a[3];              ///< the nearest points if the parts are too close, otherwise NaN
-    double on_b[3];
-    uint64_t face_pairs;  ///< pairs of faces that meet
+    double on_a[3];              ///< for parts that are too close: the nearest point on a; else NaN
+    double on_b[3];              ///< the same on b
+    uint64_t face_pairs;         ///< pairs of faces that meet
     /// [region_count] ordered by their lowest faces
     const treeform_contact_region* regions;
     size_t region_count;
@@ -130,8 +131,9 @@ TREEFORM_C_API treeform_code treeform_clash(const treeform_mesh* const* parts, s
                                             const treeform_clash_options* options,
                                             treeform_clashes** clashes);
 
-/// All pairs of parts of which one's name matches `first`, and the other's `second`, where *
-/// stands for any characters and ? for one: [count / 2][2], for `ignored`.
+/// All pairs of parts of which one matches the pattern `first` by its name, and the other the
+/// pattern `second`; * matches any characters, ? one character. [count / 2][2], for
+/// `treeform_clash_options::ignored`.
 TREEFORM_C_API treeform_code treeform_pairs_named(const char* const* names, size_t count,
                                                   const char* first, const char* second,
                                                   treeform_indices** indices);
@@ -158,8 +160,8 @@ typedef struct treeform_poses_result {
 
 // made of the headers of C++:
 //   check_poses()
-/// What clashes in each of many poses: `poses` [pose_count][count][12] has a matrix for each part,
-/// pose after pose. Exact, for the corners as moved.
+/// The clashes in each of many poses: `poses` [pose_count][count][12] has a matrix for each part,
+/// pose after pose. Exact for the moved corners, rounded to double.
 TREEFORM_C_API treeform_code treeform_check_poses(const treeform_mesh* const* parts, size_t count,
                                                   const double* poses, size_t pose_count,
                                                   const treeform_clash_options* options,

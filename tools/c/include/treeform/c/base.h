@@ -61,14 +61,14 @@
 typedef int32_t treeform_code;
 enum {
     TREEFORM_OK = 0,
-    /// There is a result, but its certificate is not ok: `treeform_last_error` tells why.
+    /// there is a result, but its certificate is not ok; `treeform_last_error` has the reason
     TREEFORM_NOT_CERTIFIED = 1,
-    TREEFORM_NO_PLACE = 2,    ///< there is a result, and it says that there is no such place
-    TREEFORM_INVALID = -1,    ///< an argument that makes no sense; the message names it
+    TREEFORM_NO_PLACE = 2,    ///< a placement found no position; the result has the reason
+    TREEFORM_INVALID = -1,    ///< an invalid argument; the message names it
     TREEFORM_FILE = -2,       ///< a file cannot be read or written; the message names path and line
     TREEFORM_MEMORY = -3,     ///< not enough memory
     TREEFORM_RANGE = -4,      ///< too many elements, or numbers beyond the range of double
-    TREEFORM_CANCELLED = -5,  ///< `progress` asked to stop
+    TREEFORM_CANCELLED = -5,  ///< `progress` returned other than 0
     TREEFORM_INTERNAL = -6    ///< a bug of the library
 };
 
@@ -222,7 +222,7 @@ enum {
 typedef struct treeform_certificate {
     void* owner;
     treeform_status status;
-    const char* message;  ///< the result in words, without a full stop
+    const char* message;  ///< the outcome as a clause for people, without a full stop
     /// Number of pairs of faces that meet where they should not. A face paired with itself is
     /// degenerate, or has the outside of the solid behind it. `meeting` lists the first 100.
     uint64_t meeting_count;

@@ -85,21 +85,21 @@ TREEFORM_C_API treeform_code treeform_section(const treeform_mesh* mesh,
                                               void* progress_data,
                                               treeform_section_result** result);
 
-/// Numbers.
+/// A list of heights.
 typedef struct treeform_heights {
     void* owner;
     const double* heights;  ///< [count]
     size_t count;
 } treeform_heights;
 
-/// Heights above `plane` (null: as above) of the middles of layers of this thickness, from the
-/// lowest point of the mesh to the highest.
+/// Heights above `plane` (null: the plane z = 0) of the middles of layers of this thickness, from
+/// the lowest point of the mesh to the highest.
 TREEFORM_C_API treeform_code treeform_layer_heights(const treeform_mesh* mesh,
                                                     const treeform_plane* plane, double thickness,
                                                     treeform_heights** heights);
 
-/// Writes sections as svg, dxf, obj or json: `format`, or by the extension where that is null.
-/// `unit` of lengths: mm, cm, m, in, ft or um, or null: SVG has no size on paper then.
+/// Writes sections as svg, dxf, obj or json: `format`, or if null, the extension. `unit` of
+/// lengths: mm, cm, m, in, ft or um; if null, SVG has no size on paper.
 TREEFORM_C_API treeform_code treeform_write_section(const char* path,
                                                     const treeform_section_result* section,
                                                     const char* format, const char* unit);
@@ -199,14 +199,15 @@ typedef struct treeform_mesh_parts {
     size_t count;
 } treeform_mesh_parts;
 
-/// The faces that corners link, as meshes, by their lowest faces; a cavity goes with what is
-/// around it. Parts of a volume below `min_volume` are left out (open ones have none), and all but
-/// the `largest` ones where that is not 0.
+/// The connected components of a mesh (faces linked by common corners), in the order of their
+/// lowest faces; a cavity is returned with the component around it. Parts with a volume below
+/// `min_volume` are omitted (open parts have volume 0). If `largest` is not 0, only that many
+/// parts are returned, those of the greatest volume.
 TREEFORM_C_API treeform_code treeform_components(const treeform_mesh* mesh, double min_volume,
                                                  size_t largest, treeform_mesh_parts** parts);
 
-/// Points and faces of all meshes, one after the other; nothing is joined. `index` [F] is the mesh
-/// that each face is of.
+/// The points and faces of all meshes, one mesh after the other; points are not joined. `index`
+/// [F] is the number of each face's mesh.
 TREEFORM_C_API treeform_code treeform_concatenate(const treeform_mesh* const* meshes, size_t count,
                                                   treeform_made_mesh** made);
 

@@ -7,10 +7,10 @@
 /// The content of a mesh or point file: points, faces, all attributes.
 typedef struct treeform_file treeform_file;
 
-/// A column by the name that it gets.
+/// A new name for a column.
 typedef struct treeform_named_column {
     const char* name;    ///< "x", "intensity", ...
-    const char* source;  ///< what the heading calls it, or its number, from 1
+    const char* source;  ///< its name in the first line, or its number, from 1
 } treeform_named_column;
 
 // made of the headers of C++:
@@ -18,13 +18,14 @@ typedef struct treeform_named_column {
 //   scalar_type column element part io_warning mesh_file file_look() file_set_points()
 //   file_set_column() file_set_texture() file_add_part()
 /// Reads the file at `path`, UTF-8; "-" is standard input. `format` is an extension without its
-/// dot ("stl", "ply", ...), or null: the content decides, then the extension. Coordinates are as
+/// dot ("stl", "ply", ...), or null: detected by content, then by extension. Coordinates are as
 /// stored.
 TREEFORM_C_API treeform_code treeform_read(const char* path, const char* format,
                                            treeform_file** file);
 
 /// The mesh of the file at `path`, in one call: corners with equal coordinates are one vertex,
-/// triangles that are not finite are left out. `treeform_read` and `treeform_as_mesh` tell which.
+/// triangles that are not finite are dropped. To know which ones, use `treeform_read` and
+/// `treeform_as_mesh`.
 TREEFORM_C_API treeform_code treeform_read_mesh(const char* path, treeform_mesh** mesh);
 
 /// How to read.
@@ -47,11 +48,11 @@ TREEFORM_C_API treeform_code treeform_read_as(const char* path,
                                               const treeform_read_options* options,
                                               treeform_file** file);
 
-/// The same of bytes in memory. Errors say `name`.
+/// The same for bytes in memory. Errors have `name` instead of the path.
 TREEFORM_C_API treeform_code treeform_read_memory(const void* bytes, size_t size, const char* name,
                                                   const char* format, treeform_file** file);
 
-/// A file without attributes, with copies of the points and faces of a mesh or cloud.
+/// Creates a file without attributes, with copies of the points and faces of a mesh or cloud.
 TREEFORM_C_API treeform_code treeform_file_create(const treeform_mesh* mesh, treeform_file** file);
 
 /// A copy of a file.
@@ -76,13 +77,12 @@ enum {
 typedef struct treeform_column {
     const char* name;
     treeform_scalar type;
-    int32_t is_list;  ///< each row is a list of values
-    /// the values are those of points or faces, and stored there
+    int32_t is_list;  ///< whether each row has a list of values
+    /// whether the values are those of points and faces, and not here
     int32_t is_stored_elsewhere;
-    const void* values;  ///< [value_count] of the type
+    const void* values;  ///< [value_count] values of `type`
     size_t value_count;
-    /// [rows + 1] where the list of each row begins; null if there are no lists
-    const uint64_t* list_begin;
+    const uint64_t* list_begin;  ///< [rows + 1] first value of each list; else null
 } treeform_column;
 
 /// A kind of row in a file, such as vertices, with its properties in the order of the file.
@@ -154,29 +154,29 @@ typedef struct treeform_file_view {
     double las_offset[3];
 } treeform_file_view;
 
-/// Looks into a file.
+/// The content of a file, as arrays that the file owns.
 TREEFORM_C_API treeform_code treeform_file_look(const treeform_file* file,
                                                 treeform_file_view** view);
 
-/// Replaces the points [count][3], which must be as many as there are: what a placement returns.
+/// Replaces the points [count][3], for example by those of a placement; `count` must be the number
+/// of points.
 TREEFORM_C_API treeform_code treeform_file_set_points(treeform_file* file, const double* points,
                                                       size_t count);
 
-/// Sets a column of `treeform_rows` ("vertex", "face"), one value a row, `values` [rows] of
-/// `type`. The rows of vertices and faces are those that the file has. Columns that stand for
-/// coordinates or corners are refused.
+/// Sets a column of `treeform_rows` ("vertex", "face") with one value for each row: `values`
+/// [rows] of `type`. For vertices and faces, `rows` must be their number in the file. Names of
+/// columns of coordinates or corners are an error.
 TREEFORM_C_API treeform_code treeform_file_set_column(treeform_file* file, const char* element,
                                                       const char* name, treeform_scalar type,
                                                       const void* values, size_t rows);
 
-/// Sets texture coordinates `texture` [texture_count][3] and their numbers at each corner of each
-/// triangle `of_corner` [F][3], `TREEFORM_NONE` for none.
+/// Sets texture coordinates `texture` [texture_count][3], and the number of those at each corner
+/// of each triangle, `of_corner` [F][3]; `TREEFORM_NONE` for none.
 TREEFORM_C_API treeform_code treeform_file_set_texture(treeform_file* file, const double* texture,
                                                        size_t texture_count,
                                                        const uint32_t* of_corner);
 
-/// Adds a name for the faces from `first_face` on; strings may be null. Names come by ascending
-/// faces.
+/// Names the faces from `first_face` on; strings may be null. Call it in ascending order of faces.
 TREEFORM_C_API treeform_code treeform_file_add_part(treeform_file* file, const char* object,
                                                     const char* group, const char* material,
                                                     uint32_t first_face);
@@ -193,25 +193,25 @@ enum {
 // made of the headers of C++:
 //   file_add_text() file_split_polygons() file_round_to_las() file_round_to_float32()
 //   file_transform() file_turn_normals() write_options write_result write() write_mesh()
-/// Adds such a line.
+/// Adds a line of text: a comment, a remark, or the name of a material or texture file, by `what`.
 TREEFORM_C_API treeform_code treeform_file_add_text(treeform_file* file, treeform_text what,
                                                     const char* text);
 
 /// Makes each triangle a face of its own.
 TREEFORM_C_API treeform_code treeform_file_split_polygons(treeform_file* file);
 
-/// Moves the coordinates to those that a LAS file can hold; `moved` is the furthest that one went.
+/// Rounds the coordinates to those of a LAS file; `moved` is the largest change of a coordinate.
 TREEFORM_C_API treeform_code treeform_file_round_to_las(treeform_file* file, double* result);
 
-/// Moves the coordinates to 32-bit floats; `moved` is the furthest that one went.
+/// Rounds the coordinates to 32-bit floats; `moved` is the largest change of a coordinate.
 TREEFORM_C_API treeform_code treeform_file_round_to_float32(treeform_file* file, double* result);
 
-/// Moves all of the file by a matrix; where it mirrors, faces are turned over, so that they look
-/// outward as before.
+/// Transforms the points and normals of the file by a matrix. If it mirrors, faces are flipped, so
+/// that they still point outward.
 TREEFORM_C_API treeform_code treeform_file_transform(treeform_file* file, const double* matrix);
 
-/// Turns the normals of the file as a matrix does; where it mirrors, for faces that are turned
-/// over.
+/// Transforms the normals of the file by a matrix. If it mirrors, outward normals stay outward, as
+/// for flipped faces.
 TREEFORM_C_API treeform_code treeform_file_turn_normals(treeform_file* file, const double* matrix);
 
 /// How to write.
@@ -260,19 +260,19 @@ typedef struct treeform_written {
     size_t warning_count;
 } treeform_written;
 
-/// Writes a file to `path`, whole or not at all; "-" is standard output. What a format does not
-/// hold is left out: `treeform_written` says what.
+/// Writes a file to `path`, completely or not at all; "-" is standard output. Data that the format
+/// cannot store is omitted; `treeform_written` lists it.
 TREEFORM_C_API treeform_code treeform_write(const char* path, const treeform_file* file,
                                             const treeform_write_options* options,
                                             treeform_written** written);
 
-/// The same of a mesh without attributes. `treeform_written` may be null.
+/// The same for a mesh without attributes. `treeform_written` may be null.
 TREEFORM_C_API treeform_code treeform_write_mesh(const char* path, const treeform_mesh* mesh,
                                                  const treeform_write_options* options,
                                                  treeform_written** written);
 // end
 
-/// Bytes.
+/// An array of bytes.
 typedef struct treeform_bytes {
     void* owner;
     const unsigned char* bytes;
@@ -281,7 +281,7 @@ typedef struct treeform_bytes {
 
 // made of the headers of C++:
 //   write_memory() usable_mesh part_options usable_part() as_mesh() join_files() scene()
-/// The bytes of the file, of the format that `options` name.
+/// The bytes of the file, in the format in `options`.
 TREEFORM_C_API treeform_code treeform_write_memory(const treeform_file* file,
                                                    const treeform_write_options* options,
                                                    treeform_bytes** bytes);
@@ -290,10 +290,12 @@ TREEFORM_C_API treeform_code treeform_write_memory(const treeform_file* file,
 typedef struct treeform_part {
     void* owner;
     treeform_arrays mesh;
-    /// [F] for each face, the number of its triangle in the file; null: the same number
+    /// [F] number of each face's triangle in the file; null: the same numbers
     const uint32_t* triangle_of_face;
-    const uint32_t* face_in_file;  ///< [F] the number in the file, counting polygons
-    const uint32_t* component;     ///< [F] with `details`: the component; else null
+    /// [F] number of each face in the file, counting polygons
+    const uint32_t* face_in_file;
+    /// [F] with `details`: component of each face; else null
+    const uint32_t* component;
     /// from `treeform_usable_part`: triangles that are a segment or a point
     uint64_t degenerate;
     uint64_t joined;      ///< from `treeform_usable_part`: points merged by tolerance
@@ -314,21 +316,22 @@ typedef struct treeform_part_options {
 /// Sets the defaults.
 TREEFORM_C_API void treeform_part_options_init(treeform_part_options* options, size_t size);
 
-/// The part of a file's mesh that can be used. Points that only faces left out use go, too.
+/// The usable part of a file's mesh. Points that only dropped faces use are dropped as well.
 TREEFORM_C_API treeform_code treeform_usable_part(const treeform_file* file,
                                                   const treeform_part_options* options,
                                                   treeform_part** part);
 
 /// The whole mesh of a file: corners with equal coordinates become one vertex, triangles that are
-/// not finite are left out. Points keep their numbers, so that attributes can be carried.
+/// not finite are dropped. Points keep their numbers, so that attributes can be transferred.
 TREEFORM_C_API treeform_code treeform_as_mesh(const treeform_file* file, treeform_part** part);
 
-/// One file with the points and faces of all. `names` [count] are for warnings; or null.
+/// Concatenates files: one file with all points and faces. `names` [count], or null, are for
+/// warnings.
 TREEFORM_C_API treeform_code treeform_join_files(const treeform_file* const* files,
                                                  const char* const* names, size_t count,
                                                  treeform_file** file);
 
-/// All files in one scene, each under its name, with materials and textures.
+/// One scene of all files, each under its name, with materials and textures.
 TREEFORM_C_API treeform_code treeform_scene(const treeform_file* const* files,
                                             const char* const* names, size_t count,
                                             treeform_file** file);
@@ -351,14 +354,14 @@ typedef struct treeform_scene_parts {
 
 // made of the headers of C++:
 //   split_parts()
-/// The parts of a file by its objects, groups or nodes, each as a file of its own. Parts that have
-/// points or open edges in common are one.
+/// The parts of a file, by its objects, groups or nodes, each as a file of its own. Parts with
+/// common points or coinciding open edges are combined.
 TREEFORM_C_API treeform_code treeform_split_parts(const treeform_file* file,
                                                   treeform_scene_parts** parts);
 // end
 
-/// Whether other scenes than glTF and GLB (DAE, FBX, ...) can be read: 0 if treeform was built
-/// without assimp.
+/// Whether scene formats other than glTF and GLB (DAE, FBX, ...) can be read: 0 if treeform was
+/// built without assimp.
 TREEFORM_C_API int32_t treeform_reads_scenes(void);
 
 /// A robot.
@@ -379,9 +382,9 @@ TREEFORM_C_API treeform_code treeform_read_urdf(const char* path,
 /// frame.
 typedef struct treeform_robot_mesh {
     uint32_t link;
-    const char* file;      ///< "" if it was generated
+    const char* file;      ///< empty for a box, a cylinder or a sphere
     double place[12];      ///< the origin, and the scale of the mesh
-    const double* points;  ///< [point_count][3] of generated meshes
+    const double* points;  ///< [point_count][3] points of a box, cylinder or sphere
     size_t point_count;
     const uint32_t* faces;  ///< [face_count][3]
     size_t face_count;
@@ -394,8 +397,8 @@ typedef struct treeform_robot_joint {
     int32_t kind;
     uint32_t parent;  ///< numbers of links
     uint32_t child;
-    double lower;  ///< the limits; NaN: unlimited
-    double upper;
+    double lower;  ///< least value; NaN without limits
+    double upper;  ///< greatest value
 } treeform_robot_joint;
 
 /// A robot.
@@ -409,12 +412,12 @@ typedef struct treeform_robot_view {
     size_t joint_count;
     const treeform_robot_mesh* meshes;  ///< [mesh_count] ordered by link
     size_t mesh_count;
-    /// [adjacent_count][2] pairs of links that are connected by a joint, and always touch
+    /// [adjacent_count][2] pairs of links connected by a joint, which need not be compared
     const uint32_t* adjacent;
     size_t adjacent_count;
 } treeform_robot_view;
 
-/// Looks into a robot.
+/// The content of a robot, as arrays that the robot owns.
 TREEFORM_C_API treeform_code treeform_robot_look(const treeform_robot* robot,
                                                  treeform_robot_view** view);
 // end
@@ -422,8 +425,8 @@ TREEFORM_C_API treeform_code treeform_robot_look(const treeform_robot* robot,
 /// A robot as parts of an assembly, for `treeform_check_poses`: its links that have faces.
 typedef struct treeform_robot_parts {
     void* owner;
-    const treeform_mesh* const* meshes;  ///< [count] all meshes of a link as one, in its frame
-    const uint32_t* links;               ///< [count] ascending
+    const treeform_mesh* const* meshes;  ///< [count] one mesh for each link, in its frame
+    const uint32_t* links;               ///< [count] numbers of the links, ascending
     size_t count;
     const uint32_t* adjacent;  ///< [adjacent_count][2] pairs of parts that need not be compared
     size_t adjacent_count;
@@ -431,12 +434,12 @@ typedef struct treeform_robot_parts {
 
 // made of the headers of C++:
 //   robot_parts_of() link_transforms()
-/// The parts of a robot; reads the files of its meshes.
+/// The parts of a robot: one mesh for each link with faces. Reads the files of its meshes.
 TREEFORM_C_API treeform_code treeform_robot_parts_of(const treeform_robot* robot,
                                                      treeform_robot_parts** parts);
 
-/// `places` [link_count][12]: where each link is when `joints` [count] have these `values`, in
-/// radians or lengths. Joints without a value are at 0.
+/// `places` [link_count][12]: the matrix from each link's frame to the robot's frame, if `joints`
+/// [count] have these `values`, in radians or lengths. Joints without a value are at 0.
 TREEFORM_C_API treeform_code treeform_link_transforms(const treeform_robot* robot,
                                                       const char* const* joints,
                                                       const double* values, size_t count,

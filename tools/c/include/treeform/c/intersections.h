@@ -9,8 +9,9 @@
 typedef struct treeform_segments {
     void* owner;
     const size_t* begin;  ///< [count + 1]
-    const double* ends;   ///< [begin[count]][2][3] equal when the faces meet in a point
-    size_t count;         ///< pairs
+    /// [begin[count]][2][3] ends of the segments; equal if the faces meet in a point
+    const double* ends;
+    size_t count;  ///< pairs
 } treeform_segments;
 
 // made of the headers of C++:
@@ -130,14 +131,14 @@ TREEFORM_C_API treeform_code treeform_intersections(const treeform_mesh* a, cons
                                                     const treeform_intersections_options* options,
                                                     treeform_pairs** pairs);
 
-/// Whether a face of `a` and a face of `b` have a common point, with each moved by a matrix (null:
-/// where it is); exact.
+/// Whether a face of `a` and a face of `b` have a common point, each moved by a matrix (null: not
+/// moved); exact.
 TREEFORM_C_API treeform_code treeform_intersects(const treeform_mesh* a, const treeform_mesh* b,
                                                  const double* move_a, const double* move_b,
                                                  int32_t* result);
 
-/// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null
-/// where the mesh stays; `meet` is [count].
+/// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null if
+/// the mesh is not moved; `meet` is [count].
 TREEFORM_C_API treeform_code treeform_intersects_poses(const treeform_mesh* a,
                                                        const treeform_mesh* b,
                                                        const double* moves_a, const double* moves_b,
@@ -186,13 +187,15 @@ TREEFORM_C_API treeform_code treeform_intersection_paths(const treeform_mesh* me
                                                          const treeform_face_pair* pairs,
                                                          size_t count, treeform_paths** paths);
 
-/// Writes them as lines, OBJ or PLY, by `format` or, where it is null, the extension of `path`.
+/// Writes the intersection curves of pairs as lines, OBJ or PLY, by `format` or, if null, by the
+/// extension of `path`.
 TREEFORM_C_API treeform_code treeform_write_curves(const char* path, const treeform_mesh* mesh,
                                                    const treeform_face_pair* pairs, size_t count,
                                                    const char* format);
 
-/// Gives `file` the colors of its faces that meet, and the properties tf_class and tf_region.
-/// `treeform_named_faces` is what was looked at, of this file, and `pairs` are those of its mesh.
+/// Colors the faces of `file` that meet, and gives faces the properties tf_class and tf_region.
+/// `treeform_named_faces` is the part of this file that was searched, and `pairs` are pairs of
+/// faces of its mesh.
 TREEFORM_C_API treeform_code treeform_color_pairs(treeform_file* file, const treeform_part* part,
                                                   const treeform_face_pair* pairs, size_t count);
 
@@ -218,20 +221,19 @@ TREEFORM_C_API void treeform_stream_search_options_init(treeform_stream_search_o
 /// The pairs found in a file.
 typedef struct treeform_search_result {
     void* owner;
-    treeform_arrays mesh;  ///< only the intersecting faces
-    /// [F] for each of these faces, its number in the file
-    const uint32_t* face_in_file;
+    treeform_arrays mesh;          ///< only the faces that meet others
+    const uint32_t* face_in_file;  ///< [F] number of each face in the file
     /// Pairs of faces of `treeform_named_faces`. Its counters are sums over the tiles.
     const treeform_pairs* found;
     uint64_t stored_faces;  ///< faces of the file
     uint64_t triangles;     ///< triangles of these faces
     uint64_t searched;      ///< finite triangles that meet the box
     uint64_t points;        ///< points of the file; for STL three for each face
-    uint64_t degenerate;    ///< triangles without area
+    uint64_t degenerate;    ///< number of triangles without area
     size_t tiles;
     size_t finished_tiles;  ///< tiles finished by an earlier run
-    uint64_t non_finite;    ///< triangles with a coordinate that is not finite
-} treeform_stream_search_result;
+    uint64_t non_finite;    ///< number of triangles that are not finite
+} treeform_search_result;
 
 /// The pairs that `treeform_self_intersections` finds in the usable part of a file, for files
 /// larger than memory: binary STL, and PLY with vertices before faces. Space is cut into tiles.
@@ -245,40 +247,38 @@ TREEFORM_C_API treeform_code treeform_self_intersections_of_file(
     const char* input, const treeform_stream_search_options* options,
     treeform_stream_search_result** result);
 
-/// Whether the file is of a format that is searched in tiles; an error when it cannot be read, or
+/// Whether the file has a format that can be searched in tiles; an error if it cannot be read, or
 /// its header is damaged. `format` may be null.
 TREEFORM_C_API treeform_code treeform_is_searched_in_tiles(const char* path, const char* format,
                                                            int32_t* result);
 // end
 
-/// The same search step by step, for many processes that share a folder.
-typedef struct treeform_shared_search treeform_shared_search;
+/// The search of a file step by step, for many processes that share a folder.
+typedef struct treeform_search treeform_search;
 // made of the headers of C++:
-//   shared_search_create() shared_search_scatter() shared_search_unfinished()
-//   shared_search_tile() shared_search_finish() shared_search_remove_folder()
-/// Begins: all processes give the same input and options. Only the progress of `options` may
-/// differ.
-TREEFORM_C_API treeform_code
-treeform_shared_search_create(const char* path, const treeform_stream_search_options* options,
-                              treeform_shared_search** search);
+//   search_create() search_scatter() search_unfinished() search_tile() search_finish()
+//   search_remove_folder()
+/// Begins a search. All processes must pass the same input and options, except for `progress`.
+TREEFORM_C_API treeform_code treeform_search_create(const char* path,
+                                                    const treeform_search_file_options* options,
+                                                    treeform_search** search);
 
-/// Gives each tile its faces, unless they have them; `tiles` is their number. One process does it.
-TREEFORM_C_API treeform_code treeform_shared_search_scatter(treeform_shared_search* search,
-                                                            size_t* result);
+/// Writes the faces of each tile, unless already done; `tiles` is the number of tiles. Called by
+/// one process.
+TREEFORM_C_API treeform_code treeform_search_scatter(treeform_search* search, size_t* result);
 
-/// The tiles that are to be searched.
-TREEFORM_C_API treeform_code treeform_shared_search_unfinished(treeform_shared_search* search,
-                                                               treeform_indices** indices);
+/// Numbers of the tiles that are not finished.
+TREEFORM_C_API treeform_code treeform_search_unfinished(treeform_search* search,
+                                                        treeform_indices** indices);
 
-/// Searches a tile, unless that is done. Each process does its share.
-TREEFORM_C_API treeform_code treeform_shared_search_tile(treeform_shared_search* search,
-                                                         size_t tile);
+/// Searches a tile, unless it is finished. Each process calls it for its share of the tiles.
+TREEFORM_C_API treeform_code treeform_search_tile(treeform_search* search, size_t tile);
 
-/// Puts together what was found, when all tiles are searched. Steps that come before their turn
-/// fail, and end the search.
-TREEFORM_C_API treeform_code treeform_shared_search_finish(treeform_shared_search* search,
-                                                           treeform_stream_search_result** result);
+/// Combines the results of all tiles; an error unless all tiles are finished. A step that is
+/// called too early fails, and ends the search.
+TREEFORM_C_API treeform_code treeform_search_finish(treeform_search* search,
+                                                    treeform_search_result** result);
 
-/// Removes the folder.
-TREEFORM_C_API treeform_code treeform_shared_search_remove_folder(treeform_shared_search* search);
+/// Removes the folder of the tiles.
+TREEFORM_C_API treeform_code treeform_search_remove_folder(treeform_search* search);
 // end

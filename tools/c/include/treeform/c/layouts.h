@@ -39,7 +39,7 @@ typedef struct treeform_laid_flat {
     void* owner;
     /// ok, or `cancelled`: then the rest is empty. `max_displacement` includes `corrected`.
     const treeform_certificate* certificate;
-    const char* message;   ///< the result in words, without a full stop
+    const char* message;   ///< the outcome as a clause for people, without a full stop
     const double* points;  ///< [V] the new points, as they are to be written
     size_t point_count;
     /// new = M * old, a rotation and a translation. `points` differ from it by a few units in the
@@ -136,7 +136,7 @@ typedef struct treeform_packing {
     /// ok: the guarantees of `treeform_pack` hold for the points, even if some parts have no
     /// place. Otherwise `cancelled`, and the rest is empty.
     const treeform_certificate* certificate;
-    const char* message;                ///< the result in words, without a full stop
+    const char* message;                ///< the outcome as a clause for people, without a full stop
     const treeform_packed_part* parts;  ///< [P] in the order of the input
     size_t part_count;
     /// [not_placed_count] numbers of parts without a position, ascending
@@ -307,11 +307,11 @@ typedef struct treeform_align_result {
     /// [freedom_count] The independent motions, ascending by stiffness; none without partners.
     const treeform_freedom* freedoms;
     size_t freedom_count;
-    size_t undetermined;     ///< the number of `freedoms` that the data does not determine
+    size_t undetermined;     ///< number of `freedoms` that the data do not determine
     treeform_align_end end;  ///< how the search ended
     uint32_t iterations;     ///< steps from the best start
     uint32_t start;          ///< number of the best start; 0 is the present position
-    const char* message;     ///< half a sentence for people
+    const char* message;     ///< the outcome as a clause for people, without a full stop
     /// Estimated error of the position, as a root mean square over the points: the standard
     /// deviation, from the residuals and the stiffness of the motions, except those that
     /// `undetermined` counts.

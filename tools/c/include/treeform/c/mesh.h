@@ -12,7 +12,7 @@ typedef struct treeform_mesh treeform_mesh;
 /// How a mesh takes its arrays: flags, combined by addition.
 enum {
     TREEFORM_COPY = 1,    ///< copy the arrays; else they are borrowed
-    TREEFORM_ONE_USE = 2  ///< keep no index: for a mesh that is asked one question
+    TREEFORM_ONE_USE = 2  ///< keep no index: for a mesh that is used once
 };
 
 // made of the headers of C++:
@@ -20,35 +20,36 @@ enum {
 //   mesh_is_cloud() mesh_indexes_built()
 /// A mesh of `points` [point_count][3] and `faces` [face_count][3].
 ///
-/// Without `TREEFORM_COPY` both arrays are borrowed: they must stay, unchanged, as long as the
-/// mesh exists. Nothing is copied then. Coordinates may be NaN or infinite; verbs that need finite
-/// ones say which is not. Arrays without elements may be null.
+/// Without `TREEFORM_COPY` both arrays are borrowed, not copied: they must stay unchanged as long
+/// as the mesh exists. Coordinates may be NaN or infinite; functions that need finite coordinates
+/// report an error that names the element. Empty arrays may be null.
 ///
-/// A corner that is not less than `point_count` is `TREEFORM_INVALID`, naming the face. O(F).
+/// Returns `TREEFORM_INVALID`, naming the face, if a corner is not less than `point_count`. O(F).
 TREEFORM_C_API treeform_code treeform_mesh_create(const double* points, size_t point_count,
                                                   const uint32_t* faces, size_t face_count,
                                                   uint32_t flags, treeform_mesh** mesh);
 
-/// The same of 32-bit floats, which become doubles without loss: points are copied, faces are
-/// borrowed unless `flags` say otherwise.
+/// The same for 32-bit floats, which are converted to doubles exactly. Points are copied; faces
+/// are borrowed unless `flags` contain `TREEFORM_COPY`.
 TREEFORM_C_API treeform_code treeform_mesh_create_float(const float* points, size_t point_count,
                                                         const uint32_t* faces, size_t face_count,
                                                         uint32_t flags, treeform_mesh** mesh);
 
-/// A cloud of points, to be measured, moved, welded and aligned as meshes are: each point is a
-/// face without area, and has its number. A cloud bounds no solid. Flags as for meshes.
+/// A point cloud, which can be measured, moved, welded and aligned like a mesh. Each point is a
+/// degenerate face, so face numbers are point numbers. A cloud bounds no solid. `flags` as for
+/// meshes.
 TREEFORM_C_API treeform_code treeform_cloud_create(const double* points, size_t point_count,
                                                    uint32_t flags, treeform_mesh** mesh);
 
-/// The same of 32-bit floats, which are copied.
+/// The same for 32-bit floats, which are copied.
 TREEFORM_C_API treeform_code treeform_cloud_create_float(const float* points, size_t point_count,
                                                          uint32_t flags, treeform_mesh** mesh);
 
-/// The arrays of a mesh, borrowed as long as it exists. Those of a cloud have no faces.
+/// The arrays of a mesh, valid as long as the mesh exists. A cloud has no faces.
 TREEFORM_C_API treeform_code treeform_mesh_arrays(const treeform_mesh* mesh,
                                                   treeform_arrays* result);
 
-/// Whether it is a cloud.
+/// Whether the mesh is a point cloud.
 TREEFORM_C_API treeform_code treeform_mesh_is_cloud(const treeform_mesh* mesh, int32_t* result);
 
 /// Number of indexes built so far.
@@ -65,9 +66,10 @@ typedef struct treeform_mesh_set {
 
 // made of the headers of C++:
 //   mesh_set_create()
-/// Meshes for functions that take several of them, such as `treeform_clash` and `treeform_slide`:
-/// with `set->meshes` these keep their indexes from call to call, with meshes of different origin
-/// they build them for each call. The arrays are those of `meshes`, which must outlive the set.
+/// A set of meshes for functions of several meshes, such as `treeform_clash` and `treeform_slide`.
+/// With `set->meshes` as argument, indexes are kept from call to call; with meshes that were
+/// created separately, each call builds them again. The set refers to the arrays of `meshes`,
+/// which must outlive it.
 TREEFORM_C_API treeform_code treeform_mesh_set_create(const treeform_mesh* const* meshes,
                                                       size_t count, treeform_mesh_set** set);
 // end
@@ -76,7 +78,7 @@ TREEFORM_C_API treeform_code treeform_mesh_set_create(const treeform_mesh* const
 typedef struct treeform_made_mesh {
     void* owner;
     treeform_arrays mesh;
-    const uint32_t* index;  ///< [index_count] what the function says; else null
+    const uint32_t* index;  ///< [index_count] its meaning is that of the function; else null
     size_t index_count;
 } treeform_made_mesh;
 
@@ -88,8 +90,9 @@ typedef struct treeform_made_mesh {
 TREEFORM_C_API treeform_code treeform_join_equal_points(const treeform_mesh* mesh,
                                                         treeform_made_mesh** made);
 
-/// The faces of all meshes one after the other, with equal points joined. `index` [F] is the mesh
-/// that each face is of. Points that are not finite become 0 and may not be used by a face.
+/// The faces of all meshes, one mesh after the other, with equal points joined. `index` [F] is the
+/// number of each face's mesh. Points that are not finite become 0, and must not be used by a
+/// face.
 TREEFORM_C_API treeform_code treeform_join_meshes(const treeform_mesh* const* meshes, size_t count,
                                                   treeform_made_mesh** made);
 
@@ -98,7 +101,7 @@ TREEFORM_C_API treeform_code treeform_select_faces(const treeform_mesh* mesh, co
                                                    size_t count, treeform_made_mesh** made);
 
 /// The mesh with each coordinate rounded to the nearest number of the precision; infinite beyond
-/// its range. `treeform_rounding_effects` says what that breaks.
+/// its range. `treeform_rounding_effects` finds the defects that this causes.
 TREEFORM_C_API treeform_code treeform_round(const treeform_mesh* mesh, treeform_precision precision,
                                             treeform_made_mesh** made);
 
@@ -121,10 +124,10 @@ typedef struct treeform_rounding {
     uint64_t meeting;    ///< new pairs of faces that meet
 } treeform_rounding;
 
-/// Compares `placed` [V][3] with the points of the mesh moved by `matrix` [12] (null: not moved),
-/// of precision `before` and written as `after`; with `always_compare`, faces too where the step
-/// is too small to be noticed. Exact: faces that meet now, and did not, are found by
-/// `treeform_self_intersections`.
+/// Compares `placed` [V][3], of precision `after`, with the points of the mesh, of precision
+/// `before`, moved by `matrix` [12] (null: not moved). If coordinates became coarser, or with
+/// `always_compare`, also finds the faces that became degenerate, and the pairs of faces that
+/// newly meet; exact (`treeform_self_intersections`).
 TREEFORM_C_API treeform_code treeform_rounding_effects(
     const treeform_mesh* mesh, const double* matrix, const double* placed,
     treeform_precision before, treeform_precision after, int32_t always_compare,

@@ -11,8 +11,8 @@
 // made of the headers of C++:
 //   closest_point()
 /// The points of the surface nearest to `queries` [count][3]: `faces` [count], `distances`
-/// [count], `points` [count][3]. Beyond `radius` (infinite for none) they are `TREEFORM_NONE`,
-/// infinite, NaN. Of several faces at the same distance, the lowest.
+/// [count], `points` [count][3]. If none is within `radius` (may be infinite), these are
+/// `TREEFORM_NONE`, infinite and NaN. Of several faces at the same distance, the lowest.
 TREEFORM_C_API treeform_code treeform_closest_point(const treeform_mesh* mesh,
                                                     const double* queries, size_t count,
                                                     double radius, uint32_t* faces,
@@ -21,7 +21,7 @@ TREEFORM_C_API treeform_code treeform_closest_point(const treeform_mesh* mesh,
 
 /// The nearest points of two meshes.
 typedef struct treeform_closest {
-    uint32_t face_a;  ///< both `TREEFORM_NONE` where there are none
+    uint32_t face_a;  ///< both `TREEFORM_NONE` if there are no such points
     uint32_t face_b;
     double distance;  ///< exactly 0 if and only if the meshes meet
     double on_a[3];
@@ -31,19 +31,19 @@ typedef struct treeform_closest {
 // made of the headers of C++:
 //   closest_points() distance() distance_poses() location locate() contains() winding_number()
 //   locate_in_curves()
-/// The nearest points of the surfaces `a` and `b`, each moved by a matrix (null: where it is), not
-/// further apart than `radius`.
+/// The nearest points of the surfaces `a` and `b`, each moved by a matrix (null: not moved), at
+/// most `radius` apart.
 TREEFORM_C_API treeform_code treeform_closest_points(const treeform_mesh* a, const treeform_mesh* b,
                                                      const double* move_a, const double* move_b,
                                                      double radius, treeform_closest* result);
 
-/// The distance of the surfaces; infinite where one has no faces.
+/// The distance of the surfaces; infinite if one has no faces.
 TREEFORM_C_API treeform_code treeform_distance(const treeform_mesh* a, const treeform_mesh* b,
                                                const double* move_a, const double* move_b,
                                                double* result);
 
-/// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null
-/// where the mesh stays; `distances` [count] are infinite beyond `radius`.
+/// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null if
+/// the mesh is not moved; `distances` [count] are infinite beyond `radius`.
 TREEFORM_C_API treeform_code treeform_distance_poses(const treeform_mesh* a, const treeform_mesh* b,
                                                      const double* moves_a, const double* moves_b,
                                                      size_t count, double radius,
@@ -53,15 +53,15 @@ TREEFORM_C_API treeform_code treeform_distance_poses(const treeform_mesh* a, con
 typedef int32_t treeform_location;
 enum { TREEFORM_OUTSIDE = 0, TREEFORM_INSIDE = 1, TREEFORM_BOUNDARY = 2 };
 
-/// Where `points` [count][3] are with respect to a closed mesh, exactly: `where` [count] (a
-/// `treeform_location` each), `winding` [count] how often the surface winds around the point, `on`
-/// [count] the lowest face that holds a point of the boundary, else `TREEFORM_NONE`. An open mesh
-/// is `TREEFORM_INVALID`, naming an edge.
+/// The positions of `points` [count][3] relative to a closed mesh, exactly. `where` [count] is a
+/// `treeform_location` for each; `winding` [count] how often the surface winds around the point;
+/// `on` [count] the lowest face that contains a point on the boundary, else `TREEFORM_NONE`.
+/// Returns `TREEFORM_INVALID`, naming an edge, if the mesh is open.
 TREEFORM_C_API treeform_code treeform_locate(const treeform_mesh* mesh, const double* points,
                                              size_t count, uint8_t* where, int32_t* winding,
                                              uint32_t* on);
 
-/// `inside` [count]: 1 for points inside the closed mesh or on its surface.
+/// `inside` [count]: 1 for points inside the closed mesh or on its surface, else 0.
 TREEFORM_C_API treeform_code treeform_contains(const treeform_mesh* mesh, const double* points,
                                                size_t count, uint8_t* inside);
 
@@ -71,7 +71,7 @@ TREEFORM_C_API treeform_code treeform_winding_number(const treeform_mesh* mesh,
                                                      int32_t* winding);
 
 /// The same for closed curves in the plane: `points` [point_count][2], `edges` [edge_count][2] by
-/// numbers of points, the inside on their left; `queries` [count][2]. Answers as
+/// point numbers, with the inside on their left; `queries` [count][2]. Answers as
 /// `treeform_locate`.
 TREEFORM_C_API treeform_code treeform_locate_in_curves(const double* points, size_t point_count,
                                                        const uint32_t* edges, size_t edge_count,
@@ -99,11 +99,12 @@ typedef struct treeform_hit {
     double t_end;      ///< of the last common point; equal to t unless coplanar
 } treeform_hit;
 
-/// `hits` [count]: the face that each ray hits first, exactly; of several at one point the lowest.
+/// `hits` [count]: the first face that each ray hits, exactly; of several faces at the same point,
+/// the lowest.
 TREEFORM_C_API treeform_code treeform_raycast(const treeform_mesh* mesh, const treeform_ray* rays,
                                               size_t count, treeform_hit* hits);
 
-/// `hit` [count]: 1 where the ray hits any face.
+/// `hit` [count]: 1 if the ray hits any face, else 0.
 TREEFORM_C_API treeform_code treeform_raycast_any(const treeform_mesh* mesh,
                                                   const treeform_ray* rays, size_t count,
                                                   uint8_t* hit);
@@ -158,8 +159,8 @@ typedef struct treeform_relation {
     uint32_t nearest_b;       ///< the face of `b` that contains `on_b`
     double on_a[3];           ///< the nearest point on the surface of `a`
     double on_b[3];           ///< the nearest point on the surface of `b`
-    double barycentric_a[3];  ///< its barycentric coordinates in that face
-    double barycentric_b[3];  ///< its barycentric coordinates in that face
+    double barycentric_a[3];  ///< barycentric coordinates of `on_a` in that face
+    double barycentric_b[3];  ///< barycentric coordinates of `on_b` in that face
 } treeform_relation;
 
 /// Options of `treeform_relation`, `treeform_measure` and `treeform_penetration_depth`. Each
@@ -192,14 +193,14 @@ TREEFORM_C_API treeform_code treeform_measure(const treeform_mesh* a, const tree
                                               const treeform_measure_options* options,
                                               treeform_relation** relation);
 
-/// Only how they lie, exactly: separate, touching or penetrating.
+/// Only the relation, exactly: separate, touching or penetrating.
 TREEFORM_C_API treeform_code treeform_relate(const treeform_mesh* a, const treeform_mesh* b,
                                              treeform_vertices vertices,
                                              treeform_mesh_relation* result);
 
-/// The length of a short translation `move` that takes `a` out of `b`, verified exactly: an upper
-/// bound of the depth of penetration. `depth` is 0 and `move` zero where they do not penetrate.
-/// What the search took comes in `effort`, which may be null.
+/// `depth` is the length of a short translation `move` that separates `a` from `b`, verified
+/// exactly: an upper bound of the penetration depth. Both are 0 if the meshes do not penetrate
+/// each other. `effort` is the effort of the search; may be null.
 TREEFORM_C_API treeform_code treeform_penetration_depth(const treeform_mesh* a,
                                                         const treeform_mesh* b,
                                                         const treeform_measure_options* options,
@@ -213,8 +214,9 @@ TREEFORM_C_API treeform_code treeform_penetration_depth(const treeform_mesh* a,
 /// `treeform_repair` flips it.
 TREEFORM_C_API treeform_code treeform_count_inside_out(const treeform_mesh* mesh, uint64_t* result);
 
-/// Counts `points` [count][3] by where they are with respect to `solids` [solid_count], exactly:
-/// counts[0] inside any, counts[1] on the surface of any, counts[2] outside of all.
+/// Counts `points` [count][3] by their position relative to `solids` [solid_count], exactly:
+/// counts[0] strictly inside any solid, counts[1] else on the surface of any, counts[2] outside of
+/// all.
 TREEFORM_C_API treeform_code treeform_count_sides(const double* points, size_t points_count,
                                                   const treeform_mesh* const* solids,
                                                   size_t solids_count, uint64_t counts[3]);
@@ -222,10 +224,10 @@ TREEFORM_C_API treeform_code treeform_count_sides(const double* points, size_t p
 /// What to compute besides distances.
 typedef struct treeform_deviation_options {
     size_t size;
-    /// lowest and highest signed distance within tolerance; NaN: no band
+    /// lower end of the tolerance band of signed distances; NaN: no band
     double band_low;
-    double band_high;
-    uint64_t bins;  ///< of the histogram; 0: none; default 40
+    double band_high;  ///< its upper end
+    uint64_t bins;     ///< of the histogram; 0: none; default 40
     /// also compute distances of the points of `b` from `a`; default 1
     int32_t both_ways;
     treeform_progress progress;

@@ -3,9 +3,9 @@
 /// Placement: slide, drop, mate, turn, separate; time of impact. `layouts.h` has laying flat,
 /// packing and alignment.
 ///
-/// Placements are checked exactly in the returned coordinates. If there is no such place, functions
-/// return `TREEFORM_NO_PLACE`, with a result that tells why. `fixed` [fixed_count] are meshes that
-/// do not move; those of a `treeform_mesh_set` keep their indexes between calls.
+/// Placements are checked exactly in the returned coordinates. If there is no such position,
+/// functions return `TREEFORM_NO_PLACE`, with a result that has the reason. `fixed` [fixed_count]
+/// are meshes that do not move; those of a `treeform_mesh_set` keep their indexes between calls.
 
 #include <treeform/c/layouts.h>
 #include <treeform/c/nearness.h>
@@ -65,7 +65,7 @@ typedef struct treeform_placement {
     /// `not_certified` (not_representable), `out_of_range` or `cancelled`. It lists no faces.
     const treeform_certificate* certificate;
     treeform_placement_end end;
-    const char* message;   ///< the result in words, without a full stop
+    const char* message;   ///< the outcome as a clause for people, without a full stop
     const double* points;  ///< [V] at the place, as they are to be written
     size_t point_count;
     /// new = M * old: a translation; for `treeform_turn` and `treeform_mate_features` also a
@@ -162,8 +162,8 @@ TREEFORM_C_API treeform_code treeform_slide(const treeform_mesh* moving,
                                             const treeform_place_options* options,
                                             treeform_placement** placement);
 
-/// Moves `moving` down, along `direction` (null: 0, 0, -1), onto the bed or one of `fixed`, of
-/// which there may be none.
+/// Moves `moving` down, along `direction` (null: 0, 0, -1), onto the bed or one of `fixed`;
+/// `fixed` may be empty.
 TREEFORM_C_API treeform_code treeform_drop(const treeform_mesh* moving,
                                            const treeform_mesh* const* fixed, size_t count,
                                            const double* direction,
@@ -216,7 +216,7 @@ TREEFORM_C_API treeform_code treeform_turn(const treeform_mesh* moving,
                                            const treeform_place_options* options,
                                            treeform_placement** placement);
 
-/// Brings two planes, or two axes, together, and slides `moving` until it meets one of `fixed`.
+/// Aligns two planes, or two axes, and slides `moving` until it meets one of `fixed`.
 TREEFORM_C_API treeform_code treeform_mate_features(const treeform_mesh* moving,
                                                     const treeform_mesh* const* fixed, size_t count,
                                                     const treeform_feature* of_moving,
@@ -232,19 +232,22 @@ TREEFORM_C_API treeform_code treeform_measure_among(const treeform_mesh* moving,
                                                     treeform_placement** placement);
 // end
 
-/// How each face lies to the other meshes, with `moving` at the place: a `treeform_mesh_relation`.
+/// The relation of each face to the other meshes, with `moving` at the place: a
+/// `treeform_mesh_relation` for each face.
 typedef struct treeform_face_relations {
     void* owner;
     const uint8_t* moving;  ///< [F] of the moving mesh
     size_t moving_count;
-    const uint8_t* const* fixed;  ///< by mesh: [F], or null when all are separate
+    /// [fixed_count] arrays [F], or null if all faces of the mesh are separate
+    const uint8_t* const* fixed;
     size_t fixed_count;
 } treeform_face_relations;
 
 // made of the headers of C++:
 //   find_face_relations() face_contact impact impact_options time_of_impact()
 //   time_to_distance()
-/// How each face lies to the other meshes; `treeform_placement` is one of `moving` among `fixed`.
+/// The relation of each face to the other meshes; `treeform_placement` is a placement of `moving`
+/// among `fixed`.
 TREEFORM_C_API treeform_code treeform_find_face_relations(const treeform_mesh* moving,
                                                           const treeform_mesh* const* fixed,
                                                           size_t count,
@@ -255,7 +258,7 @@ TREEFORM_C_API treeform_code treeform_find_face_relations(const treeform_mesh* m
 typedef struct treeform_impact_contact {
     uint32_t face_a;
     uint32_t face_b;
-    uint8_t on_a;  ///< the part of the face, as in `treeform_hit::at`
+    uint8_t on_a;  ///< corner, edge or interior of the face, as in `treeform_hit::at`
     uint8_t on_b;
     double point[3];  ///< a common point, on `b`, rounded
 } treeform_impact_contact;

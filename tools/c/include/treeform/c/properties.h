@@ -11,7 +11,7 @@
 //   find_open_edge() closing_tolerance() same_triangles() feature_kind mesh_feature features
 //   feature_options find_features() feature_at_face() feature_at_point() fit_feature()
 //   hull_side
-/// The volume inside a closed mesh, in cubic units; negative when it is inside out. For an open
+/// The volume inside a closed mesh, in cubic units; negative if it is inside out. For an open
 /// mesh, the sum of the signed volumes of the tetrahedra from the origin to its faces. O(F).
 TREEFORM_C_API treeform_code treeform_volume(const treeform_mesh* mesh, double* result);
 
@@ -27,16 +27,16 @@ typedef struct treeform_mass_properties {
     double inertia[9];
 } treeform_mass_properties;
 
-/// Volume, center of mass and inertia of what a closed mesh encloses. Where the volume is 0, or
-/// noise beside what cancels in it, it is 0 and the others are NaN. O(F).
+/// Volume, center of mass and inertia of the solid that a closed mesh bounds. If the volume is 0,
+/// or too small compared with the terms of its sum, it is 0, and the others are NaN. O(F).
 TREEFORM_C_API treeform_code treeform_find_mass_properties(const treeform_mesh* mesh,
                                                            treeform_mass_properties* result);
 
-/// The smallest box around all finite points; without any, min is +infinity and max -infinity.
-/// O(V).
+/// The smallest box around all finite points; if there are none, min is +infinity and max
+/// -infinity. O(V).
 TREEFORM_C_API treeform_code treeform_bounds(const treeform_mesh* mesh, treeform_box* result);
 
-/// Whether the mesh bounds a solid, as an operand of `treeform_boolean` has to.
+/// Whether the mesh bounds a solid, as operands of `treeform_boolean` must.
 TREEFORM_C_API treeform_code treeform_is_solid(const treeform_mesh* mesh, int32_t* result);
 
 /// Whether a mesh bounds a solid, as operands of `treeform_boolean` must. The certificate is ok,
@@ -69,8 +69,8 @@ typedef struct treeform_topology {
 TREEFORM_C_API treeform_code treeform_count_topology(const treeform_mesh* mesh,
                                                      treeform_topology** topology);
 
-/// `component` [F]: the component of each face, by shared corners, numbered in the order of their
-/// lowest face; `count` is how many there are.
+/// `component` [F]: the connected component of each face, by shared corners; components are
+/// numbered in the order of their lowest faces. `count` is their number.
 TREEFORM_C_API treeform_code treeform_face_components(const treeform_mesh* mesh,
                                                       uint32_t* component, size_t* count);
 
@@ -99,12 +99,12 @@ typedef struct treeform_defects {
 TREEFORM_C_API treeform_code treeform_find_defects(const treeform_mesh* mesh,
                                                    treeform_defects** defects);
 
-/// The two points of the lowest edge at which the mesh is open, by numbers of points; both
-/// `TREEFORM_NONE` when it is closed, so that winding numbers are defined.
+/// The point numbers of the lowest edge at which the mesh is open; both `TREEFORM_NONE` if the
+/// mesh is closed, so that winding numbers are defined.
 TREEFORM_C_API treeform_code treeform_find_open_edge(const treeform_mesh* mesh, uint32_t edge[2]);
 
-/// `which` of `tolerances` [count] is the first that closes the mesh when points within it are
-/// joined; `count` when joining equal points does so already, or none does.
+/// `which` is the index of the first of `tolerances` [count] that closes the mesh if points within
+/// it are joined; `count` if joining equal points already closes it, or if none does.
 TREEFORM_C_API treeform_code treeform_closing_tolerance(const treeform_mesh* mesh,
                                                         const double* tolerances, size_t count,
                                                         size_t* result);
@@ -164,7 +164,7 @@ TREEFORM_C_API treeform_code treeform_find_features(const treeform_mesh* mesh,
                                                     const treeform_feature_options* options,
                                                     treeform_features** features);
 
-/// The region around a face; `count` is 0 where that is neither flat nor cylindrical.
+/// The region around a face; `count` is 0 if it is neither flat nor cylindrical.
 TREEFORM_C_API treeform_code treeform_feature_at_face(const treeform_mesh* mesh,
                                                       treeform_feature_kind kind, uint32_t face,
                                                       const treeform_feature_options* options,
@@ -234,14 +234,15 @@ TREEFORM_C_API treeform_code treeform_compare_distance(const double a[3], const 
 
 /// The intersection of two triangles.
 typedef struct treeform_triangle_contact {
-    int32_t dimension;  ///< of the common set: -1 nothing, 0 a point, 1 a segment, 2 an area
+    /// dimension of the intersection: -1 if empty, 0 a point, 1 a segment, 2 an area
+    int32_t dimension;
     int32_t coplanar;
-    int32_t crossing;  ///< they pass through each other
+    int32_t crossing;  ///< whether they pass through each other
 } treeform_triangle_contact;
 
 // made of the headers of C++:
 //   intersect_triangles()
-/// What triangles `a` and `b`, three points each, have in common; exact.
+/// The intersection of triangles `a` and `b`, three points each; exact.
 TREEFORM_C_API treeform_code treeform_intersect_triangles(const double a[9], const double b[9],
                                                           treeform_triangle_contact* result);
 // end

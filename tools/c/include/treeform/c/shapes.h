@@ -252,20 +252,21 @@ typedef struct treeform_isolines_result {
     const uint32_t* faces;
 } treeform_isolines_result;
 
-/// Lines along which a value, `values` [V], linear in each face, has one of the `levels` [count].
+/// Isolines: lines along which `values` [V], interpolated linearly in each face, have one of the
+/// `levels` [count].
 TREEFORM_C_API treeform_code treeform_isolines(const treeform_mesh* mesh, const double* values,
                                                const double* levels, size_t count,
                                                treeform_progress progress, void* progress_data,
                                                treeform_isolines_result** result);
 
-/// Writes isolines as `treeform_write_section` does sections; SVG as seen from where `normal`
-/// points (null: z).
+/// Writes isolines in the formats of `treeform_write_section`. SVG shows them as seen against the
+/// direction `normal` (null: z).
 TREEFORM_C_API treeform_code treeform_write_isolines(const char* path,
                                                      const treeform_isolines_result* lines,
                                                      const double normal[3], const char* format,
                                                      const char* unit);
 
-/// The mesh cut along these lines: count + 1 pieces, by value, from the lowest up.
+/// The mesh cut along its isolines: count + 1 pieces, ascending by value.
 TREEFORM_C_API treeform_code treeform_cut_along(const treeform_mesh* mesh, const double* values,
                                                 const double* levels, size_t count,
                                                 const treeform_cut_options* options,

@@ -123,22 +123,22 @@ typedef struct treeform_boolean_result {
     uint64_t filled_faces;  ///< faces of operands at filled gaps (`gap`)
 } treeform_boolean_result;
 
-/// The solid that `expression` makes of the `operands` [count]: a formula over a, b, c, ..., with
-/// + or | union, * or & intersection, - difference, ^ exclusive or, and brackets: "(a-b)*c".
-/// Exact, then rounded and checked. No operand is copied. Each has to bound a solid.
+/// The solid that `expression` defines over the `operands` [count]: a formula of a, b, c, ... with
+/// + or | union, * or & intersection, - difference, ^ symmetric difference, and parentheses:
+/// "(a-b)*c". Exact, then rounded and checked. Operands are not copied. Each must bound a solid.
 TREEFORM_C_API treeform_code treeform_boolean(const treeform_mesh* const* operands, size_t count,
                                               const char* expression,
                                               const treeform_boolean_options* options,
                                               treeform_boolean_result** result);
 
-/// The same with `names` [count] in place of letters: "body-(bolt_1+'left bolt')".
+/// The same with `names` [count] instead of letters: "body-(bolt_1+'left bolt')".
 TREEFORM_C_API treeform_code treeform_boolean_named(const treeform_mesh* const* operands,
                                                     const char* const* names, size_t count,
                                                     const char* expression,
                                                     const treeform_boolean_options* options,
                                                     treeform_boolean_result** result);
 
-/// The names in a formula, each once, in the order in which they come first.
+/// The names in a formula, each once, in the order of first use.
 TREEFORM_C_API treeform_code treeform_names_in(const char* expression, treeform_strings** strings);
 
 /// Points in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
@@ -166,7 +166,7 @@ TREEFORM_C_API treeform_code treeform_symmetric_difference(const treeform_mesh* 
                                                            const treeform_boolean_options* options,
                                                            treeform_boolean_result** result);
 
-/// What is in any operand [count], without a formula.
+/// The union of all `operands` [count], without a formula.
 TREEFORM_C_API treeform_code treeform_unite_all(const treeform_mesh* const* operands, size_t count,
                                                 const treeform_boolean_options* options,
                                                 treeform_boolean_result** result);
@@ -281,8 +281,9 @@ typedef struct treeform_repair_result {
     /// that touched before may still touch (`resolve_options::touching`).
     const treeform_certificate* certificate;
     const treeform_repair_statistics* statistics;
-    const treeform_file* file;  ///< of a file, with its attributes; else null
-    const uint8_t* is_left;     ///< [F] 1 if a part of the input face is left, else 0
+    /// for a file: the result with its attributes; else null
+    const treeform_file* file;
+    const uint8_t* is_left;  ///< [F] 1 if a part of the input face is left, else 0
 } treeform_repair_result;
 
 /// `mesh` without self-intersections. Check the certificate: its status says whether this was
@@ -369,8 +370,8 @@ TREEFORM_C_API treeform_code treeform_repair(const treeform_mesh* mesh,
                                              const treeform_repair_options* options,
                                              treeform_repair_result** result);
 
-/// The same of each part of a file, or of all as one, with its attributes. The mesh of the file is
-/// taken as it is read.
+/// The same for each part of a file, or for all parts as one mesh, with its attributes. The mesh
+/// of the file is used as it was read.
 TREEFORM_C_API treeform_code treeform_repair_file(const treeform_file* file,
                                                   const treeform_repair_options* options,
                                                   treeform_repair_result** result);
@@ -379,7 +380,7 @@ TREEFORM_C_API treeform_code treeform_repair_file(const treeform_file* file,
 typedef struct treeform_solid_defects {
     void* owner;
     int32_t any;                    ///< whether there is any defect
-    const char* message;            ///< the result in words, without a full stop
+    const char* message;            ///< the outcome as a clause for people, without a full stop
     uint64_t nonfinite_vertices;    ///< with a NaN or infinite coordinate, used or not
     uint64_t unusable_faces;        ///< with an invalid corner; ignored by the counts below
     int32_t without_faces;          ///< the mesh has points, but no usable face
@@ -403,7 +404,7 @@ TREEFORM_C_API treeform_code treeform_find_solid_defects(const treeform_mesh* me
                                                          void* progress_data,
                                                          treeform_solid_defects** defects);
 
-/// The same of all parts of a file together.
+/// The same for all parts of a file together.
 TREEFORM_C_API treeform_code treeform_find_solid_defects_of_file(const treeform_file* file,
                                                                  treeform_progress progress,
                                                                  void* progress_data,

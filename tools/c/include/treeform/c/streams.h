@@ -27,13 +27,13 @@ typedef struct treeform_weld_stream_options {
     uint64_t memory;           ///< limit of the process, in bytes; 0: `treeform_default_memory`
     const char* folder;        ///< for the tiles; empty: the input's name and ".tiles"
     uint64_t points_per_tile;  ///< approximate limit; 0: as the memory allows
-    const char* format;        ///< of the inputs; null: by content
+    const char* format;        ///< format of the inputs; null: by content
     const char* removed;       ///< write the dropped points to this file; or null
     /// write all points, with their group in this property; or null
     const char* label;
-    /// write all points, and set the LAS flag "withheld" for dropped ones
-    int32_t withhold;
-    /// Called with the new numbers of the next input points, from the first to the last; or null.
+    int32_t withhold;  ///< write all points, with the flag "withheld" of LAS
+    /// Called with the new numbers of consecutive input points, from the first point to the last;
+    /// or null.
     void (*map)(const uint64_t* numbers, size_t count, void* data);
     void* map_data;
     const treeform_write_options* write;  ///< how to write the output; or null
@@ -48,8 +48,8 @@ typedef struct treeform_weld_stream_options {
     /// [column_count] as in `treeform_read_options`
     const treeform_named_column* columns;
     size_t column_count;
-    /// allow LAS files with different coordinate reference systems or time types; the output has
-    /// those of the first file
+    /// join LAS files of different coordinate systems or time types; the output then has those of
+    /// the first
     int32_t mixed;
 } treeform_weld_stream_options;
 /// Sets the defaults.
@@ -68,11 +68,11 @@ typedef struct treeform_weld_stream_result {
     double tolerance;         ///< the tolerance as a length
     uint64_t kept;            ///< points
     uint64_t groups;          ///< groups of two points or more
-    double max_displacement;  ///< upper bound of how far points moved
+    double max_displacement;  ///< upper bound of the distance that a point moved
     uint64_t tiles;
-    uint64_t finished_tiles;  ///< by an earlier run
-    const char* format;       ///< of the output
-    uint64_t mergeable;       ///< points that would be merged if the output were welded
+    uint64_t finished_tiles;  ///< tiles finished by an earlier run
+    const char* format;       ///< format of the output
+    uint64_t mergeable;       ///< number of points that welding the output again would merge
     int32_t mergeable_known;
     uint64_t faces;               ///< kept faces, as stored
     uint64_t triangles;           ///< triangles of these faces
@@ -84,42 +84,43 @@ typedef struct treeform_weld_stream_result {
 } treeform_weld_stream_result;
 
 /// Welds the cloud in the files `inputs` [count] (PLY, PCD, LAS, LAZ, PTS, XYZ, CSV), or the mesh
-/// in one file (PLY, binary STL), and writes `output`, whole or not at all: the same bytes as
-/// `treeform_weld_file` would lead to. The folder stays when the process is killed, and the same
-/// call goes on from there.
+/// in one file (PLY, binary STL), and writes `output`, completely or not at all: the same bytes as
+/// by `treeform_weld_file`. If the process is killed, the folder stays, and the same call resumes
+/// there.
 TREEFORM_C_API treeform_code treeform_weld_stream(const char* const* inputs, size_t count,
                                                   const char* output,
                                                   const treeform_weld_stream_options* options,
                                                   treeform_weld_stream_result** result);
 // end
 
-/// The same step by step, for many processes that share a folder: one calls `scatter`; then each
+/// A weld step by step, for many processes that share a folder: one calls `scatter`; then each
 /// calls `tile` for its share of the tiles; after all have ended, one calls `finish` and
 /// `remove_folder`. Finished tiles are skipped.
 typedef struct treeform_shared_weld treeform_shared_weld;
 // made of the headers of C++:
 //   shared_weld_create() shared_weld_scatter() shared_weld_tile() shared_weld_finish()
 //   shared_weld_remove_folder()
-/// Begins, and has a hold on the folder until it is freed: all processes give the same inputs and
-/// options. What options say of outputs is for `finish`; `communicator` is not for this.
+/// Begins a weld in steps, and locks the folder until the handle is freed. All processes must pass
+/// the same inputs and options. Options of outputs are used by `finish`; `communicator` is not
+/// used.
 TREEFORM_C_API treeform_code treeform_shared_weld_create(
     const char* const* inputs, size_t count, const treeform_weld_stream_options* options,
     treeform_shared_weld** weld);
 
-/// Gives each tile its points, unless they have them; `tiles` is their number.
+/// Writes the points of each tile, unless already done; `tiles` is the number of tiles.
 TREEFORM_C_API treeform_code treeform_shared_weld_scatter(treeform_shared_weld* weld,
                                                           size_t* result);
 
-/// Welds a tile, unless that is done.
+/// Welds a tile, unless it is finished.
 TREEFORM_C_API treeform_code treeform_shared_weld_tile(treeform_shared_weld* weld, size_t tile);
 
-/// Welds what lies along the borders of tiles, when all are welded and the others have let go of
-/// the folder, and writes `output`, whole or not at all.
+/// Welds the points along the borders of tiles, and writes `output`, completely or not at all. All
+/// tiles must be finished, and all other processes must have freed their handles.
 TREEFORM_C_API treeform_code treeform_shared_weld_finish(treeform_shared_weld* weld,
                                                          const char* output,
                                                          treeform_weld_stream_result** result);
 
-/// Removes the folder.
+/// Removes the folder of the tiles.
 TREEFORM_C_API treeform_code treeform_shared_weld_remove_folder(treeform_shared_weld* weld);
 // end
 
@@ -128,12 +129,12 @@ TREEFORM_C_API uint64_t treeform_default_memory(void);
 
 // made of the headers of C++:
 //   memory_to_weld() memory_to_stream()
-/// About how many bytes it takes to weld `points` points with the properties of the file in
+/// Approximate memory in bytes to weld `points` points, with the properties of the file, in
 /// memory.
 TREEFORM_C_API treeform_code treeform_memory_to_weld(const treeform_file* file, uint64_t points,
                                                      uint64_t* result);
 
-/// The least memory with which they can be welded in tiles.
+/// The least memory in bytes with which they can be welded in tiles.
 TREEFORM_C_API treeform_code treeform_memory_to_stream(const treeform_file* file, uint64_t points,
                                                        uint64_t* result);
 // end
@@ -143,7 +144,7 @@ typedef struct treeform_point_reader treeform_point_reader;
 
 // made of the headers of C++:
 //   point_reader_create() point_reader_header() point_reader_next()
-/// Opens a file of points and reads its header. `format` may be null.
+/// Opens a point file and reads its header. `format` may be null.
 TREEFORM_C_API treeform_code treeform_point_reader_create(const char* path, const char* format,
                                                           treeform_point_reader** reader);
 
@@ -151,8 +152,8 @@ TREEFORM_C_API treeform_code treeform_point_reader_create(const char* path, cons
 TREEFORM_C_API treeform_code treeform_point_reader_header(const treeform_point_reader* reader,
                                                           treeform_file** header, uint64_t* count);
 
-/// The next points, at most `most`, with their properties, as a file without faces; null when none
-/// are left.
+/// Reads the next points, at most `most`, with their properties, as a file without faces; null if
+/// none are left.
 TREEFORM_C_API treeform_code treeform_point_reader_next(treeform_point_reader* reader, size_t most,
                                                         treeform_file** file);
 // end
@@ -162,7 +163,8 @@ typedef struct treeform_point_writer treeform_point_writer;
 
 // made of the headers of C++:
 //   point_writer_create() point_writer_write() point_writer_commit()
-/// Begins a file of `count` points like `header`, perhaps with columns added.
+/// Begins to write a file of `count` points with the format and columns of `header`; columns may
+/// have been added.
 TREEFORM_C_API treeform_code treeform_point_writer_create(const char* path,
                                                           const treeform_file* header,
                                                           uint64_t count,
@@ -173,7 +175,7 @@ TREEFORM_C_API treeform_code treeform_point_writer_create(const char* path,
 TREEFORM_C_API treeform_code treeform_point_writer_write(treeform_point_writer* writer,
                                                          const treeform_file* block);
 
-/// Finishes the file; without this call, none stays. `treeform_written` may be null.
+/// Finishes the file; without this call, the file is removed. `treeform_written` may be null.
 TREEFORM_C_API treeform_code treeform_point_writer_commit(treeform_point_writer* writer,
                                                           treeform_written** written);
 // end

@@ -10,7 +10,7 @@ typedef struct treeform_point_tree treeform_point_tree;
 
 // made of the headers of C++:
 //   point_tree_create() point_tree_size() point_tree_nearest()
-/// The tree over `points` [count][dimensions]; 2 or 3 dimensions.
+/// A tree over `points` [count][dimensions]; 2 or 3 dimensions.
 TREEFORM_C_API treeform_code treeform_point_tree_create(const double* points, size_t count,
                                                         uint32_t dimensions,
                                                         treeform_point_tree** tree);
@@ -21,8 +21,8 @@ TREEFORM_C_API treeform_code treeform_point_tree_size(const treeform_point_tree*
 
 /// The `k` nearest points of each of `queries` [count][dimensions], nearest first, within `radius`
 /// (inclusive; infinite for none): `ids` [count][k] and `distances` [count][k], either of which
-/// may be null. Where there are fewer, ids are `TREEFORM_NONE` and distances infinite. Equally
-/// near points come by number.
+/// may be null. If there are fewer, the remaining ids are `TREEFORM_NONE` and distances infinite.
+/// Equally near points are ordered by number.
 TREEFORM_C_API treeform_code treeform_point_tree_nearest(const treeform_point_tree* tree,
                                                          const double* queries, size_t count,
                                                          size_t k, double radius, uint32_t* ids,
@@ -72,8 +72,9 @@ typedef struct treeform_box_tree treeform_box_tree;
 
 // made of the headers of C++:
 //   box_tree_create() box_tree_size() box_tree_pairs() box_tree_pairs_of()
-/// The tree over the boxes from `mins` [count][dimensions] to `maxs` [count][dimensions]; 2 or 3
-/// dimensions. A box that is not finite, or whose min exceeds its max, is `TREEFORM_INVALID`.
+/// A tree over the boxes from `mins` [count][dimensions] to `maxs` [count][dimensions]; 2 or 3
+/// dimensions. Returns `TREEFORM_INVALID` for a box that is not finite, or whose min exceeds its
+/// max.
 TREEFORM_C_API treeform_code treeform_box_tree_create(const double* mins, const double* maxs,
                                                       size_t count, uint32_t dimensions,
                                                       treeform_box_tree** tree);
@@ -101,21 +102,21 @@ typedef struct treeform_id_lists {
 
 // made of the headers of C++:
 //   box_tree_query() box_tree_rays() box_tree_nearest()
-/// The boxes that have a point in common with each of the query boxes [count], ascending; exact. A
-/// query may be infinite; one whose min exceeds its max finds nothing.
+/// The boxes that have a common point with each of the query boxes [count], ascending; exact. A
+/// query may be infinite; one whose min exceeds its max matches nothing.
 TREEFORM_C_API treeform_code treeform_box_tree_query(const treeform_box_tree* tree,
                                                      const double* mins, const double* maxs,
                                                      size_t count, treeform_id_lists** lists);
 
-/// The boxes that each ray, origin + t direction with t >= 0, meets, ascending: of `origins`
-/// [count][dimensions] and `directions`. Boxes are met up to the rounding of 32-bit floats: none
-/// is missed.
+/// The boxes that each ray meets, ascending. Rays are origin + t direction with t >= 0, for
+/// `origins` and `directions` [count][dimensions]. No box is missed; boxes that a ray misses by
+/// less than the rounding of 32-bit floats may be included.
 TREEFORM_C_API treeform_code treeform_box_tree_rays(const treeform_box_tree* tree,
                                                     const double* origins, const double* directions,
                                                     size_t count, treeform_id_lists** lists);
 
-/// The `k` boxes nearest to each of `points` [count][dimensions], within `radius`; answers as
-/// `treeform_point_tree_nearest`. A point in a box is at distance 0.
+/// The `k` boxes nearest to each of `points` [count][dimensions], within `radius`; results as in
+/// `treeform_point_tree_nearest`. The distance of a point inside a box is 0.
 TREEFORM_C_API treeform_code treeform_box_tree_nearest(const treeform_box_tree* tree,
                                                        const double* points, size_t count, size_t k,
                                                        double radius, uint32_t* ids,

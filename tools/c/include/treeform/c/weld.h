@@ -99,23 +99,23 @@ typedef struct treeform_weld_result {
     double max_displacement;
     uint64_t nonmanifold_before;  ///< edges of more than two faces
     uint64_t nonmanifold_after;
-    uint64_t flipped;  ///< kept faces whose normal turned by more than a right angle
-    /// for a mesh from a file: the result with its attributes; otherwise null
-    const treeform_file* file;
+    uint64_t flipped;     ///< kept faces whose normal turned by more than a right angle
     uint64_t kept_apart;  ///< groups that `keep_manifold` did not merge completely
+    /// for a file: the result with its attributes; else null
+    const treeform_file* file;
 } treeform_weld_result;
 
-/// The mesh or cloud with the points merged that are within the tolerance of each other: exact.
+/// Merges the points of a mesh or cloud that are within the tolerance of each other; exact.
 TREEFORM_C_API treeform_code treeform_weld(const treeform_mesh* mesh,
                                            const treeform_weld_options* options,
                                            treeform_weld_result** result);
 
-/// A file welded, with its attributes, parts and names.
+/// Welds a file, with its attributes, parts and names.
 TREEFORM_C_API treeform_code treeform_weld_file(const treeform_file* file,
                                                 const treeform_weld_options* options,
                                                 treeform_weld_result** result);
 
-/// Only the groups of the points of a mesh or cloud: `mesh` of the result is empty.
+/// Only the groups of the points of a mesh or cloud; `mesh` of the result is empty.
 TREEFORM_C_API treeform_code treeform_group_points(const treeform_mesh* mesh,
                                                    const treeform_weld_options* options,
                                                    treeform_weld_result** result);
@@ -126,13 +126,13 @@ TREEFORM_C_API treeform_code treeform_count_nearly_equal(const treeform_mesh* me
                                                          uint64_t* result);
 
 /// How many points of a welded file would be merged if it were written with this precision, read
-/// and welded again; `known` is 0 where points stay apart on purpose.
+/// and welded again; `known` is 0 if options keep points apart on purpose.
 TREEFORM_C_API treeform_code treeform_count_mergeable(const treeform_file* welded,
                                                       const treeform_weld_options* options,
                                                       treeform_precision written_as,
                                                       uint64_t* count, int32_t* known);
 
-/// Sets the flag "withheld" of LAS at the points of `file` that `welded`, made of it, does not
+/// Sets the flag "withheld" of LAS at the points of `file` that its weld result `welded` does not
 /// keep.
 TREEFORM_C_API treeform_code treeform_withhold(treeform_file* file,
                                                const treeform_weld_result* welded);
