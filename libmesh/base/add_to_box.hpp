@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A box that grows.
+/// Grows bounding boxes.
 
 #include <treeform/mesh/mesh.hpp>
 
@@ -10,7 +10,7 @@
 
 namespace treeform::detail::base {
 
-/// `box` becomes the smallest one around both; an empty one adds nothing.
+/// Extends `box` to the smallest box around both; an empty box adds nothing.
 inline void add_to_box(std::optional<box3>& box, const std::optional<box3>& more) {
     if (!box || !more) {
         if (more) box = more;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What certificates say for people.
+/// Fills in certificates.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -9,16 +9,16 @@
 
 namespace treeform::detail::base {
 
-/// Adds where the faces of `mesh` meet, and the numbers its coordinates are.
+/// Sets `meeting_at` and `precision`.
 inline void describe(certificate& known, mesh_view mesh, precision of) {
     known.precision = of;
     known.meeting_at.clear();
     for (const auto& [f, g] : known.meeting)
-        if (f < mesh.faces.size())  // there is no mesh where `progress` said stop
+        if (f < mesh.faces.size())  // the mesh is empty if cancelled
             known.meeting_at.push_back(mesh.points[mesh.faces[f][0]]);
 }
 
-/// Makes it `not_certified`, for pairs of faces that meet, of which the first 100 are told.
+/// Sets the status `not_certified` for pairs of faces that meet, and lists the first 100.
 template <class Pairs>
 void refuse_meeting(certificate& known, const Pairs& pairs, mesh_view mesh) {
     known.status = status::not_certified;

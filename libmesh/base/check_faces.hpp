@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The check at the door of what takes faces.
+/// Checks the faces passed to public functions.
 
 #include <treeform/mesh/mesh.hpp>
 

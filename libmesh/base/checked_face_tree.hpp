@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The tree over faces that have been checked.
+/// The tree over checked faces.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/tree.hpp>

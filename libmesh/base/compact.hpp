@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Keeping some of many, in order, on all threads.
+/// Parallel stable compaction: keeps the elements that satisfy a predicate, in order.
 
 #include <treeform/tree/parallel.hpp>
 
@@ -9,9 +9,9 @@
 
 namespace treeform::detail::base {
 
-/// Calls `resize(n)` for the n numbers i in [0, count) with `keep(i)`, then `write(i, place)` for
-/// each of them, its place counting those before it. `keep` is called twice; `write` may change
-/// what `keep` says of its i.
+/// Calls `resize(n)` for the number n of i in [0, count) with `keep(i)`, then `write(i, place)` for
+/// each of these i, where `place` is its rank among them. `keep` is called twice for each i;
+/// `write(i, ...)` may change `keep(i)`.
 /// \same on any number of threads
 template <class Keep, class Resize, class Write>
 void compact(std::size_t count, const Keep& keep, const Resize& resize, const Write& write) {

@@ -17,27 +17,27 @@ struct double_double {
     double low = 0.0;
 };
 
-/// Exact. Needs no order of the summands.
+/// Exact, for summands in any order.
 [[nodiscard]] inline double_double sum_of(double a, double b) {
     const double sum = a + b;
     const double b_there = sum - a;
     return {sum, (a - (sum - b_there)) + (b - b_there)};
 }
 
-/// Exact, where |a| >= |b| or a == 0.
+/// Exact if |a| >= |b| or a == 0.
 [[nodiscard]] inline double_double sum_of_ordered(double a, double b) {
     const double sum = a + b;
     return {sum, b - (sum - a)};
 }
 
-/// The upper 26 bits, and the rest, which has as many.
+/// Splits a number into its upper 26 bits and the rest, which has at most 26 bits.
 [[nodiscard]] inline double_double halves_of(double a) {
     const double large = 134217729.0 * a;  // 2^27 + 1
     const double high = large - (large - a);
     return {high, a - high};
 }
 
-/// Exact, away from the ends of double's range.
+/// Exact, unless it overflows or underflows.
 [[nodiscard]] inline double_double product_of(double a, double b) {
     const double product = a * b;
     const double_double x = halves_of(a), y = halves_of(b);

@@ -9,8 +9,8 @@
 
 namespace treeform::detail::base {
 
-/// What makes the box of a face over `points`; an empty one, which builds name, where a coordinate
-/// is not finite. \pre every corner is a point
+/// Returns the boxes of faces over `points`; an empty box, which builds report, if a coordinate is
+/// not finite. \pre every corner is a point
 template <class PointAt>
 [[nodiscard]] auto face_boxes_of(const PointAt& point_at) {
     return [point_at](const face& f) {
@@ -29,7 +29,7 @@ template <class PointAt>
     return face_boxes_of([points](std::uint32_t i) { return points[i]; });
 }
 
-/// The same of moved points.
+/// The same for transformed points.
 [[nodiscard]] inline auto face_boxes(points_view points, const transform<3>& move) {
     return face_boxes_of([points, move](std::uint32_t i) { return move(points[i]); });
 }

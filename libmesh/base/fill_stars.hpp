@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Numbers of faces listed by point, in parallel.
+/// Lists faces by point, in parallel.
 
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -15,11 +15,11 @@
 
 namespace treeform::detail::base {
 
-/// Faces point by point, ascending at each; or what else there is at points.
+/// Lists of face numbers, or other values, for each point, ascending.
 template <class Index, class Value = std::uint32_t>
 struct faces_by_point {
-    buffer<Index> end;    ///< [points] where the faces of each end in `faces`
-    buffer<Value> faces;  ///< point by point
+    buffer<Index> end;    ///< [points] end of the list of each point in `faces`
+    buffer<Value> faces;  ///< the lists, point by point
 
     [[nodiscard]] std::span<const Value> operator[](std::size_t point) const {
         const std::size_t begin = point == 0 ? 0 : static_cast<std::size_t>(end[point - 1]);
@@ -27,12 +27,12 @@ struct faces_by_point {
     }
 };
 
-/// Lists the values of i < `count`, ascending, at the points that `for_values(i, visit)` hands with
-/// them to `visit(point, value)`: first those of each bucket of points, then of each point of it.
-/// Hands each list to `finish`, which may sort it.
+/// Collects the values for which `for_values(i, visit)` calls `visit(point, value)`, for all i <
+/// `count`, into a list for each point, in the order of i. A bucket sort: by ranges of points
+/// first, then by point. Calls `finish` with each list, for example to sort it.
 ///
-/// \pre  `Index` holds the number of entries
-/// \cost O(points + entries) time; an entry's memory, and 4 bytes, on the way
+/// \pre  `Index` can represent the number of entries
+/// \cost O(points + entries) time; temporary memory of a value and 4 bytes for each entry
 /// \same on any number of threads
 template <class Index, class Value, class ForValues, class Finish>
 [[nodiscard]] faces_by_point<Index, Value> fill_lists(std::size_t points, std::size_t count,
@@ -92,7 +92,8 @@ template <class Index, class Value, class ForValues, class Finish>
     return result;
 }
 
-/// The same for faces: those at the points that `for_corners(i, visit)` hands to `visit`.
+/// The same for faces: face i is listed at the points with which `for_corners(i, visit)` calls
+/// `visit`.
 template <class Index, class ForCorners>
 [[nodiscard]] faces_by_point<Index> fill_stars(std::size_t points, std::size_t faces,
                                                const ForCorners& for_corners) {

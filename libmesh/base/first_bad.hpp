@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The first of many elements that something is wrong with.
+/// Finds the first invalid element.
 
 #include <treeform/tree/parallel.hpp>
 
@@ -10,9 +10,9 @@
 
 namespace treeform::detail::base {
 
-/// Lowest i in [0, count) that `bad` holds for, or `count`.
+/// The lowest i in [0, count) for which `bad(i)` is true, or `count`.
 ///
-/// \cost O(count) calls, in parallel, of all in a chunk: as a rule none is bad
+/// \cost O(count) calls, in parallel; all of a chunk are tested, since usually none is bad
 /// \same on any number of threads
 template <class Bad>
 [[nodiscard]] std::size_t first_bad(std::size_t count, const Bad& bad,

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the chunks of a loop have found, as one.
+/// Concatenates the results of the chunks of a loop.
 
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -11,7 +11,7 @@
 
 namespace treeform::detail::base {
 
-/// The elements of `parts`, one part after the other, which are emptied.
+/// The elements of `parts`, one part after the other. Empties the parts.
 /// \same on any number of threads
 template <class T>
 [[nodiscard]] std::vector<T> flattened(std::vector<std::vector<T>>&& parts) {

@@ -1,14 +1,14 @@
 #pragma once
 /// \file
-/// How far points were moved.
+/// The largest displacement of points.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/aabb.hpp>
 
 namespace treeform::detail {
 
-/// Largest difference of a coordinate between `placed` and `points` moved by `by`; computed in
-/// twice the precision of double. Infinite when a number is not finite.
+/// The largest difference of a coordinate between `placed` and `points` transformed by `by`;
+/// computed in twice the precision of double. Infinite if a number is not finite.
 ///
 /// \pre `points` and `placed` have the same size
 [[nodiscard]] double max_displacement(points_view points, const transform<3>& by,

@@ -1,14 +1,14 @@
 #pragma once
 /// \file
-/// Rounding a double to the precision of a float, for sure.
+/// Rounds a double to the precision of a float, on all compilers.
 
 namespace treeform::detail::base {
 
 /// The float32 value nearest to `x`, as a double; beyond the range of float32, infinity.
 ///
-/// A cast to float and back does not do. Where g++ 12 turns two such pairs of casts side by side
-/// into vectors of two, from -O2 on, it takes the pair for no operation and hands back `x`. The
-/// value passes through memory here, so that no compiler sees both casts.
+/// A cast to float and back is not enough: g++ 12, from -O2 on, vectorizes two adjacent pairs of
+/// casts and then drops them as no operation, returning `x`. Here the value passes through memory,
+/// so that no compiler sees both casts.
 [[nodiscard]] inline double nearest_float(double x) {
     auto rounded = static_cast<float>(x);
     __asm__("" : "+m"(rounded));

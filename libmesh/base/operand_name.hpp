@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What operands are called in formulas and messages.
+/// The names of operands in formulas and messages.
 
 #include <cstddef>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Several things done at the same time.
+/// Runs several tasks in parallel.
 
 #include <treeform/tree/parallel.hpp>
 
@@ -8,8 +8,8 @@
 
 namespace treeform::detail::base {
 
-/// Calls all `tasks`, which share nothing. Large vectors, for one, are resized so: to write their
-/// zeros, and have their pages mapped, takes as long as to fill them.
+/// Calls all `tasks` in parallel; they must not share data. Useful for resizing large vectors,
+/// since zeroing and page-faulting their memory takes as long as filling them.
 template <class... Tasks>
 void parallel_invoke(const Tasks&... tasks) {
     for_chunks(sizeof...(Tasks), 1, [&](std::size_t chosen, std::size_t, std::size_t) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Sorting on all threads.
+/// Parallel sorting.
 
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -14,8 +14,8 @@
 
 namespace treeform::detail::base {
 
-/// How many of the first `count` elements of the merge of `a` and `b` are of `a`, of two equal ones
-/// that of `a` being the first.
+/// The number of elements of `a` among the first `count` elements of the merge of `a` and `b`; of
+/// equal elements, those of `a` come first.
 template <class T, class Less>
 [[nodiscard]] std::size_t taken_of_first(std::span<const T> a, std::span<const T> b,
                                          std::size_t count, const Less& less) {
@@ -30,10 +30,10 @@ template <class T, class Less>
     return low;
 }
 
-/// Sorts by `less`: blocks by `std::sort`, which are then merged. Elements that compare equal end
-/// up in an order that depends on them alone.
+/// Sorts by `less`: blocks by `std::sort`, then merges them. The order of elements that compare
+/// equal depends on the input alone.
 ///
-/// \cost O(N log N); N elements of memory where there are more than some thousand
+/// \cost O(N log N); memory of N elements if there are more than a few thousand
 /// \same on any number of threads
 template <class T, class Less = std::less<>>
 void parallel_sort(std::vector<T>& elements, const Less& less = {}) {

@@ -1,13 +1,13 @@
 #pragma once
 /// \file
-/// The progress of a step, as a part of that of the whole.
+/// Maps the progress of a step to the progress of the whole.
 
 #include <treeform/tree/parallel.hpp>
 
 namespace treeform::detail::base {
 
-/// `callback` as it is called for a step that does the share from `begin` to `end` of the work. It
-/// outlives the step.
+/// The callback for a step that covers the share from `begin` to `end` of the work of `callback`,
+/// which must outlive it.
 [[nodiscard]] inline progress_callback part_of(const progress_callback& callback, double begin,
                                                double end) {
     if (!callback) return {};

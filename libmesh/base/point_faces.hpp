@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A cloud of points as a mesh whose faces are points.
+/// A point cloud as a mesh of degenerate faces.
 
 #include <treeform/mesh/mesh.hpp>
 
@@ -10,7 +10,7 @@
 
 namespace treeform::detail::base {
 
-/// A face for each of `count` points, of that corner alone.
+/// [count] A face for each point, with this point as all three corners.
 [[nodiscard]] inline std::vector<face> point_faces(std::size_t count) {
     std::vector<face> faces(count);
     for (std::size_t i = 0; i < count; ++i) {

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Points and vectors in double. Each operation is rounded once, sums from left to right: error
-/// bounds elsewhere rest on that.
+/// Arithmetic of points and vectors in double. Each operation is rounded once, and sums go from
+/// left to right; error bounds elsewhere rely on that.
 
 #include <treeform/mesh/mesh.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Meshes that were given in any form, as prepared meshes.
+/// Mesh arguments of any type as prepared meshes.
 
 #include <treeform/mesh/mesh.hpp>
 
@@ -11,8 +11,8 @@
 
 namespace treeform::detail::base {
 
-/// A mesh as a prepared one: as it was given, or for the time being. \pre what it refers to
-/// outlives it
+/// A mesh argument as a prepared mesh: the given one, or a temporary one. \pre the argument
+/// outlives this
 class prepared_ref {
   public:
     explicit prepared_ref(const mesh_ref& given) : given_(given.prepared()) {
@@ -30,7 +30,7 @@ class prepared_ref {
     std::optional<prepared_mesh> own_{};
 };
 
-/// The same of several, one after the other in memory.
+/// The same for several, contiguous in memory.
 class prepared_refs {
   public:
     explicit prepared_refs(const mesh_refs& given);

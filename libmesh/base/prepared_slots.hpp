@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The typed slots of a prepared mesh. The type is low, what a slot holds is not its business: each
-/// floor names a slot with its own type and fills it.
+/// The typed slots of a prepared mesh. They are declared without the types of the indexes: each
+/// room gives its slot a type, and fills it.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
@@ -11,7 +11,7 @@
 
 namespace treeform::detail::base {
 
-/// One name a kind of index, so that no two floors take the same place.
+/// A name for each kind of index, so that no two rooms use the same slot.
 enum class slot_name : std::size_t {
     face_tree,
     triangle_blocks,
@@ -26,7 +26,7 @@ enum class slot_name : std::size_t {
     count
 };
 
-/// The slot of that name holds a T.
+/// A slot whose value is a T.
 template <class T>
 struct slot {
     slot_name name;
@@ -34,8 +34,8 @@ struct slot {
 
 class prepared_slots {
   public:
-    /// What slot `s` of `mesh` holds; `make()` fills it first when it is empty. When `make` throws,
-    /// the slot stays empty.
+    /// The value of slot `s` of `mesh`. If the slot is empty, it is first filled by `make()`; if
+    /// that throws, the slot stays empty.
     template <class T, class Make>
     [[nodiscard]] static const T& get(const prepared_mesh& mesh, slot<T> s, const Make& make) {
         const auto build = [&]() -> std::shared_ptr<const void> {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Large vectors made on all threads.
+/// Creates large vectors in parallel.
 
 #include <libmesh/base/parallel_invoke.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -13,7 +13,7 @@
 
 namespace treeform::detail::base {
 
-/// Has the pages of `memory` mapped, which takes several times as long as to write zeros there.
+/// Page-faults `memory`, which takes several times as long as writing zeros.
 /// \pre nothing is in it yet
 inline void map_pages(std::span<std::byte> memory) {
     constexpr std::size_t page = 4096, pages_a_chunk = 32;
@@ -24,7 +24,7 @@ inline void map_pages(std::span<std::byte> memory) {
                });
 }
 
-/// Resizes `vectors` of plain values, all at the same time.
+/// Resizes `vectors` of plain values in parallel.
 template <class... Vectors>
 void resize_all(std::size_t count, Vectors&... vectors) {
     const auto resize = [count](auto& vector) {
@@ -38,7 +38,7 @@ void resize_all(std::size_t count, Vectors&... vectors) {
     parallel_invoke([&] { resize(vectors); }...);
 }
 
-/// 0, 1, 2 and so on.
+/// The numbers 0, 1, 2, ...
 [[nodiscard]] inline std::vector<std::uint32_t> numbers_below(std::size_t count) {
     std::vector<std::uint32_t> numbers;
     resize_all(count, numbers);
@@ -48,7 +48,7 @@ void resize_all(std::size_t count, Vectors&... vectors) {
     return numbers;
 }
 
-/// The elements of `from`.
+/// A copy of the elements of `from`.
 template <class T>
 [[nodiscard]] std::vector<T> copied(std::span<const T> from) {
     std::vector<T> copy;

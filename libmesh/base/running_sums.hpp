@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Sums of all that came before, on all threads.
+/// Parallel prefix sums.
 
 #include <libmesh/base/resize_all.hpp>
 #include <treeform/tree/parallel.hpp>

@@ -17,14 +17,15 @@ namespace treeform::detail::base {
     return f[0] != f[1] && f[1] != f[2] && f[2] != f[0];
 }
 
-/// How many points faces can name: corners are 32-bit numbers.
+/// Largest number of points that corners, which are 32-bit numbers, can refer to.
 [[nodiscard]] inline std::size_t nameable_points(std::size_t point_count) {
     constexpr std::size_t most = std::size_t{std::numeric_limits<std::uint32_t>::max()} + 1;
     return std::min(point_count, most);
 }
 
-/// For each point, the faces with three different corners of which it is one, but not the highest:
-/// those with edges from it to higher points. Every edge is at its lower end, once.
+/// For each point, the faces with three different corners in which it is a corner, but not the
+/// highest: those with edges from it to higher points. So every edge is listed once, at its lower
+/// end.
 /// \cost as `fill_stars`
 template <class Index>
 [[nodiscard]] faces_by_point<Index> faces_at_lower_ends(std::size_t point_count,
@@ -40,10 +41,10 @@ template <class Index>
                              });
 }
 
-/// For each point, the numbers of the faces with three different corners that have it as one.
+/// For each point, its star: the numbers of the faces with three different corners at it.
 ///
 /// \pre  every corner is less than `point_count`
-/// \cost O(V + F) time, in parallel; 12 bytes a face and 8 a point; 24 a face on the way
+/// \cost O(V + F) time, in parallel; 12 bytes a face and 8 a point; temporarily 24 more a face
 /// \same on any number of threads
 class stars {
   public:
@@ -54,7 +55,7 @@ class stars {
     [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t point) const {
         return at_[point];
     }
-    /// Faces with three different corners.
+    /// Number of faces with three different corners.
     [[nodiscard]] std::size_t face_count() const { return at_.faces.size() / 3; }
 
   private:

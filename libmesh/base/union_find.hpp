@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Disjoint sets that any number of threads may join at the same time.
+/// Disjoint sets that several threads may join at the same time.
 
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -12,8 +12,8 @@
 
 namespace treeform::detail::base {
 
-/// Sets of the numbers 0 .. size-1. A set's root is its lowest member, so that the sets and their
-/// roots depend on what was joined, not on the order or the threads that did it.
+/// Disjoint sets of the numbers 0 ... size-1. A set's root is its lowest member, so sets and roots
+/// do not depend on the order of joins or on threads.
 ///
 /// \source Patwary, Refsnes and Manne, Multi-core Spanning Forest Algorithms using the Disjoint-set
 ///         Data Structure, IPDPS 2012, for Rem's algorithm with splicing; exchanges instead of
@@ -26,8 +26,9 @@ class union_find {
         });
     }
 
-    /// Parents have lower numbers than their children, so every walk ends. Each step shortens the
-    /// way; when another thread has changed the parent meanwhile, its change is as good.
+    /// The root of the set of i. Parents have lower numbers than their children, so the walk ends.
+    /// Each step shortens the path; if another thread changed the parent meanwhile, its change is
+    /// equally valid.
     [[nodiscard]] std::uint32_t root(std::uint32_t i) {
         for (;;) {
             std::uint32_t up = load(i);
@@ -39,10 +40,10 @@ class union_find {
         }
     }
 
-    /// Walks up from both until the parents agree, always from the higher parent, and hangs what it
-    /// leaves behind below the lower one. Two sets are then one: what was linked stays linked, or
-    /// is what this walk still has to link. An exchange that fails met another thread's link, from
-    /// which the walk goes on.
+    /// Joins the sets of i and j. Walks up from both until the parents agree, always from the one
+    /// with the higher parent, and links it to the lower parent. A link that this replaces is one
+    /// that the walk still has to join. If an exchange fails, another thread changed the link, and
+    /// the walk continues from there.
     void join(std::uint32_t i, std::uint32_t j) {
         std::uint32_t above_i = load(i);
         std::uint32_t above_j = load(j);
@@ -52,14 +53,14 @@ class union_find {
                 std::swap(above_i, above_j);
             }
             if (at(i).compare_exchange_strong(above_i, above_j, std::memory_order_relaxed)) {
-                if (above_i == i) return;  // a root has been hung up
+                if (above_i == i) return;  // a root was linked
                 i = above_i;
                 above_i = load(i);
             }
         }
     }
 
-    /// The root of each number. \post nothing can be asked any more
+    /// Returns the root of each number. No other function may be called afterwards.
     [[nodiscard]] buffer<std::uint32_t> take_roots() {
         for_chunks(size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t i = begin; i < end; ++i) {
@@ -70,13 +71,13 @@ class union_find {
         return std::move(parent_);
     }
 
-    /// Asks memory for what the next `root(i)` reads first.
+    /// Prefetches the memory that the next `root(i)` reads first.
     void prefetch(std::uint32_t i) const { __builtin_prefetch(&parent_[i]); }
 
     [[nodiscard]] std::size_t size() const { return parent_.size(); }
 
   private:
-    /// Relaxed: a parent is a number, and publishes nothing else.
+    /// Relaxed, since a parent publishes no other data.
     [[nodiscard]] std::atomic_ref<std::uint32_t> at(std::uint32_t i) {
         return std::atomic_ref<std::uint32_t>(parent_[i]);
     }

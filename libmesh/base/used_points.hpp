@@ -11,7 +11,7 @@
 
 namespace treeform::detail::base {
 
-/// The points that are corners, ascending.
+/// The points that are corners of faces, ascending.
 /// \pre  every corner is less than `point_count`
 /// \cost O(V + F), 5 bytes a point
 /// \same on any number of threads

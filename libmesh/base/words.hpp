@@ -10,7 +10,8 @@
 
 namespace treeform::detail::base {
 
-/// Six digits, and no fewer than stand ahead of the point: enough for a person.
+/// The number with six significant digits, or all digits before the decimal point if these are
+/// more.
 [[nodiscard]] inline std::string brief(double value) {
     char digits[32];
     const bool large = std::abs(value) >= 1e6 && std::abs(value) < 1e15;
@@ -18,8 +19,8 @@ namespace treeform::detail::base {
     return {digits, std::to_chars(digits, digits + sizeof digits, value, form, large ? 0 : 6).ptr};
 }
 
-/// The shortest decimal text that reads back as `value`: where it may be typed back, as a limit
-/// that a rounded one would not meet.
+/// The shortest decimal text that reads back as `value`, for numbers that a user may enter again,
+/// such as a limit.
 [[nodiscard]] inline std::string shortest(double value) {
     char digits[32];
     return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Progress of an operation made of others, and whether its caller has asked it to stop.
+/// The progress of an operation that consists of steps, and its cancellation.
 
 #include <treeform/tree/parallel.hpp>
 
@@ -11,15 +11,16 @@
 
 namespace treeform::detail::base {
 
-/// What the caller hears never goes back; once it has said stop it is not called again. May be
-/// used from several threads.
+/// Reports progress that never decreases. After the callback returned false, it is not called
+/// again. May be used from several threads.
 class work_progress {
   public:
     explicit work_progress(const progress_callback& callback) : callback_(callback) {}
 
     [[nodiscard]] bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
 
-    /// Says that `done` of the work, in [0, 1], is done. False when it is to stop.
+    /// Reports that the share `done` of the work, in [0, 1], is completed. Returns false if the
+    /// operation is to stop.
     bool reach(double done) {
         if (!callback_) return true;
         const std::lock_guard lock(mutex_);
@@ -28,14 +29,15 @@ class work_progress {
         return !cancelled();
     }
 
-    /// The same, of the stretch from `begin` to `end`, after `steps` of steps whose number is not
-    /// known, but of which some `expected` are half.
+    /// The same for the part from `begin` to `end`, after `steps` of an unknown number of steps;
+    /// after `expected` steps, half of the part is reported.
     bool step(double begin, double end, std::size_t steps, double expected) {
         const auto n = static_cast<double>(steps);
         return reach(begin + (end - begin) * n / (n + expected));
     }
 
-    /// For an operation that is the stretch from `begin` to `end` of this work; this outlives it.
+    /// A callback for an operation that is the part from `begin` to `end` of this work; this must
+    /// outlive it.
     [[nodiscard]] progress_callback part(double begin, double end) {
         if (!callback_) return {};
         return [this, begin, end](double done) { return reach(begin + (end - begin) * done); };

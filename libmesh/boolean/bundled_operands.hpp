@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Operands as they are cut: which meshes, what is known of each, and what of them matters.
+/// Operands prepared for cutting: their meshes, what is known about each, and the part of them that
+/// can be on the result.
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/boolean/cut_operand.hpp>
@@ -18,31 +19,31 @@
 
 namespace treeform::detail::boolean {
 
-/// One or two operands as they are, more as one mesh; of operands that hide each other, the part
-/// that can be on the surface of the result.
+/// One or two operands unchanged, or more operands joined to one mesh; for operands that hide each
+/// other, only the part that can be on the surface of the result.
 class bundled_operands {
   public:
-    /// At most two, as they are.
+    /// At most two operands, unchanged.
     explicit bundled_operands(std::span<const mesh_ref> operands);
-    /// Any number, which may be open.
+    /// Any number of operands, which may be open.
     explicit bundled_operands(std::span<const mesh_view> operands);
-    /// Number `sheet`, and all others as one mesh.
+    /// Operand `sheet`, and all others as one mesh.
     bundled_operands(std::span<const mesh_view> operands, std::uint32_t sheet);
-    /// Several that are closed, as one mesh. \param part of them, or null where all matter
+    /// Several closed operands, as one mesh. \param part the part of them that matters; null: all
     bundled_operands(joined_operands&& joined, std::unique_ptr<const undecided_part> part);
     bundled_operands(const bundled_operands&) = delete;
     bundled_operands& operator=(const bundled_operands&) = delete;
 
     [[nodiscard]] const bundles& all() const { return all_; }
-    /// Null where all of them matters.
+    /// Null if all of the operands matters.
     [[nodiscard]] const undecided_part* part() const { return part_.get(); }
-    /// Whether nothing that is prepared will be asked for again.
+    /// Whether no prepared index will be used again.
     [[nodiscard]] bool once() const { return once_; }
 
-    /// Whether few of the faces of each bundle meet each other.
+    /// Whether only few faces within each bundle meet.
     [[nodiscard]] bool have_few_pairs(const progress_callback& progress) const;
-    /// Has each bundle know the pairs of its own faces that meet where it matters; of those beside
-    /// a sheet, what is near tells later.
+    /// Finds, for each bundle, the pairs of its own faces that meet where it matters. For solids
+    /// beside a sheet, they are found later, from the interaction zone.
     void find_pairs(const progress_callback& progress);
 
   private:
@@ -57,16 +58,16 @@ class bundled_operands {
     bool once_ = false;
 };
 
-/// Faces where they meet, cut along each other.
+/// The faces of the interaction zone, cut along each other.
 struct cut_faces {
     interaction_zone near{};
     arrange_faces_result arranged{};
-    std::array<std::optional<far_faces>, 2> far{};  ///< where asked for
+    std::array<std::optional<far_faces>, 2> far{};  ///< if requested
 };
 
 enum class cut_what : std::uint8_t {
-    near,             ///< and the others stay as they are
-    near_beside_far,  ///< these are labeled in sets
+    near,             ///< only the interaction zone; other faces do not change
+    near_beside_far,  ///< the same, with sets of the other faces for labeling
     all
 };
 
@@ -74,7 +75,7 @@ enum class cut_what : std::uint8_t {
 [[nodiscard]] cut_faces cut_near(const bundled_operands& operands, cut_what what,
                                  const progress_callback& progress);
 
-/// The same for all faces of both bundles that are not near.
+/// [faces of both bundles] `of_rest` for all faces that are not near.
 [[nodiscard]] buffer<disposition> dispositions_of(const bundles& operands,
                                                   const interaction_zone& near,
                                                   disposition of_rest);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the faces of an arrangement say of the cells on their two sides.
+/// The faces of an arrangement with the cells on their two sides, for labeling cells.
 
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
@@ -13,39 +13,41 @@
 
 namespace treeform::detail::boolean {
 
-/// Of what a doubted face says, this share counts.
+/// The weight of a doubted face.
 inline constexpr double share_doubted = 0.5;
 
-/// What is known of a face of the arrangement.
+/// A face of the arrangement.
 struct cell_face {
     std::array<std::uint32_t, 2> cells{};  ///< in front and behind
     double area = 0.0;
-    bool is_given = false;  ///< not only fillings cover it
-    bool is_outer = false;  ///< between the unbounded cell and another one
-    /// Inner, and linked to walls: to inner faces that end somewhere, at outer ones perhaps. Those
-    /// of cavities and of shells that overlap do not.
+    bool is_given = false;  ///< whether an input face other than a filling covers it
+    bool is_outer = false;  ///< whether it is between the unbounded cell and another cell
+    /// Whether it is inner, and linked to walls, that is, to inner faces that end somewhere
+    /// (perhaps at outer faces). Faces of cavities and of overlapping shells are not.
     bool is_doubted = false;
-    double times = 0.0;  ///< given faces that run as it does, less those that run against it
+    /// number of given faces of its orientation, minus those of the opposite one
+    double times = 0.0;
 
     [[nodiscard]] bool separates() const { return cells[0] != cells[1]; }
 };
 
-/// The faces, with points as approximated: about the middle of the bounding box, in halves of its
-/// longest side.
+/// All faces, with approximate points: relative to the center of the bounding box, in units of half
+/// its longest side.
 struct cell_faces {
     std::vector<cell_face> all;           ///< [F']
     std::vector<point3> points;           ///< of the arrangement
-    double unit = 1.0;                    ///< half of the longest side
-    std::vector<std::size_t> begin;       ///< [C + 1] where the faces of each cell begin
-    std::vector<std::uint32_t> faces_at;  ///< cell by cell, ascending; those that separate
+    double unit = 1.0;                    ///< half of the longest side of the box
+    std::vector<std::size_t> begin;       ///< [C + 1] begin of the faces of each cell in `faces_at`
+    std::vector<std::uint32_t> faces_at;  ///< faces that separate cells, cell by cell, ascending
 
     [[nodiscard]] std::span<const std::uint32_t> of_cell(std::size_t c) const {
         return {faces_at.data() + begin[c], begin[c + 1] - begin[c]};
     }
 };
 
-/// Outer faces are outward, however they were: what is behind them is meant to be inside, or they
-/// are in vain. Faces with one cell on both sides bound nothing and count 0 times.
+/// Outer faces are oriented outward, regardless of their input orientation, since they only make
+/// sense if the inside is behind them. Faces with the same cell on both sides bound nothing, and
+/// have `times` 0.
 ///
 /// \param is_filling [F] of the input: 1 for fillings
 /// \cost  O(F log d) for at most d faces at a point

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How much of the way around a cell faces go.
+/// Generalized winding numbers of cells.
 
 #include <libmesh/boolean/cell_faces.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -13,17 +13,17 @@
 namespace treeform::detail::boolean {
 
 struct cell_windings {
-    std::vector<double> winding;  ///< [C] in [0, 1]; 0 of the unbounded cell
-    std::vector<double> area;     ///< [C] of the faces around it
+    std::vector<double> winding;  ///< [C] in [0, 1]; 0 for the unbounded cell
+    std::vector<double> area;     ///< [C] area of the faces around each cell
 };
 
-/// The generalized winding number of each cell, without its sign, and no more than 1: on its side
-/// of the middles of its 8 largest faces, averaged by their areas. Of closed faces it is the
-/// winding number. None where `stop` says so.
+/// The generalized winding number of each cell, without its sign and at most 1: the mean at the
+/// centers of its 8 largest faces, on the cell's side, weighted by area. For closed faces it is the
+/// winding number. None if `stop` returned true.
 ///
-/// Faces that are doubted count for half, and only for the cells that they bound. They end
-/// somewhere, so they say something from near by, but from afar they add up to nonsense: a cell
-/// amid twenty floors would have a winding number of about ten more or less.
+/// Doubted faces have half the weight, and count only for the cells that they bound. They end
+/// somewhere, so they are informative nearby, but meaningless in sum from afar: a cell amid twenty
+/// floors would have a winding number that is wrong by about ten.
 ///
 /// \param faces of the arrangement
 /// \cost  O(F log^2 F), and 8 solid angles for each side of a doubted face

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Parts of components as their trees have them, and which boxes they may reach into.
+/// Subtrees of components, and the boxes into which they may reach.
 
 #include <libmesh/boolean/interval_triangle.hpp>
 #include <libmesh/boolean/surface_components.hpp>
@@ -16,8 +16,8 @@
 
 namespace treeform::detail::boolean {
 
-/// What reaches into a box of a component: all below a node of its tree, or a face of it, which is
-/// one level lower.
+/// A part of a component that reaches into a box: all faces below a node of its tree, or a single
+/// face, which is one level lower.
 struct item {
     std::uint32_t component;
     std::uint32_t level;
@@ -28,14 +28,14 @@ using items = std::vector<item>;  // ascending by component
 /// Whether one box is larger than the other along some axis.
 template <class T>
 bool is_larger(const aabb<T, 3>& a, const aabb<T, 3>& b) {
-    constexpr T half = 0.5;  // of differences that might overflow
+    constexpr T half = 0.5;  // halved, since differences might overflow
     for (std::size_t k = 0; k < 3; ++k)
         if (half * a.max[k] - half * a.min[k] > half * b.max[k] - half * b.min[k]) return true;
     return false;
 }
 
-/// A box in space and in the frame of a component's tree, rounded outward: there, boxes of the tree
-/// are compared as they are stored, without looking at a face.
+/// A box in space, and rounded outward in the frame of a component's tree, where it is compared
+/// with the stored boxes, without access to faces.
 struct framed_box {
     aabb<double, 3> in_space;
     aabb<float, 3> in_frame;
@@ -97,14 +97,14 @@ class component_items {
         return extent;
     }
 
-    /// Whether an item, whose box in the frame is `own`, may reach into a box. Of a large face not
-    /// all that its box does.
+    /// Whether an item, whose box in the frame is `own`, may reach into a box. For large faces,
+    /// this also tests the triangle.
     [[nodiscard]] bool reaches(const item& i, const aabb<float, 3>& own,
                                const framed_box& box) const {
         if (!overlaps(own, box.in_frame)) return false;
         return !is_face(i) || !is_larger(own, box.in_frame) || does_face_reach(i, box.in_space);
     }
-    /// False where a face's corners tell it apart from a box.
+    /// False if a face certainly misses a box.
     [[nodiscard]] bool does_face_reach(const item& i, const aabb<double, 3>& box) const {
         const mesh_view mesh = components_.mesh();
         const face& f = mesh.faces[face_of(i)];
@@ -118,7 +118,7 @@ class component_items {
         std::size_t slot;
     };
 
-    /// Levels from the item down to faces.
+    /// Number of levels from the item down to faces.
     [[nodiscard]] unsigned height(const item& i) const {
         return static_cast<unsigned>(first_level_[i.component + 1] - first_level_[i.component]) -
                i.level;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Operands in the shape in which they are cut, and what is known of them before.
+/// Operands in the form in which they are cut, and what is known about them before.
 
 #include <libmesh/boolean/joined_operands.hpp>
 #include <libmesh/boolean/open_input_edges.hpp>
@@ -17,52 +17,52 @@
 
 namespace treeform::detail::boolean {
 
-/// Thrown where `progress` asked to stop: a mesh then keeps no answer.
+/// Thrown if `progress` returned false, so that a prepared mesh caches no partial result.
 struct stopped {};
 
-/// One operand, or several as one mesh, of which no two points are equal, all points are corners,
-/// and all faces have an area.
+/// One operand, or several as one mesh, in which no two points are equal, all points are corners,
+/// and no face is degenerate.
 struct cut_operand {
-    joined_operands joined{};            ///< empty where the mesh is so as it was given
-    std::optional<prepared_mesh> own{};  ///< of `joined.all`, where that is not empty
-    std::uint64_t degenerate = 0;        ///< faces without an area, left out
+    joined_operands joined{};            ///< empty if the given mesh already has this form
+    std::optional<prepared_mesh> own{};  ///< prepared mesh of `joined.all`, unless that is empty
+    std::uint64_t degenerate = 0;        ///< number of faces without area, omitted
     open_input_edges open{};
     /// Points whose faces are not one closed fan, ascending.
     std::vector<std::uint32_t> without_fan{};
 
-    /// \param given the mesh that this is of
+    /// \param given the mesh from which this was made
     [[nodiscard]] const prepared_mesh& mesh(const prepared_mesh& given) const {
         return own ? *own : given;
     }
 };
 
-/// What a prepared mesh is cut as; it keeps the answer.
+/// The operand of a prepared mesh, which caches it.
 ///
 /// \throws std::invalid_argument for a corner that is not finite or beyond 2^1000
 /// \pre    the operand has been checked
-/// \cost   O(V + F) once; more where points are equal or surfaces are not manifold
+/// \cost   O(V + F) once; more if points are equal or the surface is not manifold
 /// \same   on any number of threads
 [[nodiscard]] const cut_operand& cut_operand_of(const prepared_mesh& mesh);
 
-/// What operands that were joined are cut as.
+/// The operand of joined operands.
 ///
-/// \param is_closed whether nobody need look where they end, as what is left out closes them,
-///        perhaps
+/// \param is_closed skip the search for open edges: the operands are closed, perhaps together with
+///        omitted faces
 [[nodiscard]] cut_operand cut_operand_of(joined_operands&& joined, bool is_closed);
 
-/// The pairs of a mesh's own faces that meet beyond shared corners, ascending; none where there are
-/// more than a pair for each 16 faces. The mesh keeps the answer.
+/// The pairs of a mesh's own faces that meet beyond shared corners, ascending; none if there is
+/// more than one pair for every 16 faces. The mesh caches the result.
 ///
 /// \throws stopped
 /// \cost   that of `self_intersections`, once
 [[nodiscard]] std::optional<std::span<const face_pair>> few_own_pairs(
     const prepared_mesh& mesh, const progress_callback& progress);
 
-/// The same however many there are.
+/// The same for any number of pairs.
 [[nodiscard]] std::span<const face_pair> own_pairs(const prepared_mesh& mesh,
                                                    const progress_callback& progress);
 
-/// Those that are wanted.
+/// Only the wanted pairs.
 [[nodiscard]] std::vector<face_pair> own_pairs(const prepared_mesh& mesh,
                                                const intersect::wanted_pairs& wanted,
                                                const progress_callback& progress);

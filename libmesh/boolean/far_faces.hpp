@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Faces that are not near a cut, in sets that an operation treats alike.
+/// Faces that are not near a cut, in sets of faces that an operation treats alike.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/buffer.hpp>
@@ -13,32 +13,34 @@
 
 namespace treeform::detail::boolean {
 
-/// Faces that hang together by points, each lot of 64 in the order of the mesh's tree by itself.
+/// Faces linked by points, within each block of 64 faces in the order of the mesh's tree.
 struct face_clusters {
-    std::vector<std::uint32_t> of_place;     ///< [F] of the face at each place of the tree's order
-    std::vector<std::uint32_t> first_place;  ///< [C]
-    std::vector<std::array<std::uint32_t, 2>> linked;  ///< two with a common point
+    /// [F] cluster of the face at each place of the tree's order
+    std::vector<std::uint32_t> of_place;
+    std::vector<std::uint32_t> first_place;            ///< [C]
+    std::vector<std::array<std::uint32_t, 2>> linked;  ///< pairs of clusters with a common point
 };
 
-/// The mesh keeps the answer. \cost O(F), some 5 bytes a face \same on any number of threads
+/// The clusters of a mesh, which caches them. \cost O(F), about 5 bytes a face \same on any number
+/// of threads
 [[nodiscard]] const face_clusters& clusters_of(const prepared_mesh& mesh);
 
-/// The faces of a mesh that are not near, where all that are near but one fan are at each point of
-/// them: those at a common point are in one set, and so are clusters with a common point of which
-/// nothing is near. A set may be in several parts, which does no harm.
+/// The far faces of a mesh, that is, those that are not near, in sets. Faces at a common point are
+/// in one set, and so are clusters with a common point if none of their faces is near. Connected
+/// far faces may be in several sets, which does no harm.
 ///
 /// \cost O(F / 64), and O(F') for the F' faces of clusters of which a face is near
 class far_faces {
   public:
-    /// \param is_near [F] by the places of the tree's order
-    /// \pre   what is referred to outlives this; where a face that is not near has a point, the
-    ///        faces at it are one closed fan, and none of them meets anything but its neighbors
+    /// \param is_near [F] 1 for near faces, in the tree's order
+    /// \pre   the arguments outlive this; at each point of a far face, the faces are one closed
+    ///        fan, and none of them meets anything but its neighbors
     far_faces(const prepared_mesh& mesh, std::span<const std::uint8_t> is_near);
 
-    /// A face of each set, in an order that the mesh and what is near decide.
+    /// A face of each set, in an order that depends on the mesh and the near faces alone.
     [[nodiscard]] std::span<const std::uint32_t> faces() const { return faces_; }
 
-    /// Writes for each face that is not near, by its number, what `of_set` has for its set.
+    /// Writes the value of its set, `of_set` [sets], to `of_face` [F] for each far face.
     template <class T>
     void write(std::span<const T> of_set, T* of_face) const {
         write_sets([&](std::uint32_t face, std::uint32_t set) { of_face[face] = of_set[set]; });
@@ -53,8 +55,8 @@ class far_faces {
     mesh_view mesh_;
     const face_clusters& clusters_;
     std::span<const std::uint8_t> is_near_;
-    std::vector<std::uint8_t> is_mixed_;  ///< [C] a face is near
-    buffer<std::uint32_t> set_;           ///< [C + V] of clusters, then points
+    std::vector<std::uint8_t> is_mixed_;  ///< [C] whether a face of the cluster is near
+    buffer<std::uint32_t> set_;           ///< [C + V] set of each cluster, then of each point
     std::vector<std::uint32_t> faces_{};
 };
 

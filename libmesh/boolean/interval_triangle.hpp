@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Triangles and segments whose corners are intervals, and boxes that they certainly miss.
+/// Triangles and segments whose corners are intervals, and a test whether they certainly miss a
+/// box.
 
 #include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -14,10 +15,10 @@
 
 namespace treeform::detail::boolean {
 
-/// A triangle or a segment, whose corners are off by no more than `off` along each axis.
+/// A triangle or a segment whose corners have an error of at most `off_` along each axis.
 class interval_triangle {
   public:
-    /// In these boxes.
+    /// With corners anywhere in these boxes.
     explicit interval_triangle(std::span<const aabb<double, 3>> corners) : count_(corners.size()) {
         for (std::size_t i = 0; i < count_; ++i) {
             all_.include(corners[i]);
@@ -28,7 +29,7 @@ class interval_triangle {
         }
         find_axes();
     }
-    /// A triangle that is known.
+    /// A triangle with exact corners.
     explicit interval_triangle(const std::array<point3, 3>& corners) : count_(3), at_(corners) {
         for (const point3& corner : corners) all_.include(corner);
         find_axes();
@@ -36,16 +37,16 @@ class interval_triangle {
 
     [[nodiscard]] const aabb<double, 3>& box() const { return all_; }
 
-    /// Whether it is certain that a box has no point of them. Any axis may tell them apart; tried
-    /// are the normal, and what is normal to an edge and to an axis of the box (Akenine-Moeller,
-    /// Fast 3D Triangle-Box Overlap Testing, 2001). There, both ends of the edge are at the same
-    /// place.
+    /// Whether the triangle or segment certainly misses a box. A separating axis test with the
+    /// normal, and the cross products of edges with the axes of the box (Akenine-Moeller, Fast 3D
+    /// Triangle-Box Overlap Testing, 2001), on which both ends of the edge have the same
+    /// projection.
     ///
-    /// With M for the largest coordinate, all relative to S, the sum of the axis' coordinates:
-    /// differences from the middle are off by 2^-52 M, three roundings of products and of their sum
-    /// by 2^-50.4 M, the ends of an edge, which is rounded, by 2^-51 M from each other, and the
-    /// reach by 2^-51 M; together less than 2^-48 M. Products that underflow are off by less than
-    /// 2^-1000, and those of three numbers below 2^330 do not overflow.
+    /// Errors, for the largest coordinate M, relative to the sum of the coordinates of the axis:
+    /// differences from the middle 2^-52 M, three roundings of products and of their sum 2^-50.4 M,
+    /// the two ends of a rounded edge 2^-51 M, and the reach 2^-51 M; together less than 2^-48 M.
+    /// Products that underflow are off by less than 2^-1000, and those of three numbers below 2^330
+    /// do not overflow.
     [[nodiscard]] bool is_apart_from(const aabb<double, 3>& box) const {
         point3 middle, reach;
         double largest = 0.0;
@@ -82,7 +83,7 @@ class interval_triangle {
         return std::abs(axis.x) * reach.x + std::abs(axis.y) * reach.y +
                std::abs(axis.z) * reach.z + 0x1p-1000;
     }
-    /// Along axes normal to the edge at corner `p`, `q` being the corner that is not on it.
+    /// Tests the axes normal to the edge at corner `p`; `q` is the corner that is not on the edge.
     static bool is_apart_beside(const point3& edge, const point3& p, const point3& q,
                                 const point3& reach) {
         bool is_apart = false;

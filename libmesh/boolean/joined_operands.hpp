@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Several meshes as one, and the way back.
+/// Several meshes joined to one, with the sources of its elements.
 
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -12,15 +12,17 @@
 namespace treeform::detail::boolean {
 
 struct joined_operands {
-    mesh all;                                ///< no two points are equal, all are corners
-    std::vector<std::uint32_t> first_face;   ///< [k + 1] of each operand
-    std::vector<std::uint32_t> first_point;  ///< [k + 1] of each, before equal ones were one
-    /// [V] of `all`, before: the lowest; or empty, where nothing was left out.
+    mesh all;  ///< no two points are equal, all points are corners
+    /// [k + 1] first face of each operand, before any were omitted
+    std::vector<std::uint32_t> first_face;
+    /// [k + 1] first point of each operand, before equal points were joined
+    std::vector<std::uint32_t> first_point;
+    /// [V of `all`] the lowest point equal to it before joining; empty if nothing was omitted.
     std::vector<std::uint32_t> number_of_point;
-    /// [F] of `all`, before; or empty, where none was left out.
+    /// [F of `all`] its number before; empty if no face was omitted.
     std::vector<std::uint32_t> number_of_face{};
 
-    /// [F] of `all`
+    /// [F of `all`] The operand of each face.
     [[nodiscard]] std::vector<std::uint32_t> operand_of_face() const;
     [[nodiscard]] operand_element face_source(std::uint32_t face) const;
     [[nodiscard]] operand_element point_source(std::uint32_t point) const;
@@ -38,7 +40,7 @@ void check_coordinates(const char* function, std::span<const mesh_view> operands
 /// \pre the operands have been checked
 [[nodiscard]] joined_operands join_operands(std::span<const mesh_view> operands);
 
-/// The same with some of the faces, ascending, and their points alone.
+/// The same with only some of the faces, ascending, and their points.
 [[nodiscard]] joined_operands part_of(const joined_operands& joined,
                                       std::span<const std::uint32_t> faces);
 

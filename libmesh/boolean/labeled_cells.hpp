@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Cells of an arrangement labeled inside or outside, where faces disagree about it.
+/// Labels the cells of an arrangement inside or outside if faces are inconsistent.
 
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
@@ -14,31 +14,31 @@
 
 namespace treeform::detail::boolean {
 
-/// A choice, and what speaks against it. Areas are those of the points as approximated.
+/// Labels, and the areas that contradict them. Areas are those of the approximate points.
 struct labeled_cells {
-    std::vector<std::uint8_t> inside;  ///< [C] 0 for the unbounded one
-    double dropped_area = 0.0;         ///< of given faces with the same label on both sides
-    double flipped_area = 0.0;         ///< of given faces with the inside in front
+    std::vector<std::uint8_t> inside;  ///< [C] 1 for cells inside; 0 for the unbounded cell
+    double dropped_area = 0.0;         ///< area of given faces with the same label on both sides
+    double flipped_area = 0.0;         ///< area of given faces with the inside in front
 };
 
-/// The labels with the least disagreement. None where `stop` says so.
+/// The labels with the least disagreement. None if `stop` returned true.
 ///
 /// Disagreement is an area:
-/// - of a cell that is inside (1 - w) times the area around it, of one that is outside w times, for
-///   its winding number w (`find_cell_windings`);
-/// - of an outer face, between the unbounded cell and another one, its own where that is outside:
-///   then it is lost from sight;
-/// - of an inner face a quarter of its own where it has the same on both sides, all of it with the
-///   inside in front, none with the inside behind; half of that where it is doubted;
-/// - of a filling, which is a guess and counts for no winding number, half of it where it
-///   separates.
+/// - for a cell with winding number w (`find_cell_windings`), (1 - w) times the area around it if
+///   it is inside, w times that area if it is outside;
+/// - for an outer face, between the unbounded cell and another cell, its own area if that cell is
+///   outside, since the face then disappears;
+/// - for an inner face, a quarter of its area if both sides have the same label, all of it if the
+///   inside is in front, none if the inside is behind; half of that if the face is doubted;
+/// - for a filling, which is a guess and does not count in winding numbers, half of its area if it
+///   separates inside and outside.
 ///
-/// The area around a cell and not its volume is its weight, since faces are weighed by area, too:
-/// so the unit of length is of no effect, and what is thin counts for as much as can be seen of it.
+/// Cells are weighted by the area around them, not by volume, since faces are weighted by area,
+/// too: so the unit of length has no effect, and thin cells count by their visible area.
 ///
-/// This is a least cut of a network with a node for each cell. Capacities are whole numbers: areas
-/// in shares of 2^-40 of all area. Of several labelings with the least disagreement, it is that
-/// with the fewest cells inside.
+/// This is a minimum cut of a network with a node for each cell. Capacities are integers: areas in
+/// units of 2^-40 of the total area. Of several labelings with the least disagreement, the one with
+/// the fewest cells inside is returned.
 ///
 /// \param is_filling [F] of the input: 1 for fillings
 /// \pre    `cells` are those of `open_cells_of`

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// An exact surface without the edges and vertices that its shape does not need.
+/// Removes edges and vertices that the shape of an exact surface does not need.
 
 #include <libmesh/boolean/joined_operands.hpp>
 #include <libmesh/round/round_surface.hpp>
@@ -14,14 +14,15 @@
 
 namespace treeform::detail::boolean {
 
-/// Which faces of a surface became one.
+/// Which faces of a surface were merged.
 struct face_origins {
-    std::vector<std::uint32_t> source;  ///< [F before] the face of the input that each lay in
-    /// [F before] the lowest of the faces that were merged with each.
+    std::vector<std::uint32_t> source;  ///< [F before] the input face that contains each
+    /// [F before] the lowest face with which each was merged.
     std::vector<std::uint32_t> merged_into;
-    std::vector<std::uint32_t> of_face;  ///< [F] the lowest face before that each one is made of
+    /// [F] the lowest of the former faces of which each consists
+    std::vector<std::uint32_t> of_face;
 
-    /// Calls `mark(f)` for the faces of the input of which something is in `faces` of the surface.
+    /// Calls `mark(f)` for the input faces of which a part is in `faces` of the surface.
     template <class Mark>
     void for_sources_in(std::span<const std::uint32_t> faces, const Mark& mark) const {
         if (source.empty()) return;
@@ -38,27 +39,27 @@ struct face_origins {
     return options.simplify || !options.keep_cuts;
 }
 
-/// `options.face_groups` of the faces that are left of the operands, or none where there are none.
+/// `options.face_groups` for the remaining faces of the operands; empty if there are no groups.
 ///
-/// \param number_of_face [F] the number of each among those of all operands, or empty: all are left
-/// \throws std::invalid_argument when there are groups, but not `count` of them, one for each face
+/// \param number_of_face [F] the number of each among those of all operands, or empty: all remain
+/// \throws std::invalid_argument if there are groups, but not one for each of `count` faces
 [[nodiscard]] std::vector<std::uint32_t> groups_of(const boolean_options& options,
                                                    std::span<const std::uint32_t> number_of_face,
                                                    std::size_t count);
 
-/// Makes one of coplanar faces of the surface that were cut, or overlap: edges between them go, and
-/// so do vertices that only such faces have, inside of them or on a straight edge between the same
-/// two. With `simplify`, of all coplanar faces. Nothing changes with `keep_cuts`.
+/// Merges coplanar faces of the surface that were cut, or overlap. Removes edges between them, and
+/// vertices inside a merged region or on a straight edge between the same two regions. With
+/// `simplify`, merges all coplanar faces. Nothing changes with `keep_cuts`.
 ///
-/// Exact. Other faces stay, with all their corners. Merged ones are not certified.
+/// Exact. Other faces keep all their corners. Merged faces are not certified.
 ///
-/// \param input     whose faces were cut; points are those of `surface`
+/// \param input     the faces that were cut; their points are those of `surface`
 /// \param group_of  [faces of `input`] or empty: only faces of one group are merged
-/// \param origins   receives what became one, where it is given, and anything is merged at all
-/// \param source_of [F] the face of `input` that each face of the surface lies in, ascending; so it
-///                  is afterwards, the lowest of those that were merged
-/// \return for each constructed point, the lowest face of `input` among the sources at it; empty
-///         where nothing was to be merged
+/// \param origins   if not null, receives which faces were merged, if any
+/// \param source_of [F] the face of `input` that contains each face of the surface, ascending;
+///                  afterwards, the lowest of the merged ones
+/// \return for each constructed point, the lowest face of `input` among the sources at it; empty if
+///         nothing was to be merged
 /// \pre    as `merge_coplanar`; `surface.certified` has a value for each face
 /// \cost   as `merge_coplanar` for the faces that are not certified, and O(F) to find them
 /// \same   on any number of threads

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Least cuts of networks with whole-number capacities.
+/// Minimum cuts of networks with integer capacities.
 
 #include <treeform/tree/detail/function_ref.hpp>
 
@@ -11,7 +11,7 @@
 
 namespace treeform::detail::boolean {
 
-/// A way from one node to another.
+/// A directed edge.
 struct network_edge {
     std::uint32_t from = 0;
     std::uint32_t to = 0;
@@ -20,14 +20,14 @@ struct network_edge {
 
 /// Nodes between a source and a sink.
 struct network {
-    std::vector<std::int64_t> from_source;  ///< [N] capacity of the way from the source
-    std::vector<std::int64_t> to_sink;      ///< [N] of the way to the sink
-    std::vector<network_edge> edges;        ///< there may be several from a node to another
+    std::vector<std::int64_t> from_source;  ///< [N] capacity of the edge from the source
+    std::vector<std::int64_t> to_sink;      ///< [N] capacity of the edge to the sink
+    std::vector<network_edge> edges;        ///< parallel edges are allowed
 };
 
-/// [N] 1 for the nodes on the source's side of a least cut: one for which the capacities of the
-/// ways from that side to the other add up to the least there is. Of several, the one with the
-/// fewest nodes: they are part of the source's side of every other one. None where `stop` says so.
+/// [N] 1 for the nodes on the source's side of a minimum cut. Of several minimum cuts, the one with
+/// the fewest nodes on this side, which are on the source's side in all of them. None if `stop`
+/// returned true.
 ///
 /// \pre    capacities are not negative, and add up to less than 2^62
 /// \cost   O(N^2 E) at most, in practice little more than O(N + E); serial

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which faces bound what an expression makes of operands, of those near cuts and of all others.
+/// Decides which faces, near cuts and elsewhere, bound the result of an expression.
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/arrange/patches.hpp>
@@ -19,35 +19,35 @@
 
 namespace treeform::detail::boolean {
 
-/// What becomes of a face that is not near.
+/// The treatment of a face that is not near.
 enum class disposition : std::uint8_t { cut, dropped, kept, turned };
 
 struct chosen_surface {
-    round::solid_faces near;  ///< of the arrangement of what is near
-    /// Of all faces of both bundles, counted through; `cut` are those that are near.
+    round::solid_faces near;  ///< faces of the arrangement of the interaction zone
+    /// For all faces of both bundles, numbered consecutively; `cut` for near faces.
     buffer<disposition> dispositions{};
 };
 
-/// How often operands wind around both sides of all faces: patches between cuts are alike, and so
-/// are sets of faces that are not near. A line from one face of each group of patches that hang
-/// together, and of each set, tells, exactly; from there on, crossing a patch does.
+/// The winding numbers of operands on both sides of all faces. They are constant on patches between
+/// cuts, and on sets of faces that are not near. They are computed exactly, by a ray from one face
+/// of each connected group of patches, and of each set; crossing a patch changes them by its faces.
 class near_labels {
   public:
     /// \param cut the arrangement of `near.local`
-    /// \param far of the meshes of both bundles
-    /// \pre   all operands are closed; what is referred to outlives this
-    /// \cost  O(F' log F') for the F' faces of the arrangement, and O(log F) a line
+    /// \param far the far faces of both bundles
+    /// \pre   all operands are closed; the arguments outlive this
+    /// \cost  O(F' log F') for the F' faces of the arrangement, and O(log F) for each ray
     /// \same  on any number of threads
-    /// \param part  that the operands are, or null where they are whole
+    /// \param part  the part of the operands that matters; null: all
     near_labels(const bundles& operands, const interaction_zone& near, const mesh_arrangement& cut,
                 std::array<far_faces, 2> far, const undecided_part* part = nullptr);
 
     /// \cost  a change of the expression for each patch, and O(F)
     [[nodiscard]] chosen_surface choose(const boolean_expression& expression, fill_rule rule) const;
 
-    /// The volumes of what two operands are, and of both together, from the points as approximated.
+    /// The volumes of two operands, their union and intersection, from the approximate points.
     ///
-    /// \cost what crosses each patch, twice, and O(F)
+    /// \cost two changes of the expression for each patch, and O(F)
     [[nodiscard]] operand_volumes volumes(fill_rule rule) const;
 
   private:
@@ -57,10 +57,10 @@ class near_labels {
         std::uint32_t operand = 0;  ///< whose face it is
         std::vector<operand_winding> windings{};
     };
-    /// 1 where an expression holds, else 0.
+    /// 1 if the expression is true, else 0.
     struct insides {
         std::vector<std::uint8_t> regions;
-        /// In front of the faces of each set, and behind them.
+        /// For each set: in front of its faces, and behind them.
         std::array<std::vector<std::array<std::uint8_t, 2>>, 2> sets;
     };
     [[nodiscard]] insides insides_of(const boolean_expression& expression, fill_rule rule) const;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The surface of a result, from faces that were cut and faces that need not be.
+/// Assembles the surface of a result from cut faces and unchanged faces.
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/boolean/interaction_zone.hpp>
@@ -12,16 +12,15 @@
 
 namespace treeform::detail::boolean {
 
-/// [F] of the single operand as given, or null: set to 1 for faces that were merged with lower
-/// ones, where something is left of what they became. Those that `face_source` names need not be
-/// set.
+/// [F of the single operand as given] or null: set to 1 for faces that were merged with lower ones
+/// of which a part is left. Faces in `face_source` need not be set.
 using left_faces = std::vector<std::uint8_t>*;
 
 struct near_result {
     boolean_result result{};
-    bool is_manifold = false;  ///< the faces at every vertex are certainly one closed fan
+    bool is_manifold = false;  ///< whether the faces at every vertex are known to be one closed fan
 
-    /// Whether to go on. Where `progress` asks to stop, the result says so.
+    /// Whether to continue. If `progress` returns false, sets the status of the result.
     [[nodiscard]] bool goes_on(const progress_callback& progress, double done) {
         if (!progress || progress(done)) return true;
         result.certificate.status = status::cancelled;
@@ -29,13 +28,14 @@ struct near_result {
     }
 };
 
-/// The chosen faces of an arrangement, rounded, and between them the faces that were not cut, as
-/// they were; in the order of the operands' faces.
+/// The chosen faces of an arrangement, rounded, and the chosen faces that were not cut, unchanged;
+/// in the order of the operands' faces.
 ///
-/// All faces are looked at where all may move or be merged, and where what was rounded meets
-/// something: else what is near alone.
+/// Only near faces are processed, unless all faces may move or be merged, or rounded faces meet
+/// other faces.
 ///
-/// \param near     all but the pairs and points of `local`; is used up, as the others are
+/// \param near     all members except the pairs and points of `local`; consumed, like the other
+///        arguments
 /// \param arranged of `near.local`
 /// \param solid    whether the faces bound a solid
 /// \same  on any number of threads

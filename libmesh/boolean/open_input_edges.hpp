@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where surfaces of operands end, found before anything is cut.
+/// Finds open edges of operands before cutting.
 
 #include <libmesh/boolean/operand_edges.hpp>
 #include <treeform/mesh/certificate.hpp>
@@ -13,23 +13,23 @@
 
 namespace treeform::detail::boolean {
 
-/// A stretch of an edge along which an operand's faces run more often one way than the other.
+/// A part of an edge at which the signed face count of an operand is not zero.
 struct open_stretch {
-    std::uint32_t face = 0;               ///< of the operand, at the edge
+    std::uint32_t face = 0;               ///< a face of the operand at the edge
     std::array<std::uint32_t, 2> ends{};  ///< points, ascending
 };
 
 struct open_input_edges {
     std::vector<open_stretch> stretches;  ///< the first by their ends, at most 100
-    std::uint64_t count = 0;              ///< of stretches; 0 where all operands are closed
-    /// Of the edges as they are, where none of them overlaps another one: those of an odd number of
-    /// faces, and those of an even number, of which more run one way than the other.
+    std::uint64_t count = 0;              ///< number of stretches; 0 if all operands are closed
+    /// If no edges overlap: the number of open edges with an odd number of faces, and with an even
+    /// number of inconsistently oriented faces.
     std::uint64_t boundary_edges = 0;
     std::uint64_t misoriented_edges = 0;
 };
 
-/// Exact: faces cut along each other fit together where along every line, the unbalanced edges of
-/// each operand cancel out. An edge of one face may do so with two of the faces beyond it.
+/// Exact. Operands are closed after cutting if, along every line, the unbalanced edges of each
+/// operand cancel out; an edge of one face may cancel with the edges of two other faces.
 ///
 /// \pre  no two of `points` are equal; they are finite
 /// \cost O(E log E) time for E edges of which few overlap

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What an expression comes to while of some operands it is not known whether a point is in them.
+/// Evaluates an expression while the membership in some operands is unknown.
 
 #include <treeform/mesh/boolean.hpp>
 
@@ -13,12 +13,12 @@
 
 namespace treeform::detail::boolean {
 
-/// The numbers from `low` to `high` that a winding number can be.
+/// A range of possible winding numbers, inclusive.
 struct winding_range {
     std::int64_t low = 0;
     std::int64_t high = 0;
 
-    /// Beyond every winding number, and as many of them can be added up as there are faces.
+    /// Larger than every winding number; a sum of as many as there are faces does not overflow.
     static constexpr std::int64_t unlimited = std::int64_t{1} << 31;
     static constexpr winding_range unknown() { return {-unlimited, unlimited}; }
     static constexpr winding_range only(std::int64_t winding) { return {winding, winding}; }
@@ -26,22 +26,23 @@ struct winding_range {
     friend bool operator==(const winding_range&, const winding_range&) = default;
 };
 
-/// Whether a place is inside that a surface winds around so often.
+/// Whether a place with this winding number is inside.
 [[nodiscard]] bool is_inside(fill_rule rule, std::int64_t winding);
 
-/// An expression over the winding numbers of operands at one place, of each of which a range is
-/// known; at first, all are 0. To move to another place, say what changes.
+/// An expression over ranges of the operands' winding numbers at one place; initially all are 0. To
+/// move to another place, `add` the changes.
 ///
-/// Formulas are kept as trees whose nodes count their true and false members: a change costs the
-/// way up to where nothing changes any more, two nodes in a union of any number of operands.
+/// The formula is a tree whose nodes count their true and false members. An update stops at the
+/// first node that does not change: it visits at most two nodes in a union of any number of
+/// operands.
 class partial_expression {
   public:
     partial_expression(const boolean_expression& expression, fill_rule rule);
 
-    /// Adds to both ends of the range of an operand.
+    /// Adds `change` to both ends of the range of an operand.
     void add(std::uint32_t operand, const winding_range& change);
 
-    /// Whether the place is in the solid; none where that depends on what is not known.
+    /// Whether the place is in the solid; none if that depends on unknown winding numbers.
     [[nodiscard]] std::optional<bool> value() const;
 
   private:
@@ -51,7 +52,7 @@ class partial_expression {
 
     struct node {
         kind of = kind::any;
-        bool is_negated = false;  ///< its parent takes the opposite
+        bool is_negated = false;  ///< whether its parent uses the negated value
         std::uint32_t parent = none;
         std::uint32_t members = 0;
         std::uint32_t are_true = 0;
@@ -68,7 +69,7 @@ class partial_expression {
     std::vector<node> nodes_{};
     std::uint32_t root_ = none;
     std::vector<winding_range> range_;     ///< [K]
-    std::vector<std::size_t> leaf_begin_;  ///< [K + 1] where those of an operand begin
+    std::vector<std::size_t> leaf_begin_;  ///< [K + 1] begin of the leaves of each operand
     std::vector<std::uint32_t> leaves_{};  ///< nodes, operand by operand
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Regions of space and the patches between them, and an expression that is taken from one to the
-/// next.
+/// The graph of regions of space, linked by patches, and the propagation of an expression through
+/// it.
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/arrange/numbered_sets.hpp>
@@ -18,7 +18,7 @@
 
 namespace treeform::detail::boolean {
 
-/// A region, and how often operands wind around it: those that do.
+/// A region, and the nonzero winding numbers of operands around it.
 struct region_seed {
     std::uint32_t region = 0;
     std::vector<operand_winding> windings{};
@@ -26,24 +26,25 @@ struct region_seed {
 
 class region_graph {
   public:
-    /// \param regions those on both sides of each patch, as `arrange::patch_regions` numbers them
-    /// \pre   what is referred to outlives this
+    /// \param regions the regions on both sides of each patch, numbered as by
+    ///        `arrange::patch_regions`
+    /// \pre   the arguments outlive this
     region_graph(const mesh_arrangement& cut, std::span<const std::uint32_t> operand_of_face,
                  const arrange::surface_patches& patches, arrange::numbered_sets regions);
     region_graph(const region_graph&) = delete;
     region_graph& operator=(const region_graph&) = delete;
 
     [[nodiscard]] std::size_t size() const { return region_.count(); }
-    /// The regions on both sides of patches.
+    /// The regions on both sides of each patch.
     [[nodiscard]] const arrange::region_patches& patches() const { return around_; }
 
-    /// [R] the lowest of the regions that patches link with each.
+    /// [R] the lowest region linked with each by patches.
     [[nodiscard]] buffer<std::uint32_t> groups() const;
 
-    /// Goes from region to region across patches, and back the same way, and writes down for each
-    /// whether it is inside. Memory does not grow with the number of operands.
+    /// Traverses the regions linked with the seed, across patches and back, and writes whether each
+    /// is inside. Memory does not grow with the number of operands.
     ///
-    /// \param state  where nothing winds around anything; is given back so
+    /// \param state  with all winding numbers 0; restored at the end
     /// \param inside [R] of regions linked with the seed
     /// \cost  O(regions + patches) changes of the expression
     void spread(const region_seed& from, partial_expression& state,

@@ -11,11 +11,11 @@
 
 namespace treeform::detail::boolean {
 
-/// What one mesh became.
+/// The resolved mesh.
 struct resolved_operand {
     boolean_result made{};
-    /// [F] 1 for the faces of the mesh of which there is something in `made`, also where it was
-    /// merged with a lower face. A face that lies on a lower one everywhere has nothing there.
+    /// [F] 1 for the faces of the mesh of which a part is in `made`, even if it was merged with a
+    /// lower face; 0 for a face that lies entirely on lower ones.
     std::vector<std::uint8_t> is_left{};
 };
 
@@ -23,9 +23,9 @@ struct resolved_operand {
 [[nodiscard]] resolved_operand resolve_by_split(mesh_view mesh, const boolean_options& options);
 [[nodiscard]] resolved_operand resolve_by_union(mesh_view mesh, const boolean_options& options);
 
-/// How cells were labeled, as in `labeled_cells`.
+/// Counts of the labeling, as in `labeled_cells`.
 struct label_counts {
-    std::uint64_t cells = 0;  ///< bounded ones
+    std::uint64_t cells = 0;  ///< number of bounded cells
     double dropped_area = 0.0;
     double flipped_area = 0.0;
 };
@@ -35,10 +35,10 @@ struct labeled_result {
     label_counts counts{};
 };
 
-/// The cells of a mesh that may be open, and whose faces may disagree, with the labels that they
-/// disagree with least.
+/// The solid of the cells labeled inside, for a mesh that may be open and inconsistent
+/// (`label_cells`).
 ///
-/// \param is_guess [F] 1 for fillings that are there for the labels to use or not
+/// \param is_guess [F] 1 for fillings that the labels may use or not
 [[nodiscard]] labeled_result resolve_by_labels(mesh_view mesh,
                                                std::span<const std::uint32_t> is_guess,
                                                const boolean_options& options);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which faces of a sheet an expression keeps among solids.
+/// Decides which faces of a sheet an expression keeps.
 
 #include <libmesh/arrange/escape_ray.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
@@ -16,27 +16,27 @@
 
 namespace treeform::detail::boolean {
 
-/// What winds around the faces of an operand that need not be closed: the first of two bundles. A
-/// line from each patch of its pieces, and from each set of its faces that are not near, tells,
-/// exactly.
+/// The winding numbers of solids around the faces of the first bundle, which need not be closed.
+/// Computed exactly, by a ray from each patch of its pieces, and from each set of its faces that
+/// are not near.
 class sheet_labels {
   public:
     /// \param cut the arrangement of `near.local`
-    /// \param far of the sheet
-    /// \pre   the second bundle is closed; what is referred to outlives this
+    /// \param far the far faces of the sheet
+    /// \pre   the second bundle is closed; the arguments outlive this
     sheet_labels(const bundles& operands, const interaction_zone& near, mesh_arrangement& cut,
                  const far_faces& far);
 
-    /// A piece is in a solid when one of its sides is. Those that are kept are now first covered by
-    /// the sheet, and face as its lowest face there.
+    /// A piece is in a solid if one of its sides is. The sources of kept pieces become faces of the
+    /// sheet, and their orientation that of its lowest face there.
     ///
-    /// \cost  a line for each patch and set
+    /// \cost  a ray for each patch and set
     /// \same  on any number of threads
     [[nodiscard]] chosen_surface choose(const boolean_expression& expression, fill_rule rule) const;
 
   private:
     [[nodiscard]] bool is_of_sheet(std::uint32_t local) const { return local < near_.first_of_b; }
-    /// \param covers of the face that `out` starts from
+    /// \param covers the faces that cover the one from which `out` starts
     [[nodiscard]] bool keeps(const arrange::escape_ray& out, std::span<const covering_face> covers,
                              const boolean_expression& expression, fill_rule rule) const;
 
@@ -46,7 +46,7 @@ class sheet_labels {
     const far_faces& far_;
     aabb<double, 3> box_{};
     std::vector<std::uint8_t>
-        way_;  ///< [F'] of the sheet: 1 as its lowest face there, 2 against it
+        way_;  ///< [F'] of the sheet: 1 if oriented as its lowest face there, 2 if opposite
 };
 
 }  // namespace treeform::detail::boolean

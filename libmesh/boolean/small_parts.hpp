@@ -1,14 +1,14 @@
 #pragma once
 /// \file
-/// Results without specks and small voids.
+/// Removes small solids and voids from results.
 
 #include <treeform/mesh/boolean.hpp>
 
 namespace treeform::detail::boolean {
 
-/// Drops the components of `result.mesh` with a volume, without its sign, below `least` cubic
-/// units, and the points that no other face uses; counts them. What a component holds is smaller
-/// than it, so that it goes along, and faces still look away from the inside.
+/// Drops the components of `result.mesh` with a volume of magnitude below `least` cubic units, and
+/// the points that no other face uses; counts them. The contents of a component are smaller than
+/// it, and dropped as well, so faces still point outward.
 ///
 /// \pre    the mesh is that of a certified solid, with vertices of its own for each part
 /// \cost   O(V + F)

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Boxes on the way down to decided and undecided ones, and what reaches into each.
+/// Recursively halves boxes until they are decided, and tracks the components that reach into each.
 
 #include <libmesh/boolean/component_items.hpp>
 #include <libmesh/boolean/partial_expression.hpp>
@@ -18,8 +18,8 @@
 
 namespace treeform::detail::boolean {
 
-/// To halve a box costs as much as there are items in it. What may be spent is so much for a face,
-/// shared out among the halves; where one is decided, the faces that are in it alone pay so much.
+/// Halving a box costs its number of items. The budget is `budget_of_face` for each face, shared
+/// among the halves; if a half is decided, each face that is only in it adds `pay_of_face`.
 constexpr double budget_of_face = 16.0;
 constexpr double pay_of_face = 4.0;
 
@@ -33,19 +33,22 @@ struct range_change {
     winding_range by;
 };
 
-/// A box on the way down.
+/// A box of the recursion.
 struct box_node {
     aabb<double, 3> box;
     items inside;
-    std::vector<std::uint32_t> unusual;  ///< components that may wind otherwise there; ascending
-    std::size_t faces = 0;               ///< below its items
+    /// components that may have unusual winding numbers there; ascending
+    std::vector<std::uint32_t> unusual;
+    std::size_t faces = 0;  ///< number of faces below its items
     double budget = 0.0;
 };
 
 /// A half of a box.
 struct half : box_node {
-    std::vector<decided_component> gone;  ///< reach into the box, but not into this half; ascending
-    bool is_decided = false;  ///< by some of them: what else there is was not looked for
+    /// components that reach into the box, but not into this half; ascending
+    std::vector<decided_component> gone;
+    /// whether `gone` decides the half; other members are then incomplete
+    bool is_decided = false;
 };
 
 struct halves {
@@ -54,11 +57,11 @@ struct halves {
     half lower, upper;
 };
 
-/// Of a box, how much is the lower half. Not a half: faces of machines, made around the middle, lie
-/// at round shares of their boxes, and would be in both halves.
+/// The share of a box that becomes the lower half. Not 0.5, since faces of designed parts often lie
+/// at simple fractions of their boxes, and would be in both halves.
 constexpr double share_below = 0.4931;
 
-/// Where to halve a box; false where it is too small for that.
+/// Sets the axis and coordinate at which to halve a box; false if the box is too small.
 inline bool can_be_halved(const aabb<double, 3>& box, std::size_t& axis, double& at) {
     axis = 0;
     const auto extent = [&](std::size_t k) { return 0.5 * box.max[k] - 0.5 * box.min[k]; };
@@ -68,7 +71,7 @@ inline bool can_be_halved(const aabb<double, 3>& box, std::size_t& axis, double&
     return box.min[axis] < at && at < box.max[axis];
 }
 
-/// Halves boxes, and says what of the components that reach into them is known in each half.
+/// Halves boxes, and computes what is known about the winding numbers of components in each half.
 class divider {
   public:
     divider(const surface_components& components, const division_limits& limits,
@@ -90,16 +93,16 @@ class divider {
         return all;
     }
 
-    /// Whether to halve a box whose value is not known.
+    /// Whether to halve an undecided box.
     [[nodiscard]] bool is_worth_halving(const box_node& p) const {
         if (p.faces <= limits_.faces_not_halved || p.budget < static_cast<double>(p.inside.size()))
             return false;
-        // A box that one component alone reaches into has nothing hidden that halves would show.
+        // In a box with a single component, nothing can be hidden.
         return p.inside.front().component != p.inside.back().component;
     }
 
-    /// False where the box is too small for that. `decides(gone)` says whether a half is decided by
-    /// the components known to be gone from it.
+    /// Halves a box; false if it is too small. `decides(gone)` returns whether a half is decided by
+    /// the winding numbers of components that do not reach into it.
     template <class Decides>
     [[nodiscard]] bool halve(const box_node& p, halves& result, const Decides& decides) const {
         if (!can_be_halved(p.box, result.axis, result.at)) return false;
@@ -139,7 +142,8 @@ class divider {
         return true;
     }
 
-    /// What is known of a part of a box by the components that are gone from it.
+    /// The changes of winding ranges in a part of a box, by the components that do not reach into
+    /// it.
     [[nodiscard]] std::vector<range_change> changes_by(const std::vector<decided_component>& gone,
                                                        const box_node& above) const {
         std::vector<range_change> result;
@@ -148,7 +152,7 @@ class divider {
         return result;
     }
 
-    /// What is known besides of a part of a box.
+    /// All changes of winding ranges in a part of a box.
     [[nodiscard]] std::vector<range_change> changes_in(const half& part,
                                                        const box_node& above) const {
         std::vector<range_change> result = changes_by(part.gone, above);
@@ -166,7 +170,7 @@ class divider {
         }
     }
 
-    /// Adds the ranges of the components that reach into a box, or takes them away.
+    /// Adds the ranges of the components that reach into a box, or subtracts them.
     void assign(partial_expression& state, const box_node& p, bool is_there) const {
         const std::int64_t sign = is_there ? 1 : -1;
         for_components(p.inside, [&](std::uint32_t c) {
@@ -175,7 +179,7 @@ class divider {
         });
     }
 
-    /// Whether few components reach into a box, none of which can decide it alone.
+    /// Whether only few components reach into a box, none of which can decide it alone.
     [[nodiscard]] bool cannot_prune(const box_node& p, partial_expression& state) const {
         std::size_t count = 0;
         bool has_hope = false;
@@ -203,7 +207,7 @@ class divider {
                 {components_.operand(c), {now.low - before.low, now.high - before.high}});
     }
 
-    /// A component does not reach into a half.
+    /// Records that a component does not reach into a half.
     template <class Decides>
     void leave(std::uint32_t c, half& from, const Decides& decides) const {
         if (from.is_decided) return;
@@ -240,7 +244,7 @@ class divider {
         return {items_.framed(c, parts.lower.box), items_.framed(c, parts.upper.box)};
     }
 
-    /// Puts a whole component into the halves that it reaches into, or opens it.
+    /// Puts a whole component into the halves into which it reaches, or opens its root.
     void sort_in_root(const item& i, halves& result) const {
         const aabb<double, 3>& own = components_.box(i.component);
         if (is_larger(own, result.lower.box)) {
@@ -251,7 +255,7 @@ class divider {
         }
     }
 
-    /// Puts an item into the halves that it reaches into, opened where it is larger than they are.
+    /// Puts an item into the halves into which it reaches; opens it if it is larger than they are.
     void sort_in(const item& i, const framed_halves& box, halves& result) const {
         const aabb<float, 3> own = items_.box_of(i);
         const bool in_lower = !result.lower.is_decided && items_.reaches(i, own, box.lower);
@@ -263,8 +267,8 @@ class divider {
             items_.for_children(i, [&](const item& child) { sort_in(child, box, result); });
     }
 
-    /// The same of an item that reaches into both halves together, and is no larger: along the
-    /// other axes nothing has changed.
+    /// The same for an item that reaches into the box and is not larger: only the halved axis has
+    /// to be tested.
     void sort_in_known(const item& i, const framed_halves& box, halves& result) const {
         if (items_.is_face(i)) return sort_in(i, box, result);
         const std::size_t axis = result.axis;
@@ -296,7 +300,7 @@ class divider {
     void mark_faces(const item& i, const framed_box& box) const {
         if (items_.is_face(i)) {
             const std::atomic_ref mark(is_undecided_face_[items_.face_of(i)]);
-            if (mark.load(std::memory_order_relaxed) == 0)  // else let others keep it in reach
+            if (mark.load(std::memory_order_relaxed) == 0)  // else avoid invalidating caches
                 mark.store(1, std::memory_order_relaxed);
             return;
         }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Parts of a surface that end somewhere.
+/// Finds the open parts of a surface.
 
 #include <treeform/mesh/mesh.hpp>
 
@@ -11,11 +11,11 @@
 
 namespace treeform::detail::boolean {
 
-/// [F] 1 for faces of parts with an edge along which faces run more often one way than the other.
-/// Faces with a common edge are of one part.
+/// [F] 1 for faces of parts with an edge whose signed face count is not zero. Faces with a common
+/// edge are in one part.
 ///
-/// \param times [F] how often each face counts, negative where it is turned over; those with 0 are
-///              not there, and get 0
+/// \param times [F] how often each face counts, negative if flipped; faces with 0 are ignored, and
+///              get 0
 /// \cost  O(V + F log d) for at most d faces at a point
 /// \same  on any number of threads
 [[nodiscard]] std::vector<std::uint8_t> find_unbalanced_parts(std::size_t point_count,

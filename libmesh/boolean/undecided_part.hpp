@@ -15,35 +15,35 @@
 
 namespace treeform::detail::boolean {
 
-/// What of operands that were joined reaches into undecided space: all else is dropped. Lines that
-/// tell what winds around a place pass through all of it, though.
+/// The part of joined operands that reaches into undecided space; all other faces are dropped. Rays
+/// for winding numbers still use all faces.
 class undecided_part {
   public:
-    /// None where operands hide too little of each other to halve even one box. How far to look
-    /// follows from what a few faces have beside them (`sample_faces`); the result is the same.
+    /// Null if operands hide too little of each other to halve even one box. The limits of the
+    /// division are chosen from a few sample faces (`sample_faces`); they do not affect results.
     ///
-    /// \param joined closed operands; used up where there is a part
-    /// \param edges  theirs; used up
+    /// \param joined closed operands; consumed if a part is returned
+    /// \param edges  their edges; consumed
     /// \cost  that of `surface_components` and `sample_faces`, then of `undecided_space`
     /// \same  on any number of threads
     [[nodiscard]] static std::unique_ptr<const undecided_part> find(
         joined_operands& joined, operand_edges&& edges, const boolean_expression& expression,
         fill_rule rule);
-    /// As far as `limits` say. \param components of `joined.all`
+    /// Divides space within `limits`. \param components the components of `joined.all`
     undecided_part(joined_operands&& joined, surface_components&& components,
                    const partial_expression& at_nowhere, const division_limits& limits);
 
     [[nodiscard]] const undecided_space& space() const { return space_; }
-    /// Of all operands.
+    /// The components of all operands.
     [[nodiscard]] const surface_components& components() const { return components_; }
 
     /// The faces that reach into undecided space.
     [[nodiscard]] joined_operands faces() const;
-    /// How many do not.
+    /// The number of faces that do not.
     [[nodiscard]] std::size_t left_out() const;
 
-    /// Whether two faces that meet do so in undecided space.
-    /// \param mesh of some of its faces
+    /// Whether two faces that meet may do so in undecided space.
+    /// \param mesh some of the faces of this
     [[nodiscard]] bool is_undecided(mesh_view mesh, const face_pair& pair) const;
 
   private:

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where the faces of an arrangement are: in undecided space, or hidden.
+/// Which faces of an arrangement are in undecided space, and which are hidden.
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/arrange/patches.hpp>
@@ -14,26 +14,26 @@
 
 namespace treeform::detail::boolean {
 
-/// The result's surface is in undecided space, and all that meets there has been cut. So a face of
-/// the arrangement that has a point elsewhere is not of the result. Others have the same winding
-/// numbers on all of a side, and edges between them say how these change.
+/// The surface of the result is in undecided space, where all faces that meet have been cut. So a
+/// face of the arrangement with a point outside of undecided space is not on the result. On the
+/// other faces, winding numbers are constant on each side, and change at edges by the faces there.
 class undecided_places {
   public:
-    /// \param space none where all is undecided
-    /// \pre   what is referred to outlives this
+    /// \param space null if all space is undecided
+    /// \pre   the arguments outlive this
     /// \cost  O(F' log n) for n boxes of the space
     /// \same  on any number of threads
     undecided_places(const mesh_arrangement& cut, const undecided_space* space);
 
-    /// [F'] 1 for faces all of which is in undecided space; empty where all are.
+    /// [F'] 1 for faces that are entirely in undecided space; empty if all are.
     [[nodiscard]] std::span<const std::uint8_t> is_within() const { return is_within_; }
 
-    /// What an edge tells about the faces at it. Faces may be missing where there is only one.
+    /// How an edge links the faces at it. If it has only one face, others may have been dropped.
     [[nodiscard]] arrange::edge_use use_of(const std::array<std::uint32_t, 2>& points,
                                            std::span<const arrange::face_side> sides) const;
 
-    /// [patch] 1 for those that are not of the result, since a point of them is not in undecided
-    /// space. A face that is not within it is a patch of its own.
+    /// [patch] 1 for patches that are not on the result, since they have a point outside of
+    /// undecided space. A face that is not entirely in undecided space is a patch of its own.
     [[nodiscard]] std::vector<std::uint8_t> hidden(const arrange::surface_patches& patches) const;
 
   private:

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where in space an expression has the same value throughout, and where it may have several.
+/// Divides space into boxes in which an expression is constant, and undecided boxes.
 
 #include <libmesh/boolean/halved_space.hpp>
 #include <libmesh/boolean/partial_expression.hpp>
@@ -15,36 +15,36 @@
 
 namespace treeform::detail::boolean {
 
-/// How far boxes are halved. The result is the same whatever these are.
+/// How far boxes are halved. These limits do not affect results.
 struct division_limits {
-    double effort = 1.0;  ///< how much may be spent on it
-    /// Boxes with that few faces are not halved: to arrange those costs less.
+    double effort = 1.0;  ///< factor of the budget
+    /// Boxes with at most this many faces are not halved, since cutting them costs less.
     std::size_t faces_not_halved = 12;
-    /// Nor are boxes that few components reach into, none of which can decide them alone, as in an
-    /// exclusive or.
+    /// Boxes with at most this many components, none of which can decide them alone (as in a
+    /// symmetric difference), are not halved.
     std::size_t few_components = 8;
 };
 
-/// The box around all components, halved again and again, to boxes that are decided (one value
-/// throughout, whatever the components that reach into them do there) or undecided (all others).
-/// The surface of the result is in undecided boxes. Boxes are closed; what is in an undecided box
-/// and a decided one, is in undecided space.
+/// The box around all components, recursively halved into boxes that are decided (the expression is
+/// constant, regardless of the components that reach into them) or undecided (all others). The
+/// surface of the result is in undecided boxes. Boxes are closed; a point in both an undecided and
+/// a decided box is in undecided space.
 ///
-/// A component whose surface does not reach into a box winds around all of it equally often: that
-/// is asked once, where it drops out on the way down. All that is decided is exact; only which
-/// boxes are halved is a choice.
+/// A component whose surface does not reach into a box has a constant winding number there, which
+/// is computed once, when it drops out of the recursion. All decisions are exact; only the choice
+/// of the boxes to halve is heuristic.
 ///
 /// \source Trettner, Nehring-Wirxel and Kobbelt, EMBER: Exact Mesh Booleans via Efficient & Robust
-///         Local Arrangements, SIGGRAPH 2022, for the subdivision and what may be dropped in it
+///         Local Arrangements, SIGGRAPH 2022, for the subdivision, and for dropping decided parts
 class undecided_space {
   public:
-    /// \param at_nowhere the expression where nothing is known to wind around anything
-    /// \cost  O(F) for a given effort, some 30 ns for each face that halves are told apart by
+    /// \param at_nowhere the expression with all winding numbers unknown
+    /// \cost  O(F) for a given effort, about 30 ns for each face that is sorted into halves
     /// \same  on any number of threads
     undecided_space(const surface_components& components, const partial_expression& at_nowhere,
                     const division_limits& limits = {});
 
-    /// Whether so much effort pays for halving the box around all components.
+    /// Whether the effort suffices to halve the box around all components.
     [[nodiscard]] static bool is_divided(const surface_components& components,
                                          const division_limits& limits);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The volumes of two solids and of what they share, from the faces that bound any of them.
+/// The volumes of two solids and of their intersection, from the faces that bound any of them.
 
 #include <libmesh/base/double_double.hpp>
 #include <libmesh/topology/volume.hpp>
@@ -13,10 +13,11 @@
 
 namespace treeform::detail::boolean {
 
-/// Each face is looked at once, among those of its kind: those that bound the same solids alike.
+/// Each face is added once, to its kind: the faces that bound the same solids in the same
+/// orientation.
 class volumes_by_kind {
   public:
-    /// Whether a place is in the first solid, and in the second.
+    /// Whether a place is in the first and in the second solid.
     using is_in_both = std::array<std::uint8_t, 2>;
 
     static constexpr std::uint8_t of_nothing = 13;  ///< the kind of faces that bound no solid
@@ -44,7 +45,7 @@ class volumes_by_kind {
             });
     }
 
-    /// Six times the volumes of the first solid, the second, and of what is in both.
+    /// Six times the volumes of the first solid, the second, and their intersection.
     [[nodiscard]] std::array<double, 3> six() const {
         std::array<double, 3> result{};
         for (std::size_t solid = 0, step = 1; solid < 3; ++solid, step *= 3) {
