@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The cells of what is known to be an arrangement.
+/// The cells of a valid arrangement.
 
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/numbered_sets.hpp>
@@ -14,29 +14,29 @@
 
 namespace treeform::detail::arrange {
 
-/// As `find_cells`, which checks its arguments first.
+/// As `find_cells`, without checking the arguments.
 [[nodiscard]] arrangement_cells cells_of(mesh_view mesh, const mesh_arrangement& cut,
                                          std::span<const std::uint32_t> operand_of_face,
                                          std::size_t operand_count);
 
-/// The cells on both sides of patches, as `patch_regions` numbers them: of faces that are closed,
-/// operand by operand. What winds around them is not asked.
+/// The cells on both sides of patches, numbered as by `patch_regions`, for operands that are
+/// closed. Winding numbers are not computed.
 [[nodiscard]] numbered_sets cells_between(mesh_view mesh, const mesh_arrangement& cut,
                                           std::span<const std::uint32_t> operand_of_face,
                                           const surface_patches& patches);
 
-/// [F'][2] the cells on both sides of faces, from those of their patches.
+/// [F'][2] the cells on both sides of each face, from those of its patch.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> cells_beside_faces(
     const mesh_arrangement& cut, const surface_patches& patches, const numbered_sets& cells);
 
-/// The cells of faces that may be open, which have no winding numbers.
+/// The cells of faces that may be open, without winding numbers.
 struct open_cells {
     std::size_t count = 0;    ///< cell 0 is the unbounded one
-    arrangement_cells cells;  ///< with `cell_of_side` alone
+    arrangement_cells cells;  ///< only `cell_of_side` is set
 };
 
-/// Every face counts, whatever covers it: also faces that cancel out separate cells. Where the
-/// surface ends, both of its sides look into one cell.
+/// All faces separate cells, even those whose covers cancel out. At an open edge, both sides of the
+/// surface are in one cell.
 /// \same on any number of threads
 [[nodiscard]] open_cells open_cells_of(mesh_view mesh, const mesh_arrangement& cut);
 

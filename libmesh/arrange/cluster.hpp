@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The common subdivision of input faces that overlap in one plane.
+/// The common subdivision of coplanar input faces that overlap.
 
 #include <libmesh/arrange/mesh_arrangement.hpp>
 #include <libmesh/base/fill_stars.hpp>
@@ -18,31 +18,31 @@
 
 namespace treeform::detail::arrange {
 
-/// A part of the plane: its corners turn left about the normal of the first cover.
-/// Points are of the input, then named, then `made` by this cluster, in that order of numbers.
+/// A triangle of the subdivision, counter-clockwise about the normal of its first cover. Point
+/// numbers: first points of the input, then named points, then those `made` by this cluster.
 struct cluster_face {
     std::array<std::uint32_t, 3> corners{};
-    std::size_t covers = 0;  ///< where its covers begin
+    std::size_t covers = 0;  ///< begin of its covers
 };
 
 struct cut_cluster {
-    std::vector<implicit_point> made;   ///< points where lines cross that no two faces name
+    std::vector<implicit_point> made;   ///< crossings of lines that have no name from two faces
     std::vector<cluster_face> faces;    ///< ascending by first cover
-    std::vector<covering_face> covers;  ///< face by face
-    /// Numbers of points that turned out to be one point.
+    std::vector<covering_face> covers;  ///< the covers of all faces, face by face
+    /// Pairs of point numbers that are equal points.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> same;
 };
 
 /// The numbers of the meetings of each face, ascending.
 using meetings_by_face = base::faces_by_point<std::uint64_t>;
 
-/// What a cluster needs to know of the mesh.
+/// The input of a cluster.
 struct cluster_input {
     mesh_view mesh;
     const intersect::mesh_meetings* met;
     std::span<const std::uint32_t> members;  ///< faces that overlap in one plane, ascending
     const meetings_by_face* by_face;
-    std::pmr::memory_resource* memory;  ///< of all that is not in the result
+    std::pmr::memory_resource* memory;  ///< for temporary data
 };
 
 [[nodiscard]] cut_cluster cut(const cluster_input& input);

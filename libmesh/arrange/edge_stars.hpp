@@ -11,11 +11,12 @@
 
 namespace treeform::detail::arrange {
 
-/// For each point, the faces with three different corners of which it is one, but not the highest:
-/// those with edges from it to higher points. Every edge is at its lower end, once.
+/// For each point, the faces with three different corners in which it is a corner, but not the
+/// highest: those with edges from it to higher points. So every edge is listed once, at its lower
+/// end.
 ///
 /// \pre  every corner is less than `point_count`, and there are less than 2^31 faces
-/// \cost O(V + F) time, in parallel; 8 bytes a face and 4 a point; 16 a face on the way
+/// \cost O(V + F) time, in parallel; 8 bytes a face and 4 a point; temporarily 16 more a face
 /// \same on any number of threads
 class edge_stars {
   public:

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Escape rays: lines from faces of an arrangement out of everything, to where nothing is.
+/// Escape rays: lines from a face of an arrangement out of the bounding box of everything.
 
 #include <libmesh/arrange/corner_line.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
@@ -14,19 +14,19 @@
 
 namespace treeform::detail::arrange {
 
-/// A line through a face of an arrangement, and which way along it less of a box is.
+/// A line through a face of an arrangement, and the direction in which it leaves the box sooner.
 struct escape_ray {
     corner_line line;
     bool ahead;
 };
 
-/// Along the axis on which the box ends soonest, of those that the face is not too steep to, if
-/// there is one.
-/// \param mesh what `cut` is the arrangement of
+/// The escape ray of face f, along the axis on which the box ends soonest, preferably not nearly
+/// parallel to the face.
+/// \param mesh the mesh of which `cut` is the arrangement
 [[nodiscard]] escape_ray find_escape_ray(mesh_view mesh, const mesh_arrangement& cut, std::size_t f,
                                          const aabb<double, 3>& box);
 
-/// The same from its corners, and a face that it lies in.
+/// The same for given corners, and an input face `whole` that contains the face.
 [[nodiscard]] escape_ray find_escape_ray(const std::array<implicit_point, 3>& corners,
                                          const triangle3& whole, const aabb<double, 3>& box);
 

@@ -17,25 +17,26 @@ namespace treeform {
 /// An input face that covers a face of an arrangement.
 struct covering_face {
     std::uint32_t face = 0;  ///< of the input
-    bool opposite = false;   ///< the input face is oriented against the face of the arrangement
+    /// whether the input face is oriented against the face of the arrangement
+    bool opposite = false;
     friend bool operator==(const covering_face&, const covering_face&) = default;
 };
 
-/// A conforming complex: two of its faces have a common corner, a common edge, or nothing in
-/// common. As a point set it is the input's, degenerate faces apart.
+/// A conforming complex: any two of its faces share a corner, an edge or nothing. The point set is
+/// that of the input without its degenerate faces.
 ///
-/// Points below `given_points.size()` are the input's, with its numbers; the others are
-/// `constructed`, each different from all others. Where faces of the input overlap, the arrangement
-/// has one face for all of them, oriented as the lowest of them.
+/// Points below `given_points.size()` are those of the input; the others are `constructed`. No
+/// constructed point equals another point. Where faces of the input overlap, the arrangement has
+/// one face for all of them, oriented as the lowest of them.
 struct mesh_arrangement {
-    std::vector<point3> given_points;         ///< [V] the input's
+    std::vector<point3> given_points;         ///< [V] points of the input
     std::vector<implicit_point> constructed;  ///< [K]
     std::vector<face> faces;                  ///< [F'] in the order of their lowest input face
-    std::vector<std::size_t> cover_begin;     ///< [F' + 1] where a face's covers begin
-    std::vector<covering_face> covers;        ///< face by face, ascending by face; the first is the
-                                              ///< lowest and never opposite
-    /// [F'] 1 for input faces as they are, that no other cuts or covers. In the coordinates of the
-    /// input, they have an area, and two of them meet in common corners or a common edge only.
+    std::vector<std::size_t> cover_begin;     ///< [F' + 1] begin of the covers of each face
+    /// input faces that cover each face, ascending; the first is never opposite
+    std::vector<covering_face> covers;
+    /// [F'] 1 for unchanged input faces, which no other face cuts or covers. They are not
+    /// degenerate, and any two of them share only corners or an edge.
     std::vector<std::uint8_t> whole{};
 
     [[nodiscard]] std::span<const covering_face> covers_of(std::size_t f) const {
@@ -53,19 +54,19 @@ struct arrange_faces_options {
 
 struct arrange_faces_result {
     mesh_arrangement cut;
-    std::vector<std::uint32_t> degenerate;  ///< input faces with collinear corners, left out
-    std::uint64_t pairs = 0;                ///< of faces that meet beyond their shared corners
-    std::uint64_t cut_faces = 0;            ///< input faces that are not a face of the result
+    std::vector<std::uint32_t> degenerate;  ///< input faces with collinear corners, omitted
+    std::uint64_t pairs = 0;      ///< number of pairs of faces that meet beyond shared corners
+    std::uint64_t cut_faces = 0;  ///< number of input faces that are not a face of the result
     bool cancelled = false;
 };
 
-/// The arrangement of a mesh's faces, overlapping and crossing as they may.
+/// The arrangement of the faces of a mesh, which may overlap and cross.
 ///
-/// Exact on the coordinates as given. Corners with equal coordinates are to be one point
-/// (`join_equal_points`); several meshes are given as one. No face that meets nothing is looked at
-/// twice: it comes out as it went in.
+/// Exact on the coordinates as given. Join corners with equal coordinates first
+/// (`join_equal_points`), and several meshes to one. Faces that meet no other face are unchanged,
+/// and cost nothing beyond the search for pairs.
 ///
-/// \pre    points that are corners differ from each other
+/// \pre    no two corners with different numbers have equal coordinates
 /// \throws std::invalid_argument naming a face with a corner out of range, or a point with a
 ///         coordinate that is not finite or beyond 2^1000
 /// \cost   as `self_intersections`, and for the k constructed points of a cluster of overlapping

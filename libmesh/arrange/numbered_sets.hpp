@@ -19,7 +19,7 @@ struct numbered_sets {
     [[nodiscard]] std::size_t count() const { return lowest.size(); }
 };
 
-/// The sets, numbered in the order of their lowest elements, in the memory of `sets`.
+/// The sets, numbered in the order of their lowest elements. Reuses the memory of `sets`.
 /// \same on any number of threads
 [[nodiscard]] inline numbered_sets number_sets(base::union_find sets) {
     numbered_sets result{sets.take_roots(), {}};

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What covers of faces add up to, operand by operand.
+/// Signed counts of covering faces, by operand.
 
 #include <algorithm>
 #include <compare>
@@ -17,8 +17,8 @@ struct counted_face {
     friend auto operator<=>(const counted_face&, const counted_face&) = default;
 };
 
-/// Calls `visit(c)` with the lowest face of each operand whose faces do not add up to 0, the
-/// operands ascending. Sorts `counted`.
+/// Calls `visit(c)` for the lowest face of each operand whose signs do not add up to 0, ascending
+/// by operand. Sorts `counted`.
 template <class Visit>
 void for_each_remaining(std::vector<counted_face>& counted, const Visit& visit) {
     std::sort(counted.begin(), counted.end());

@@ -16,7 +16,7 @@
 
 namespace treeform::detail::arrange {
 
-/// Sets of patch sides that look into one region. Element 0 stands for infinity.
+/// Sets of patch sides next to the same region. Element 0 is the unbounded region.
 class patch_regions {
   public:
     /// \pre `patches` outlives this
@@ -26,15 +26,17 @@ class patch_regions {
     void join(face_side s, face_side t) { sets_.join(element(s), element(t)); }
     void join_infinity(face_side s) { sets_.join(0, element(s)); }
 
-    /// Neighbors about an edge look into the region between them.
-    /// \throws std::logic_error naming an edge at which faces lie on each other
+    /// Joins the sides of neighbors about each edge that face each other.
+    /// \throws std::logic_error naming an edge at which faces overlap
     void join_about_edges(mesh_view mesh, const mesh_arrangement& cut);
-    /// The same where both neighbors are among the faces that `conduct`. \param conduct [F'] 1 or 0
+    /// The same only if both neighbors conduct. \param conduct [F'] 1 for faces that conduct, else
+    /// 0
     void join_about_edges(mesh_view mesh, const mesh_arrangement& cut,
                           std::span<const std::uint8_t> conduct);
 
-    /// Regions, 0 being that of infinity, then in the order of the lowest sides: of element 0, then
-    /// of the front and the back of each patch. The last to be asked.
+    /// The region of each element: of element 0, then of the front and the back of each patch.
+    /// Region 0 is unbounded, the others are in the order of their lowest sides. Must be the last
+    /// call.
     [[nodiscard]] numbered_sets number() { return number_sets(std::move(sets_)); }
 
   private:

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A ray along an axis that grazes nothing.
+/// A ray along an axis, perturbed symbolically so that it grazes nothing.
 
 #include <libmesh/exact/implicit_point.hpp>
 #include <libmesh/exact/plane_predicates.hpp>
@@ -10,35 +10,34 @@
 
 namespace treeform::detail::arrange {
 
-/// Where a ray passes through a triangle.
+/// The crossing of a ray with a triangle.
 struct crossing {
-    plane_points plane;   ///< of the triangle
-    int faces = 0;        ///< +1 where its normal points along the ray, -1 against it
-    cutting_plane cut{};  ///< the plane, its normal along the ray
+    plane_points plane;   ///< plane of the triangle
+    int faces = 0;        ///< +1 if its normal points along the ray, -1 if against it
+    cutting_plane cut{};  ///< the plane, with its normal along the ray
 };
 
-/// The ray in positive direction of an axis from a point v, moved: along an edge toward point b by
-/// s, then across it by s^2, both seen along the axis, for an s > 0 smaller than any number. It
-/// passes through triangles strictly inside or not at all, and no two of them in one point unless
-/// they overlap there. Of an axis k, the other two are k + 1 and k + 2 modulo 3.
+/// The ray in positive direction of an axis from a point v, perturbed: moved along an edge toward
+/// point b by s, then across it by s^2, both in projection along the axis, for an infinitesimal s >
+/// 0. It passes through triangles strictly inside or not at all, and never through two at one point
+/// unless they overlap there. The other two axes of axis k are k + 1 and k + 2 modulo 3.
 class perturbed_ray {
   public:
-    /// \pre a coordinate of another axis than `along` of `toward` differs from that of `from`
+    /// \pre `from` and `toward` differ in a coordinate other than `along`
     perturbed_ray(const point3& from, const point3& toward, int along = 0);
 
-    /// How it passes through the triangle, if it does, ahead of where it starts. Triangles that the
-    /// edge runs in are not ahead.
+    /// The crossing with a triangle, if the ray passes through it after its start. Triangles that
+    /// contain the edge do not count.
     [[nodiscard]] std::optional<crossing> meet(const triangle3& t) const;
 
-    /// The parameter of a crossing, 2^-40 of itself wrong at most: how far it is from v.
+    /// The distance of a crossing from v, with a relative error of at most 2^-40.
     [[nodiscard]] double distance(const crossing& c) const;
 
-    /// Sign of the difference of the places of two crossings: -1 when the ray gets to `c` first, 0
-    /// when the triangles overlap there.
+    /// Compares two crossings along the ray: -1 if `c` is first, 0 if the triangles overlap there.
     [[nodiscard]] int compare(const crossing& c, const crossing& d) const;
 
-    /// The sign of the normal of a triangle along the ray when the line of the ray passes through
-    /// it, else 0. Corners are all given or all constructed.
+    /// If the line of the ray passes through a triangle, the sign of the triangle's normal along
+    /// the ray; else 0. Corners are all given or all constructed.
     template <class Point>
     [[nodiscard]] int passes(const Point& a, const Point& b, const Point& c) const {
         const int sign = about(a, b);
@@ -46,10 +45,10 @@ class perturbed_ray {
     }
 
   private:
-    /// Which side of the directed edge from p to r the line passes, seen along it: +1 is the left.
-    /// About a line through v, what counts is where b is; along a line through both, moving across
-    /// it counts, by (-d.z, d.y) for d = b - v and a ray along x. 0 for edges parallel to the ray
-    /// alone.
+    /// The side of the directed edge from p to r on which the line passes, seen along the line: +1
+    /// is left. If the edge's line passes through v, the position of b decides; if through both,
+    /// the shift across, (-d.z, d.y) for d = b - v and a ray along x. 0 only for edges parallel to
+    /// the ray.
     template <class Point>
     [[nodiscard]] int about(const Point& p, const Point& r) const {
         if (const int sign = orient2d(along_, p, r, from_as<Point>()); sign != 0) return sign;
@@ -67,11 +66,11 @@ class perturbed_ray {
     implicit_point implicit_from_;
     implicit_point implicit_toward_;
     int along_;
-    int axis_;   ///< another one, in which v and b differ
-    int ahead_;  ///< sign of b - v there
+    int axis_;   ///< another axis, in which v and b differ
+    int ahead_;  ///< sign of b - v along `axis_`
 };
 
-/// From q along an axis, moved aside toward anywhere.
+/// The ray from q along an axis, perturbed in an arbitrary direction.
 [[nodiscard]] perturbed_ray ray_beside(const point3& q, int along);
 
 template <>

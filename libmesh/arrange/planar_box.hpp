@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The box of points of a plane as seen along an axis, and a triangle around it.
+/// The bounding box of coplanar points in projection along an axis, and a triangle around it.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/aabb.hpp>
@@ -20,21 +20,21 @@ class planar_box {
         : x_(static_cast<std::size_t>((axis + 1) % 3)),
           y_(static_cast<std::size_t>((axis + 2) % 3)) {}
 
-    /// Grows to hold `p` and what is within `reach` of it.
+    /// Extends the box to contain everything within `reach` of `p`.
     void include(const point3& p, double reach = 0.0) {
         box_.include(std::array{p[x_] - reach, p[y_] - reach});
         box_.include(std::array{p[x_] + reach, p[y_] + reach});
     }
 
-    /// A triangle that strictly holds the box in projection, and turns left as seen along the axis
-    /// times `orientation` (+1 or -1).
+    /// A triangle that strictly contains the box in projection. It is counter-clockwise, seen
+    /// against the axis times `orientation` (+1 or -1).
     ///
-    /// With extents w and h of the box and u an ulp of its largest coordinate, d is the larger of
-    /// w + h and 4 u. Legs of 6 d begin d before the box, which rounding makes 1.5 d at most (half
-    /// an ulp, and one for `nextafter`), and end less than d / 8 early. Seen from the right angle,
-    /// coordinates in the box add up to at most w + h + 2 * 1.5 d, which is 4 d.
+    /// With extents w and h of the box and u an ulp of its largest coordinate, d is the larger of w
+    /// + h and 4 u. The legs, of length 6 d, begin d before the box, or at most 1.5 d with rounding
+    /// (half an ulp, and one ulp for `nextafter`), and end at most d / 8 early. Seen from the right
+    /// angle, coordinates in the box add up to at most w + h + 2 * 1.5 d, which is 4 d.
     ///
-    /// \pre something is included
+    /// \pre the box is not empty
     [[nodiscard]] std::array<point3, 3> triangle_around(int orientation) const {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         const double largest = std::max({std::abs(box_.min[0]), std::abs(box_.max[0]),

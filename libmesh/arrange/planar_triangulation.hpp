@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A constrained triangulation of points of one plane, some of them constructed.
+/// Constrained triangulation of coplanar points, some of them constructed.
 
 #include <libmesh/exact/implicit_point.hpp>
 
@@ -16,36 +16,37 @@
 
 namespace treeform::detail::arrange {
 
-/// A triangulation that points are put into one by one and segments are forced into.
+/// An incremental constrained triangulation: inserts points one by one, and forces segments.
 ///
-/// What it is made of is decided exactly. Where a point lies on a line by its definition, that is
-/// looked up and never computed: collinear points are what filters cannot decide. Near-Delaunay by
-/// approximate in-circle tests, which choose between triangulations that are both valid.
+/// The topology is exact. Whether a point lies on a line by its definition is looked up and never
+/// computed, since filters cannot decide collinear points. The triangulation is nearly Delaunay:
+/// approximate in-circle tests choose among valid triangulations.
 ///
 /// \source Sloan, A fast algorithm for generating constrained Delaunay triangulations, Computers
-///         and Structures 47 (1993); crossing segments are split where they cross
+///         and Structures 47 (1993); crossing segments are split at their intersection
 class planar_triangulation {
   public:
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-    /// The point where two segments of these lines cross.
+    /// Returns the point where segments of two lines cross.
     using crossing = std::function<implicit_point(std::uint32_t line, std::uint32_t other)>;
 
-    /// The triangle of the first three of `points`, which turns left as seen along `axis` times
-    /// `orientation` (+1 or -1), and in which or on whose sides all others lie.
+    /// Starts with the triangle of the first three of `points`, which is counter-clockwise, seen
+    /// against `axis` times `orientation` (+1 or -1), and contains all others, perhaps on its
+    /// sides.
     ///
-    /// \param lines_of  which lines each point is known to lie on, ascending
+    /// \param lines_of  the lines on which each point is known to lie, ascending
     ///
-    /// All memory is that of `points`.
+    /// Uses the memory resource of `points`.
     planar_triangulation(std::pmr::vector<implicit_point> points,
                          std::pmr::vector<std::pmr::vector<std::uint32_t>> lines_of, int axis,
                          int orientation, crossing cross);
 
-    /// Puts a point in; the vertex that is there now: the point itself, or an equal one.
+    /// Inserts a point, and returns its vertex: the point itself, or an equal one.
     std::uint32_t insert(std::uint32_t point);
 
-    /// Forces the segment between two vertices in, and the vertices along it, from the first to the
-    /// last. Where it crosses a segment of before, a new point is made.
+    /// Forces the segment between two vertices, and returns the vertices along it, from the first
+    /// to the last. At a crossing with an earlier segment, a new point is created.
     std::pmr::vector<std::uint32_t> constrain(std::uint32_t from, std::uint32_t to,
                                               std::uint32_t line);
 
@@ -53,7 +54,7 @@ class planar_triangulation {
     [[nodiscard]] std::array<std::uint32_t, 3> corners(std::size_t t) const {
         return {origin_[3 * t], origin_[3 * t + 1], origin_[3 * t + 2]};
     }
-    /// The triangle beyond the side from corner i to the next, or none.
+    /// The neighbor across the side from corner i to the next, or none.
     [[nodiscard]] std::uint32_t across(std::size_t t, std::size_t i) const {
         const std::uint32_t twin = twin_[3 * t + i];
         return twin == none ? none : twin / 3;
@@ -61,9 +62,9 @@ class planar_triangulation {
     /// The triangle to the left of the side from one vertex to another. \pre there is such a side
     [[nodiscard]] std::uint32_t left_of(std::uint32_t from, std::uint32_t to) const;
 
-    /// All points: those given, then those made.
+    /// All points: the given ones, then the created ones.
     [[nodiscard]] std::span<const implicit_point> points() const { return points_; }
-    /// The two lines whose crossing a made point is. \pre point is not a given one
+    /// The two lines that cross at a created point. \pre `point` is not a given point
     [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> made_by(std::uint32_t point) const {
         return made_by_[point - given_];
     }
@@ -72,11 +73,11 @@ class planar_triangulation {
     using half_edge = std::uint32_t;  ///< 3 t + i: from corner i of triangle t to the next
 
     struct place {
-        half_edge at;  ///< a side of the triangle; the side, or one that begins at the vertex
+        half_edge at;  ///< a side of the triangle; or the side, or a side that begins at the vertex
         int on_sides;  ///< 0: inside, 1: on the side, 2: on the vertex
     };
 
-    /// How a way leaves the triangles around a vertex: through a vertex, or else through a side.
+    /// Where a segment leaves the star of a vertex: at a vertex, or else across a side.
     struct star_exit {
         std::uint32_t met = none;
         half_edge crossed = none;
@@ -91,7 +92,7 @@ class planar_triangulation {
     void note_line(std::uint32_t p, std::uint32_t line);
     [[nodiscard]] int turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
     [[nodiscard]] bool known_collinear(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
-    /// Whether c lies on the side of a to which b lies. \pre collinear, different from a
+    /// Whether b and c are on the same side of a. \pre collinear, different from a
     [[nodiscard]] bool is_ahead(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
 
     [[nodiscard]] place locate(std::uint32_t p);
@@ -114,28 +115,30 @@ class planar_triangulation {
     void improve(std::pmr::vector<std::array<std::uint32_t, 2>>& sides);
 
     void mark(half_edge h, std::uint32_t line);
-    /// One step of `constrain`: the next vertex on the way, to which there is a marked side now.
+    /// One step of `constrain`: returns the next vertex along the segment, to which there now is a
+    /// marked side.
     std::uint32_t advance(std::uint32_t from, std::uint32_t to, std::uint32_t line);
     [[nodiscard]] star_exit leave(std::uint32_t from, std::uint32_t to) const;
-    /// Flips the sides that cross the way until none does; the sides that this has made.
+    /// Flips sides until none crosses the segment, and returns the new sides.
     std::pmr::vector<std::array<std::uint32_t, 2>> flip_away(std::uint32_t from, std::uint32_t to,
                                                              side_queue& sides);
     std::uint32_t make_crossing(half_edge side, std::uint32_t line);
 
     std::pmr::vector<implicit_point> points_;
-    std::pmr::vector<std::array<double, 2>> plan_;  ///< where points are, for choices that are free
+    /// approximate positions, for heuristic choices
+    std::pmr::vector<std::array<double, 2>> plan_;
     std::pmr::vector<std::pmr::vector<std::uint32_t>> lines_of_;
     std::pmr::vector<std::pair<std::uint32_t, std::uint32_t>> made_by_;
-    std::pmr::vector<std::uint32_t> origin_;  ///< of each half-edge
+    std::pmr::vector<std::uint32_t> origin_;  ///< origin of each half-edge
     std::pmr::vector<half_edge> twin_;
-    std::pmr::vector<std::uint32_t> line_;  ///< that the side is forced to be on, or none
-    std::pmr::vector<half_edge> leaving_;   ///< of each vertex, a half-edge that begins there
-    std::pmr::vector<half_edge> opposite_;  ///< of `improve_around`
+    std::pmr::vector<std::uint32_t> line_;  ///< the line on which the side is forced, or none
+    std::pmr::vector<half_edge> leaving_;   ///< for each vertex, a half-edge that begins there
+    std::pmr::vector<half_edge> opposite_;  ///< memory of `improve_around`
     std::size_t given_;
     int axis_;
     int orientation_;
     crossing cross_;
-    std::uint32_t last_ = 0;  ///< triangle where the next search begins
+    std::uint32_t last_ = 0;  ///< triangle at which the next search begins
 };
 
 }  // namespace treeform::detail::arrange

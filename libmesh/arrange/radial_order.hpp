@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The order of faces about an edge.
+/// The radial order of faces about an edge.
 
 #include <libmesh/arrange/face_side.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
@@ -15,26 +15,26 @@
 
 namespace treeform::detail::arrange {
 
-/// Sorts the faces at edges of an arrangement by the planes of the input faces they lie in, so that
-/// no coordinate of a constructed point is looked at but to see which way the edge runs. Keeps its
-/// memory between calls; a thread has its own.
+/// Sorts the faces at edges of an arrangement by the planes of the input faces that contain them,
+/// so that coordinates of constructed points are only used for the direction of the edge. Keeps its
+/// memory between calls; not for several threads.
 ///
-/// A face is turned about the edge as its normal is, or the opposite normal where the face runs
-/// backwards: "its normal" below. For an edge e, n x m is along e when m is less than half a turn
-/// ahead of n.
+/// The angle of a face about the edge is that of its normal, or of the opposite normal if the face
+/// runs backward ("its normal" below). For an edge e, n x m is along e if m is less than half a
+/// turn ahead of n.
 class radial_order {
   public:
     radial_order(mesh_view mesh, const mesh_arrangement& cut) : mesh_(mesh), cut_(cut) {}
 
-    /// Puts `sides`, all faces at the edge, in counter-clockwise order about it, the first one
-    /// staying where it is. Returns false when two lie on top of each other, as they do in no
-    /// arrangement; the order then means nothing.
+    /// Sorts `sides`, all faces at the edge, counter-clockwise about it, starting with the first
+    /// one. Returns false if two overlap, which does not occur in a valid arrangement; the order is
+    /// then invalid.
     /// \cost O(d log d) predicates for d faces
     [[nodiscard]] bool sort(const std::array<std::uint32_t, 2>& points, std::span<face_side> sides);
 
-    /// Of `sides`, faces at the edge from `from` toward `toward`, the one that comes last before
-    /// the half-plane from the edge in direction +x. None when two lie on top of each other.
-    /// \pre  there is one, none is in that half-plane, and the edge is not parallel to x
+    /// Of `sides`, the faces at the edge from `from` toward `toward`, the last one before the
+    /// half-plane from the edge in direction +x. None if two overlap.
+    /// \pre  `sides` is not empty, no face is in that half-plane, and the edge is not parallel to x
     /// \cost O(d) predicates
     [[nodiscard]] std::optional<face_side> last_before_x(const point3& from, const point3& toward,
                                                          std::span<const face_side> sides);
@@ -42,11 +42,11 @@ class radial_order {
   private:
     struct member {
         plane_points plane;
-        std::uint32_t cover;  ///< input face that lies in it
+        std::uint32_t cover;  ///< an input face in this plane
         face_side side;
-        int half;  ///< how far from where one begins: 1 less than half a turn, 2 half, 3 more
+        int half;  ///< angle from the first face: 1 less than half a turn, 2 half a turn, 3 more
 
-        /// +1 when its normal is that of the plane, -1 when it is the opposite.
+        /// +1 if its normal is that of the plane, -1 if opposite.
         [[nodiscard]] int sense() const { return is_behind(side) ? -1 : 1; }
     };
 

@@ -12,8 +12,8 @@
 
 namespace treeform::detail::arrange {
 
-/// Regions are numbered as by `patch_regions`: element 0 is infinity, then come the front and the
-/// back of each patch.
+/// Regions are those of `patch_regions`: of element 0, the unbounded region, then of the front and
+/// the back of each patch.
 class region_patches {
   public:
     /// \pre `regions` outlives this
@@ -44,15 +44,15 @@ class region_patches {
     [[nodiscard]] std::uint32_t beyond(std::uint32_t patch, std::uint32_t region) const {
         return front(patch) == region ? behind(patch) : front(patch);
     }
-    /// Ascending; a patch with the region on both sides comes twice.
+    /// The patches around a region, ascending; a patch with the region on both sides occurs twice.
     [[nodiscard]] std::span<const std::uint32_t> around(std::uint32_t region) const {
         return {patches_.data() + begin_[region], begin_[region + 1] - begin_[region]};
     }
 
   private:
     const numbered_sets& regions_;
-    std::vector<std::size_t> begin_;      ///< where the patches of each region begin
-    std::vector<std::uint32_t> patches_;  ///< region by region
+    std::vector<std::size_t> begin_;      ///< begin of the patches of each region
+    std::vector<std::uint32_t> patches_;  ///< patches, region by region
 };
 
 }  // namespace treeform::detail::arrange

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How often a surface winds around what is right beside a face.
+/// The winding number of a surface just beside a face.
 
 #include <libmesh/arrange/corner_line.hpp>
 #include <treeform/mesh/predicates.hpp>
@@ -14,7 +14,7 @@
 
 namespace treeform::detail::arrange {
 
-/// The part of space through which a line leaves the face that it starts from.
+/// A box around the part of a line that leaves a face in one direction.
 [[nodiscard]] inline aabb<double, 3> way_along(const corner_line& line, bool ahead) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     aabb<double, 3> way = line.start();
@@ -23,11 +23,11 @@ namespace treeform::detail::arrange {
     return way;
 }
 
-/// Calls `visit(i, change)` for the faces that a line passes on its way from a face of an
-/// arrangement, with how often more the surface winds around what is before them than behind,
-/// exactly.
+/// Calls `visit(i, change)` for the faces that a line crosses on its way from a face of an
+/// arrangement, with the winding number before the crossing minus that after it; exact.
 ///
-/// \param index   over the faces of a surface; `corners(i)` are those of what it calls i
+/// \param index   a tree over the faces of a surface; `corners(i)` returns the corners of primitive
+///        i
 /// \param way     `way_along(line, ahead)`
 template <class Corners, class Visit>
 void visit_beside(const tree<3>& index, const Corners& corners, const corner_line& line,
@@ -40,8 +40,8 @@ void visit_beside(const tree<3>& index, const Corners& corners, const corner_lin
     });
 }
 
-/// How often a closed surface winds around all that is right beside a face of an arrangement, on
-/// the side where `line` through it is followed.
+/// The winding number of a closed surface just beside a face of an arrangement, on the side on
+/// which `line` through it is followed.
 template <class Corners>
 [[nodiscard]] std::int64_t winding_beside(const tree<3>& index, const Corners& corners,
                                           const corner_line& line, const aabb<double, 3>& way,

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Candidates of two meshes whose triangles lie in blocks, for the narrow phase.
+/// Candidates of two meshes whose triangles are stored in blocks, for the narrow phase.
 
 #include <libmesh/intersect/block_planes.hpp>
 #include <libmesh/intersect/two_mesh_pairs.hpp>
@@ -16,7 +16,7 @@
 
 namespace treeform::detail::intersect {
 
-/// One of two meshes: the blocks of its tree, moved.
+/// One of two meshes: the blocks of its tree, transformed.
 class block_side {
   public:
     block_side(const buffer<nearness::eight_triangles>& blocks, const tree<3>& tree,
@@ -25,7 +25,7 @@ class block_side {
 
     [[nodiscard]] std::uint32_t face_at(std::size_t place) const { return ids_[place]; }
 
-    /// The triangles of a block; `space` is for them.
+    /// The triangles of a block; if they are transformed, in `space`.
     [[nodiscard]] const nearness::eight_triangles& block(std::uint32_t i,
                                                          nearness::eight_triangles& space) const {
         if (!moves_) return blocks_[i];
@@ -47,7 +47,7 @@ class block_side {
     bool moves_;
 };
 
-/// Drops candidates by the planes of their triangles, one against eight at a time. 4 kB.
+/// Rejects candidates by the planes of their triangles, one against eight at a time. Size: 4 kB.
 class block_candidates : public two_mesh_pairs {
   public:
     struct input {
@@ -66,7 +66,7 @@ class block_candidates : public two_mesh_pairs {
 
     static constexpr std::uint32_t none = 0xFFFFFFFF;
     const input& meshes_;
-    /// The blocks at hand: those of one `a` follow each other.
+    /// The current blocks; candidates of the same block of `a` are consecutive.
     std::uint32_t at_a_ = none;
     std::uint32_t at_b_ = none;
     const nearness::eight_triangles* in_a_ = nullptr;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Pairs of faces, as callers give them.
+/// Checks pairs of faces passed by callers.
 
 #include <treeform/mesh/self_intersections.hpp>
 
@@ -9,7 +9,7 @@
 namespace treeform::detail::intersect {
 
 /// \throws std::invalid_argument, naming `function`, for the first pair with a face out of range,
-///         or one with a corner out of range or not finite, or, where `need_area`, without area
+///         or one with a corner out of range or not finite, or, with `need_area`, without area
 void check_pairs(const char* function, mesh_view mesh, std::span<const face_pair> pairs,
                  bool need_area);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The exact verdict on one pair of faces, or of triangles.
+/// Exact classification of a pair of faces or triangles.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
@@ -10,11 +10,11 @@
 
 namespace treeform::detail::intersect {
 
-/// How faces `a` and `b` meet beyond the corners they share by number, or nothing.
+/// How faces `a` and `b` meet beyond corners with equal numbers; none if they do not.
 [[nodiscard]] std::optional<pair_kind> classify_pair(points_view points, const face& a,
                                                      const face& b, predicate_counters& counters);
 
-/// How two triangles meet that share no corner by number, or nothing.
+/// How two triangles meet that share no corner by number; none if they do not.
 [[nodiscard]] std::optional<pair_kind> classify_triangles(const triangle3& a, const triangle3& b,
                                                           predicate_counters& counters);
 

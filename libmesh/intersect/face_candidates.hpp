@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Candidates of two meshes as they are, for the narrow phase.
+/// Candidates of two meshes without triangle blocks, for the narrow phase.
 
 #include <libmesh/intersect/two_mesh_pairs.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -15,7 +15,7 @@
 
 namespace treeform::detail::intersect {
 
-/// One of two meshes: its faces by their place in the tree, moved.
+/// One of two meshes: its faces by their places in the tree, transformed.
 class mesh_side {
   public:
     mesh_side(mesh_view mesh, const tree<3>& tree, const transform<3>& move)
@@ -23,7 +23,7 @@ class mesh_side {
 
     [[nodiscard]] std::uint32_t face_at(std::uint32_t place) const { return ids_[place]; }
 
-    /// The corners of a face; false when one is no point.
+    /// Gets the corners of a face; false if one is out of range.
     [[nodiscard]] bool corners(std::uint32_t id, triangle3& triangle) const {
         const face& f = mesh_.faces[id];
         for (std::size_t k = 0; k < 3; ++k) {
@@ -34,7 +34,7 @@ class mesh_side {
         return true;
     }
 
-    /// Ask memory for what `corners` reads, the face first and its points some time later.
+    /// Prefetch what `corners` reads: first the face, some time later its points.
     void prefetch_face(std::uint32_t place) const { __builtin_prefetch(&mesh_.faces[ids_[place]]); }
     void prefetch_points(std::uint32_t place) const {
         const face& f = mesh_.faces[ids_[place]];
@@ -48,7 +48,7 @@ class mesh_side {
     bool moves_;
 };
 
-/// Gathers the corners of candidates from the meshes.
+/// Gets the corners of candidates from the meshes.
 class face_candidates : public two_mesh_pairs {
   public:
     struct input {
@@ -64,7 +64,7 @@ class face_candidates : public two_mesh_pairs {
     void prefetch(const candidate_block& block, std::size_t i) const;
 
     const input& meshes_;
-    /// The face of `a` last looked at: candidates of one face follow each other.
+    /// The last face of `a`; candidates of the same face are consecutive.
     std::uint32_t last_a_ = bad_faces::none;
     bool has_a_ = false;
     triangle3 corners_of_a_;

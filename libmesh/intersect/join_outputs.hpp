@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the searches for pairs of faces do around their chunks: progress, and joining the outputs.
+/// Progress of searches for pairs of faces, and joining the outputs of their chunks.
 
 #include <libmesh/intersect/narrow_phase.hpp>
 #include <libmesh/intersect/sort_pairs.hpp>
@@ -14,7 +14,7 @@
 
 namespace treeform::detail::intersect {
 
-/// Says how far the search is, from whatever thread, and hears when to stop.
+/// Reports the progress of a search, from any thread, and whether it is cancelled.
 class search_progress {
   public:
     search_progress(const progress_callback& callback, std::size_t chunks)
@@ -37,8 +37,8 @@ class search_progress {
     std::atomic<bool> cancelled_{false};
 };
 
-/// Drops all but one pair: the lowest of the first chunk that has any. What later chunks found
-/// before they heard of it depends on the threads.
+/// Keeps only one pair: the lowest of the first chunk that has any. The pairs of later chunks
+/// depend on timing.
 inline void keep_first(std::vector<narrow_phase_output>& found) {
     const auto first = std::find_if(found.begin(), found.end(),
                                     [](const auto& output) { return !output.pairs.empty(); });
@@ -50,7 +50,8 @@ inline void keep_first(std::vector<narrow_phase_output>& found) {
     std::fill(first + 1, found.end(), narrow_phase_output{});
 }
 
-/// Adds the outputs to `result`, which has their fields: the lowest `limit` pairs, and all counts.
+/// Adds the outputs to `result`, which has the same fields: the lowest `limit` pairs, and all
+/// counts.
 template <class Result>
 void join_outputs(std::vector<narrow_phase_output>& found, std::size_t limit, Result& result) {
     std::size_t total = 0;

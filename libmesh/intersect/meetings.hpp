@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Where pairs of faces meet, every point named by the input it comes from.
+/// The intersections of pairs of faces, with points identified by the input elements that define
+/// them.
 
 #include <libmesh/exact/implicit_point.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -16,7 +17,7 @@
 
 namespace treeform::detail::intersect {
 
-/// An edge by its points, the lower first.
+/// An edge as its points, the lower first.
 using edge_name = std::array<std::uint32_t, 2>;
 
 [[nodiscard]] inline edge_name edge_between(std::uint32_t u, std::uint32_t v) {
@@ -27,19 +28,19 @@ using edge_name = std::array<std::uint32_t, 2>;
     return edge_between(f[i], f[i == 2 ? 0 : i + 1]);
 }
 
-/// What a point of two faces is, by the numbers of points and faces. Equal names are equal points;
-/// different ones may be, too.
+/// The definition of an intersection point of two faces, by numbers of points and faces. Equal
+/// names are equal points; different names may also be equal points.
 struct point_name {
     enum class origin : std::uint8_t { edges, edge_face };
     origin kind = origin::edges;
-    edge_name edge{};                   ///< of two edges, the lower one
+    edge_name edge{};                   ///< for two edges, the lower one
     std::array<std::uint32_t, 2> by{};  ///< the other edge, or a face and 0
     friend auto operator<=>(const point_name&, const point_name&) = default;
 };
 
-/// An end of what two faces have in common.
+/// An end of the intersection of two faces.
 struct meeting_end {
-    std::uint32_t point = 0;  ///< of the input, or [V] + a name's number
+    std::uint32_t point = 0;  ///< point of the input, or V + the number of a name
     feature on_a = feature::v0;
     feature on_b = feature::v0;
 };
@@ -53,16 +54,16 @@ struct meeting {
 };
 
 struct mesh_meetings {
-    std::vector<meeting> meetings;       ///< as the pairs
-    std::vector<point_name> names;       ///< ascending; all are different
-    std::vector<implicit_point> points;  ///< of each name
+    std::vector<meeting> meetings;       ///< in the order of the pairs
+    std::vector<point_name> names;       ///< ascending, all different
+    std::vector<implicit_point> points;  ///< point of each name
 };
 
-/// Looks at the pairs once more, and names what they have in common.
+/// Computes the intersection of each pair, and names its points.
 /// \pre the faces of `pairs` are not degenerate
 [[nodiscard]] mesh_meetings meetings_of(mesh_view mesh, std::span<const face_pair> pairs);
 
-/// A box around what two faces have in common. \pre they meet, and are not degenerate
+/// A box around the intersection of two faces. \pre they meet, and are not degenerate
 [[nodiscard]] aabb<double, 3> box_of_meeting(mesh_view mesh, const face_pair& pair);
 
 }  // namespace treeform::detail::intersect

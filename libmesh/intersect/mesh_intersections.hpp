@@ -10,19 +10,19 @@
 
 namespace treeform::detail::intersect {
 
-/// As `treeform::mesh_intersections`; only faces that are looked at are checked. With an effort,
-/// it spends the pairs whose boxes overlap; where these are too many, it is `cancelled`, and lists
-/// and counts nothing.
+/// As `treeform::mesh_intersections`, but only checks the faces that it tests. With `effort`, each
+/// pair whose boxes overlap is spent; if these exceed the allowance, the status is `cancelled`, and
+/// no pairs are listed or counted.
 ///
 /// \pre    `tree_a` and `tree_b` are `build_face_tree(a)` and `build_face_tree(b)`
-/// \throws std::invalid_argument when a tree has not one primitive a face
+/// \throws std::invalid_argument unless each tree has one primitive for each face
 [[nodiscard]] TREEFORM_API intersection_result
 mesh_intersections(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tree_b,
                    const intersection_options& options = {}, base::effort* effort = nullptr);
 
-/// As `treeform::intersects`. Which bad face is met, if any, may depend on the threads.
+/// As `treeform::intersects`. Which invalid face is reported, if any, may depend on the threads.
 ///
-/// \pre the trees are of faces of the meshes: of all that may meet
+/// \pre the trees contain all faces of the meshes that may meet
 [[nodiscard]] TREEFORM_API bool intersects(mesh_view a, const tree<3>& tree_a, mesh_view b,
                                            const tree<3>& tree_b,
                                            const mesh_positions& positions = {});

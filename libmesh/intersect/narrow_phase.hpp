@@ -25,31 +25,30 @@ struct face_numbers {
     std::uint32_t a, b;
 };
 
-/// What one chunk finds.
+/// The output of one chunk.
 struct narrow_phase_output {
-    std::vector<face_pair> pairs;  ///< as met
+    std::vector<face_pair> pairs;  ///< in the order found
     std::array<std::uint64_t, pair_kind_count> counts{};
     std::uint64_t box_pairs = 0;
     std::uint64_t exact_pairs = 0;
     predicate_counters predicates;
 };
 
-/// The lowest faces of two meshes that cannot be computed with, of those that were met.
+/// The lowest invalid faces, of those that were tested, of two meshes.
 struct bad_faces {
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
     std::uint32_t in_a = none;
     std::uint32_t in_b = none;
 };
 
-/// Filters pairs in batches, and has the exact stage decide the rest. Where triangles come from is
-/// `Source`'s to say, which knows pairs by a number for each face:
-/// - `source.offer(block, phase)` puts the candidates of a block to the phase, class by class: by
-///   `wait`, and `finish` after those of a class; by `put` and `filter`; or by `decide`.
-/// - `source.faces(pair)` are the faces of a pair as they are reported.
-/// - `source.classify(pair, batch, i, counters)` is the exact verdict on a pair at place i of a
-///   batch.
+/// Filters pairs in batches, and decides the rest exactly. `Source` provides the triangles; it
+/// identifies a pair by a number for each face:
+/// - `source.offer(block, phase)` passes the candidates of a block to the phase, class by class: by
+///   `wait`, and `finish` after each class; by `put` and `filter`; or by `decide`.
+/// - `source.faces(pair)` returns the face numbers of a pair to report.
+/// - `source.classify(pair, batch, i, counters)` classifies the pair at place i of a batch exactly.
 ///
-/// 10 kB and what the source is: one a chunk, not one a block.
+/// Size: 10 kB plus the source; create one for each chunk, not for each block.
 template <class Source>
 class narrow_phase {
   public:
@@ -62,20 +61,21 @@ class narrow_phase {
         source_.offer(block, *this);
     }
 
-    /// One more pair of a class: `corner(k)` are its points in the order that the filter takes; no
-    /// coordinate beyond `largest_filtered_coordinate`.
+    /// Adds a pair of a class to the batch: `corner(k)` returns its points in the order of the
+    /// filter. No coordinate may exceed `largest_filtered_coordinate`.
     template <candidate_classes::name Class, class Corner>
     void wait(const face_numbers& pair, const Corner& corner) {
         put<Class>(count_, pair, corner);
         if (++count_ == pair_batch::capacity) finish<Class>();
     }
-    /// Decides what waits.
+    /// Decides the pairs in the batch.
     template <candidate_classes::name Class>
     void finish() {
         if (count_ != 0) filter<Class>(std::exchange(count_, 0));
     }
 
-    /// The same for those who count for themselves: a pair to place i < `pair_batch::capacity`.
+    /// Writes a pair to place i < `pair_batch::capacity` of the batch, for callers that count pairs
+    /// themselves.
     template <candidate_classes::name Class, class Corner>
     void put(std::size_t i, const face_numbers& pair, const Corner& corner) {
         pairs_[i] = pair;
@@ -86,7 +86,7 @@ class narrow_phase {
             batch_.at[k][2][i] = p.z;
         }
     }
-    /// Decides the pairs at the places below `count`, of which there are some.
+    /// Decides the pairs at places below `count`, which is not 0.
     template <candidate_classes::name Class>
     void filter(std::size_t count) {
         constexpr std::size_t vector_pairs = 8;                  // at most, in the filter
@@ -107,7 +107,7 @@ class narrow_phase {
         }
     }
 
-    /// Has `classify(counters)` decide a pair exactly.
+    /// Decides a pair exactly, by `classify(counters)`.
     template <class Classify>
     void decide(const face_numbers& pair, const Classify& classify) {
         ++output_.exact_pairs;

@@ -1,7 +1,6 @@
 #pragma once
 /// \file
-/// Trees over those faces of two meshes that may meet the other mesh, where both have been moved
-/// to.
+/// Trees over the faces of two transformed meshes that may meet the other mesh.
 
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -12,13 +11,14 @@
 
 namespace treeform::detail::intersect {
 
-/// Over the boxes of moved faces: of those that reach into the box around the other mesh, moved, as
-/// `build_overlap` says, or of all where most seem to. Corners are moved as anywhere else, so that
-/// boxes hold what faces become, all roundings included; the trees are not to be moved any more.
+/// Trees over the boxes of transformed faces: only those that reach into the box around the other
+/// transformed mesh (`build_overlap`), or all faces if most seem to. Corners are transformed and
+/// rounded as elsewhere, so boxes contain the rounded faces exactly; the trees must not be
+/// transformed again.
 ///
-/// \param function what the caller called
-/// \throws std::invalid_argument when a transform is not finite, or naming the mesh and its lowest
-///         face with a corner out of range or, as moved, not finite
+/// \param function the name of the called function, for messages
+/// \throws std::invalid_argument if a transform is not finite; naming the mesh and its lowest face
+///         with a corner that is out of range or, after the transform, not finite
 /// \same   on any number of threads
 [[nodiscard]] std::pair<tree<3>, tree<3>> overlap_trees(const std::string& function, mesh_view a,
                                                         mesh_view b,

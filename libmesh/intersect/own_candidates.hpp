@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Candidates of a mesh with itself, for the narrow phase.
+/// Candidates of self-intersections of a mesh, for the narrow phase.
 
 #include <libmesh/intersect/narrow_phase.hpp>
 #include <libmesh/intersect/pair_filter.hpp>
@@ -16,16 +16,16 @@
 
 namespace treeform::detail::intersect {
 
-/// What all chunks share.
+/// Data shared by all chunks.
 struct own_faces {
     points_view points;
     std::span<const numbered_face> faces;  ///< [F] in leaf order
     const intersection_options* options;
-    bool filtered;  ///< coordinates lie in the range of the filter
+    bool filtered;  ///< whether all coordinates are in the range of the filter
 };
 
-/// The faces of one mesh, sorted by the corners they share by number: a filter for each class.
-/// Pairs are known by places in leaf order. 24 kB.
+/// Candidates of one mesh, sorted into classes by the corners that they share by number, each with
+/// its filter. Pairs are identified by places in leaf order. Size: 24 kB.
 class own_candidates {
   public:
     explicit own_candidates(const own_faces& own) : own_(own) {}
@@ -50,7 +50,7 @@ class own_candidates {
                                                     predicate_counters& counters) const;
 
     own_faces own_;
-    candidate_block block_;  ///< the candidates at hand
+    candidate_block block_;  ///< the current candidates
     candidate_classes classes_;
     std::array<std::uint32_t, max_candidates> wanted_first_;
     std::array<std::uint32_t, max_candidates> wanted_second_;

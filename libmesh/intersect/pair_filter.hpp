@@ -2,8 +2,9 @@
 /// \file
 /// The floating-point filter of pairs of faces, several pairs at once.
 ///
-/// Every decision rests on the sign of the polynomial of `orient3d` (libmesh/exact), computed in
-/// its order of operations and held against its bound; what that bound leaves open stays open.
+/// Every decision is based on the sign of the polynomial of `orient3d` (libmesh/exact), computed in
+/// the same order of operations and compared with its error bound; if that does not decide, the
+/// pair stays undecided.
 
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/answers.hpp>
@@ -14,11 +15,12 @@
 
 namespace treeform::detail::intersect {
 
-/// The corners of a face, and its number.
+/// The three corners of a face, and its number.
 using numbered_face = std::array<std::uint32_t, 4>;
 
-/// A candidate of a block: its number there, and for each face the corner that matters; see
-/// `candidate_classes`. One word, since a store of four fields together costs more than the rest.
+/// A candidate of a block: its number there, and the relevant corner of each face; see
+/// `candidate_classes`. Packed into one word, since storing four fields costs more than all other
+/// work.
 class candidate {
   public:
     candidate() = default;
@@ -28,7 +30,7 @@ class candidate {
         return turns_from(of_a) << 16 | turns_from(of_b) << 24;
     }
     [[nodiscard]] std::uint32_t index() const { return bits_ & 0xFFFFU; }
-    /// The corner that matters, or the first or second one after it.
+    /// The relevant corner, or the first or second one after it.
     template <unsigned Steps>
     [[nodiscard]] std::uint32_t corner_a() const {
         return bits_ >> (16 + 2 * Steps) & 3U;
@@ -47,7 +49,7 @@ class candidate {
 };
 static_assert(max_candidates <= 0x10000);
 
-/// The candidates of a block by the corners they share by number.
+/// The candidates of a block, by the corners that they share by number.
 struct candidate_classes {
     enum name : std::size_t {
         separate,  ///< none
@@ -63,13 +65,13 @@ struct candidate_classes {
 void sort_by_class(const candidate_block& block, const numbered_face* faces,
                    candidate_classes& classes);
 
-/// The corners of up to 64 pairs of one class, a row of numbers for each coordinate of each
-/// corner, so that the filter reads a vector of pairs at once. Rows are filled to whole vectors.
+/// The corners of up to 64 pairs of one class, as a structure of arrays, so that the filter reads a
+/// vector of pairs at once. Rows are padded to whole vectors.
 struct pair_batch {
     static constexpr std::size_t capacity = 64;
     alignas(64) double at[6][3][capacity];
 
-    /// That of pair i with corners `first_corner` and the two after it.
+    /// The triangle of pair i with corners `first_corner` and the two after it.
     [[nodiscard]] triangle3 triangle(std::size_t first_corner, std::size_t i) const {
         triangle3 t;
         for (std::size_t k = 0; k < 3; ++k)
@@ -78,20 +80,22 @@ struct pair_batch {
     }
 };
 
-/// How many corners the filter takes of a class: of faces that share an edge u v, those are u, v
-/// and the corners of a and b off it; that share corner p, p and the two others of a, then of b;
-/// else the three of a and of b.
+/// Number of corners that the filter reads for a class. For faces that share an edge u v: u, v and
+/// the opposite corners of a and b; for a shared corner p: p, the other two of a, the other two of
+/// b; else the three of a and the three of b.
 template <candidate_classes::name Class>
 inline constexpr std::size_t filtered_corners = 6 - Class;
 static_assert(filtered_corners<candidate_classes::edge> == 4);
 
-/// What the filter is certain of, a bit for each pair of a batch; the rest is open.
+/// The certain decisions of the filter, as a bit for each pair of a batch; all other pairs are
+/// undecided.
 struct batch_verdict {
-    std::uint64_t apart = 0;   ///< no common point beyond the shared corners
-    std::uint64_t pierce = 0;  ///< they pass through each other, from the corner they share if any
+    std::uint64_t apart = 0;  ///< no common point beyond the shared corners
+    /// they pass through each other, from the shared corner if there is one
+    std::uint64_t pierce = 0;
 };
 
-/// \pre there are corners of `count` pairs, and of others up to a multiple of 8
+/// \pre the batch has the corners of `count` pairs, padded to a multiple of 8
 template <candidate_classes::name Class>
 [[nodiscard]] batch_verdict filter_pairs(const pair_batch& batch, std::size_t count);
 template <>

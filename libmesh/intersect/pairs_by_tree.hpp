@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Self-intersections of a mesh whose tree is there.
+/// Self-intersections of a mesh with a given tree.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
@@ -12,17 +12,17 @@
 
 namespace treeform::detail::intersect {
 
-/// As `self_intersections`; `tree` is that of the faces, and is gone when all has been found.
-/// \pre all that `self_intersections` checks
+/// As `self_intersections`, with the tree over the faces, which is freed at the end.
+/// \pre the conditions that `self_intersections` checks
 [[nodiscard]] intersection_result pairs_by_tree(mesh_view mesh, tree<3>&& tree,
                                                 const intersection_options& options);
 
-/// Which of the pairs that meet are wanted. Called by many threads.
+/// Whether a pair that meets is wanted. Called from several threads.
 using wanted_pairs = function_ref<bool(const face_pair& pair)>;
 
-/// The same of a tree that stays, and of the pairs that `wanted` takes, where it is given: no list
-/// of the others is made, but counts include them. Where there are more pairs than `most`, some of
-/// them, more than that.
+/// The same with a tree that is kept. If `wanted` is not null, only pairs for which it returns true
+/// are listed, but all are counted. If there are more pairs than `most`, the search stops with some
+/// more than `most`.
 [[nodiscard]] intersection_result pairs_by_tree(
     mesh_view mesh, const tree<3>& tree, const intersection_options& options,
     std::size_t most = std::numeric_limits<std::size_t>::max(),

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Points against one closed mesh whose tree is known.
+/// Locates points relative to a closed mesh with a given tree.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/point_location.hpp>
@@ -15,7 +15,7 @@
 
 namespace treeform::detail::intersect {
 
-/// As many points as wanted; for several threads at once. See `locate`.
+/// See `locate`. May be used from several threads at once.
 class TREEFORM_API point_locator {
   public:
     /// `tree` is `build_face_tree(mesh)`; it and the arrays of `mesh` outlive the locator.
@@ -23,10 +23,10 @@ class TREEFORM_API point_locator {
     /// \pre the mesh is closed (`find_open_edge`), the tree is of its faces
     point_locator(mesh_view mesh, const tree<3>& tree) : mesh_(mesh), tree_(&tree) {}
 
-    /// \throws std::invalid_argument when a coordinate is not finite; likewise below
+    /// \throws std::invalid_argument if a coordinate is not finite; so do the functions below
     [[nodiscard]] point_location locate(const point3& point) const;
-    /// How often the faces that `counts` names, which are closed, wind around the point; none where
-    /// one of them holds it.
+    /// The winding number around the point of the faces for which `counts` returns true, which must
+    /// be closed; none if the point is on one of them.
     [[nodiscard]] std::optional<std::int32_t> winding_of(
         const point3& point, function_ref<bool(std::uint32_t)> counts) const;
     /// [P]
@@ -37,10 +37,11 @@ class TREEFORM_API point_locator {
     const tree<3>* tree_;
 };
 
-/// \throws std::invalid_argument when the mesh is not closed
+/// \throws std::invalid_argument if the mesh is not closed
 void check_closed(const char* function, mesh_view mesh);
 
-/// Whether the mesh, with corners of equal coordinates joined, is closed; it keeps the answer.
+/// Whether the mesh, with corners of equal coordinates joined, is closed; the mesh caches the
+/// answer.
 [[nodiscard]] bool is_closed(const prepared_mesh& mesh);
 
 }  // namespace treeform::detail::intersect

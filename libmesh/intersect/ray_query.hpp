@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Rays against one mesh whose tree is known.
+/// Casts rays into a mesh with a given tree.
 
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -14,37 +14,37 @@
 
 namespace treeform::detail::intersect {
 
-/// Rays against one mesh, as many as wanted; for several threads at once.
+/// Ray casting into one mesh. May be used from several threads at once.
 ///
-/// Every answer is exact: which faces a ray meets, what part of each, and in which order; only the
-/// numbers t are rounded. A ray that meets an edge or corner meets each face that has it, so a
-/// ray through a vertex of six faces has six hits there, at equal t, each with its own name for
-/// the vertex. Faces are closed, have two sides, and count in either orientation.
+/// The faces that a ray hits, the corner, edge or interior hit, and their order are exact; only the
+/// parameters t are rounded. A ray that hits an edge or a corner hits every face there: through a
+/// vertex of six faces it has six hits at equal t, each with the vertex as a corner of its face.
+/// Faces include their edges, and are hit from both sides.
 class TREEFORM_API ray_query {
   public:
     /// `tree` is `build_face_tree(mesh)`; it and the arrays of `mesh` outlive the query.
     ///
-    /// \throws std::invalid_argument when the tree is not of as many faces
+    /// \throws std::invalid_argument if the tree has another number of faces
     ray_query(mesh_view mesh, const tree<3>& tree);
 
-    /// The face met first: of several at one point that of the lowest number.
+    /// The first face hit; of several faces at the same point, the lowest number.
     ///
-    /// \throws std::invalid_argument for a ray with a number that is not finite, except for
-    ///         infinite parameters, or of zero direction; likewise below, naming the ray
-    /// \cost   O(log F) and the faces at the hit, for most rays
+    /// \throws std::invalid_argument for a ray with a zero direction, or a number that is not
+    ///         finite (t_min and t_max may be infinite); so do the functions below, naming the ray
+    /// \cost   O(log F) plus the faces at the hit, for most rays
     [[nodiscard]] std::optional<mesh_hit> first(const ray3& ray) const;
 
-    /// All faces met, in the order of their exact parameters, then by number.
+    /// All faces hit, in the exact order along the ray, then by number.
     [[nodiscard]] std::vector<mesh_hit> all(const ray3& ray) const;
 
-    /// Whether any face is met.
+    /// Whether any face is hit.
     [[nodiscard]] bool any(const ray3& ray) const;
 
     /// [R] the same for many rays, in their order.
     /// \same on any number of threads
     [[nodiscard]] std::vector<std::optional<mesh_hit>> first(std::span<const ray3> rays) const;
     [[nodiscard]] answer_lists<mesh_hit> all(std::span<const ray3> rays) const;
-    /// [R] 1 where any face is met, else 0.
+    /// [R] 1 if any face is hit, else 0.
     [[nodiscard]] std::vector<std::uint8_t> any(std::span<const ray3> rays) const;
 
   private:

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which constructed points are one point, whatever defines them.
+/// Finds equal constructed points, regardless of their definitions.
 
 #include <libmesh/exact/implicit_point.hpp>
 
@@ -11,8 +11,8 @@
 
 namespace treeform::detail::intersect {
 
-/// Pairs of points that are equal, enough of them to link all that are. Candidates are points whose
-/// balls overlap, which are equal nearly always.
+/// Pairs of equal points that link all equal points. Candidates are points whose error balls
+/// overlap; these are nearly always equal.
 /// \same on any number of threads
 [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> equal_pairs(
     std::span<const implicit_point> points);

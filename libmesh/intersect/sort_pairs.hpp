@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Sorting the pairs that were found.
+/// Sorts pairs of faces.
 
 #include <treeform/mesh/self_intersections.hpp>
 
@@ -13,14 +13,14 @@
 
 namespace treeform::detail::intersect {
 
-/// Sorts `pairs`, no two of which have the same faces, ascending by (a, b): by counting, from the
-/// lowest digit of b to the highest of a, as far as there are digits.
+/// Sorts `pairs`, no two of which have the same faces, ascending by (a, b): a radix sort, from the
+/// lowest digit of b to the highest used digit of a.
 ///
-/// \cost O(pairs) time, as much memory again
+/// \cost O(pairs) time; temporary memory of the size of `pairs`
 inline void sort_pairs(std::vector<face_pair>& pairs) {
     constexpr unsigned digit_bits = 11;
     constexpr std::size_t digits = std::size_t{1} << digit_bits;
-    if (pairs.size() < 256) {  // where both take as long
+    if (pairs.size() < 256) {  // break-even
         std::sort(pairs.begin(), pairs.end());
         return;
     }

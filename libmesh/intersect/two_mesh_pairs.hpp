@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// What the sources of candidates of two meshes have in common: pairs of faces that share no corner
-/// by number, known by their numbers.
+/// Base of the candidate sources of two meshes: pairs of faces that share no corner by number,
+/// identified by their face numbers.
 
 #include <libmesh/intersect/classify_pair.hpp>
 #include <libmesh/intersect/narrow_phase.hpp>
@@ -27,7 +27,7 @@ class two_mesh_pairs {
     }
 
   protected:
-    /// Offers a pair, its faces where they are moved, unless one cannot be computed with.
+    /// Passes a pair of transformed faces to the phase, unless one is invalid.
     template <class Phase>
     void offer_pair(const face_numbers& pair, const triangle3& a, const triangle3& b,
                     Phase& phase) {
@@ -52,7 +52,7 @@ class two_mesh_pairs {
   private:
     /// Whether no coordinate is NaN or larger in magnitude than `limit`.
     [[nodiscard]] static bool within(const triangle3& t, double limit) {
-        unsigned all = 1;  // not a bool: nothing is to branch here
+        unsigned all = 1;  // not a bool, to avoid branches
         for (const point3& p : t)
             for (std::size_t k = 0; k < 3; ++k)
                 all &= static_cast<unsigned>(std::abs(p[k]) <= limit);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Patches that agree at edges of more than two faces.
+/// Orients patches consistently at edges of more than two faces.
 
 #include <libmesh/repair/working_mesh.hpp>
 
@@ -8,15 +8,15 @@
 
 namespace treeform::detail::repair {
 
-/// Turns patches while that makes faces run more nearly as often one way as the other along the
-/// edges of more than two faces; returns how many faces.
+/// Flips patches as long as that reduces the imbalance of the edges with more than two faces;
+/// returns the number of flipped faces.
 ///
-/// What is made less is the sum over these edges of their length times the surplus of one way. The
-/// patch that helps most is turned first, of several the lowest. A patch at whose edges nothing is
-/// wrong stays.
+/// The imbalance is the sum over these edges of length times the magnitude of the signed face
+/// count. The patch that reduces it most is flipped first, of several the lowest. A patch without
+/// unbalanced edges is not flipped.
 ///
-/// \pre  faces agree within patches (`make_faces_agree`)
-/// \cost O(V + F log F), and a look at the neighbors of each patch that is turned
+/// \pre  faces within patches are consistent (`make_faces_agree`)
+/// \cost O(V + F log F), plus the neighbors of each flipped patch
 /// \same on any number of threads
 std::uint64_t balance_patches(working_mesh& mesh);
 

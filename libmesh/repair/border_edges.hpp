@@ -11,14 +11,14 @@
 
 namespace treeform::detail::repair {
 
-/// From one point to the other, as its face runs.
+/// Directed as in its face.
 struct border_edge {
     std::uint32_t from;
     std::uint32_t to;
     std::uint32_t face;
 };
 
-/// Ascending by face, then in the order of its corners.
+/// The border edges, ascending by face, then in the order of its corners.
 ///
 /// \pre  every corner is less than `point_count`
 /// \same on any number of threads

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Solids that touch themselves, moved apart by a few steps of the coordinates.
+/// Separates touching parts of a solid by a few steps of the coordinates.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -10,20 +10,21 @@
 namespace treeform::detail::repair {
 
 struct detached {
-    std::uint64_t moved = 0;        ///< vertices
+    std::uint64_t moved = 0;        ///< number of moved vertices
     std::uint64_t touching = 0;     ///< vertices that still share their coordinates with another
-    double max_displacement = 0.0;  ///< of a coordinate
+    double max_displacement = 0.0;  ///< largest change of a coordinate
 };
 
-/// Moves vertices with equal coordinates apart, by 32 steps of float32 or, where that breaks
-/// something, by some other number of steps, each towards the inside of the solid behind its
-/// faces, so that programs which join equal coordinates see a manifold. What is moved is checked
-/// exactly; what would break is left, and counted.
+/// Moves vertices with equal coordinates apart, so that programs that join equal coordinates see a
+/// manifold: each toward the inside of the solid behind its faces, by 32 steps of float32, or
+/// another number of steps if that causes intersections. Moves are checked exactly; vertices that
+/// cannot be moved are counted.
 ///
 /// \param of    precision of the coordinates, before and after
-/// \param limit the furthest that a coordinate may move
-/// \pre   a closed manifold by numbers, of which no two faces meet (`split_nonmanifold`)
-/// \cost  O(V + F), and as `self_intersections` of the faces moved against all others, a few times
+/// \param limit largest change of a coordinate
+/// \pre   a closed manifold by point numbers, whose faces meet only in common corners and edges
+///        (`split_nonmanifold`)
+/// \cost  O(V + F), plus `self_intersections` of the moved faces with all others, a few times
 /// \same  on any number of threads
 detached detach(mesh& solid, precision of, double limit);
 

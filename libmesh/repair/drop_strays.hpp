@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Pieces of surface that bound nothing.
+/// Drops pieces of surface that bound nothing.
 
 #include <libmesh/repair/working_mesh.hpp>
 
@@ -11,24 +11,25 @@ namespace treeform::detail::repair {
 
 struct dropped_strays {
     std::uint64_t faces = 0;
-    std::vector<std::uint32_t> walls{};  ///< sources of those that went as walls, ascending
+    std::vector<std::uint32_t> walls{};  ///< sources of faces dropped as walls, ascending
 };
 
-/// What becomes of patches that end at others or hang on them.
+/// The treatment of patches that end at other patches, or hang on them.
 enum class walls : std::uint8_t { go, stay };
 
 /// Drops patches that bound nothing.
 ///
-/// - A patch with a free border and less than `share` of the area goes where it is nearly flat (its
-///   border, squared, is more than 8 times its area: a hemisphere has 6.3, a disk 12.6), so that
-///   filling its holes would make next to nothing of it. So does a flat patch of one or two faces
-///   and less than 1 % of the area, where these are less than 5 % together.
-/// - A patch that hangs on others and has a free border goes where it is so small or nearly flat.
-/// - A patch that only ends at other faces, as a wall inside a solid does, goes where each of
-///   these edges has an odd number of faces, and an even one without it; the smallest first. That
-///   is a guess: of three patches that end at one loop, any could be the wall.
+/// - A patch with a free border and less than `share` of the area is dropped if it is nearly flat
+///   (border length squared > 8 times the area; 6.3 for a hemisphere, 12.6 for a disk), since
+///   filling its holes would enclose almost nothing. So is a flat patch of one or two faces with
+///   less than 1 % of the area, if all such patches together have less than 5 %.
+/// - A patch that hangs on others, and has a free border, is dropped if it is that small or nearly
+///   flat.
+/// - A patch that only ends at other faces, like a wall inside a solid, is dropped if each of these
+///   edges has an odd number of faces, and an even number without it; the smallest first. This is a
+///   heuristic: of three patches that end at one loop, any could be the wall.
 ///
-/// \param is_sheet keep free borders: only walls go
+/// \param is_sheet keep free borders, and drop only walls
 dropped_strays drop_strays(working_mesh& mesh, double share, bool is_sheet,
                            walls inner = walls::go);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Fillings of large holes that go on as the surface around them does.
+/// Fairs fillings of large holes, so that they continue the surface around them smoothly.
 
 #include <libmesh/base/stars.hpp>
 #include <libmesh/repair/open_rims.hpp>
@@ -11,17 +11,16 @@
 
 namespace treeform::detail::repair {
 
-/// Whether triangles that close a rim are so many, and bend away from the faces around it so
-/// little, that a smooth surface is meant: by 45 degrees at most along half of the rim, but not by
-/// less than 2 degrees along nearly all of that half. Where a body was cut off, and where the
-/// surface around a hole is flat, also if it ends at the hole in a sharp edge, the filling stays
-/// flat.
+/// Whether a filling should be smooth: it has enough triangles, and its angle to the faces around
+/// it is at most 45 degrees along half of the rim, but not below 2 degrees along nearly all of that
+/// half. If a body was cut off, or the surface around the hole is flat, even up to a sharp edge at
+/// the hole, the filling stays flat.
 [[nodiscard]] bool is_to_be_fair(const working_mesh& mesh, const open_rim& rim,
                                  const std::vector<face>& filling);
 
-/// Moves the points from `first` on, which only faces of `filling` have, to where the surface bends
-/// the least: the squares of its Laplacian have the least sum. Leaves them where they are if that
-/// leads away from the rim further than it is wide.
+/// Moves the points from `first` on, which only `filling` uses, to minimize the sum of the squares
+/// of the surface's Laplacian. Does not move them if that leads further from the rim than the rim
+/// is wide.
 ///
 /// \param stars [V] the faces of the mesh without the filling at each point
 /// \cost  O(n) for n points, up to 2000 times

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Holes of a surface and triangles that close them.
+/// Finds holes of a surface, and fills them with triangles.
 
 #include <treeform/mesh/mesh.hpp>
 
@@ -11,12 +11,12 @@
 
 namespace treeform::detail::repair {
 
-/// Edges as faces run along them, to be looked up.
+/// A lookup table of the directed edges of faces.
 class directed_edges {
   public:
     explicit directed_edges(std::span<const face> faces);
 
-    /// The lowest face that runs from u to v and is not below `from`, or none.
+    /// The lowest face, from number `from` on, that runs from u to v; or none.
     [[nodiscard]] std::uint32_t face_along(std::uint32_t u, std::uint32_t v,
                                            std::uint32_t from = 0) const;
     [[nodiscard]] bool has(std::uint32_t u, std::uint32_t v) const;
@@ -31,14 +31,13 @@ class directed_edges {
     std::vector<edge> edges_;
 };
 
-/// The rims of holes: closed ways of points along which faces run on one side only, each in the
-/// direction in which the faces that fill it will run. A rim that comes back to one of its points
-/// is cut there into several.
+/// The rims of holes: closed sequences of points along border edges, in the direction of the faces
+/// that will fill them. A rim that returns to one of its points is split there.
 [[nodiscard]] std::vector<std::vector<std::uint32_t>> find_rims(std::span<const face> faces,
                                                                 const directed_edges& edges);
 
 /// Triangles between the points of the rim that close it, of the least total area for up to 200
-/// points; none when every way to do so would double an edge.
+/// points; none if every such set would repeat an edge.
 [[nodiscard]] std::vector<face> fill(std::span<const point3> points,
                                      const std::vector<std::uint32_t>& rim,
                                      const directed_edges& edges);

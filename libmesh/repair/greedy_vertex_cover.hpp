@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which faces to delete where pairs of them meet.
+/// Chooses the faces to delete from pairs that meet.
 
 #include <array>
 #include <cstddef>
@@ -10,11 +10,11 @@
 
 namespace treeform::detail::repair {
 
-/// [F] 1 for few of the faces, of which each pair has one: without them no pair is left.
+/// [F] 1 for the faces to delete: a small set that contains a face of each pair.
 ///
-/// Of two faces that may both leave a hole, `spared` being 0 for them, that goes which meets more
-/// others that are still there, or else the lower one; of a spared face and another, the other; of
-/// two spared ones, or a face that is paired with itself, both.
+/// Of two faces with `spared` 0, the one that meets more remaining faces is deleted, or else the
+/// lower one; of a spared face and another, the other; of two spared faces, both; also a face
+/// paired with itself.
 [[nodiscard]] std::vector<std::uint8_t> greedy_vertex_cover(
     std::span<const std::array<std::uint32_t, 2>> pairs, std::span<const std::uint8_t> spared);
 

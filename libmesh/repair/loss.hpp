@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How much of a mesh an operation has lost.
+/// Measures how much of a mesh an operation lost.
 
 #include <libmesh/repair/working_mesh.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -11,7 +11,7 @@
 
 namespace treeform::detail::repair {
 
-/// Volume where both are solids, else area.
+/// Volumes if both meshes are solids, else areas.
 struct loss {
     double before = 0.0;
     double after = 0.0;
@@ -20,12 +20,13 @@ struct loss {
     [[nodiscard]] bool is_beyond(double share) const { return after < (1.0 - share) * before; }
 };
 
-/// What `made` has lost of `given`.
+/// The loss of `made` compared with `given`.
 ///
-/// The volume of `given` is that of the solid that it is meant to be: with cracks closed, its faces
-/// made to agree, overlaps counted once (`repair` without filling). Where that is open, area
-/// counts: by how much it falls, but no more than what is lost (`lost_area`), so that neither what
-/// a union hides nor what is filled in anew is a loss. Nothing is measured beyond 2^300.
+/// The volume of `given` is that of the intended solid: with cracks closed, faces oriented
+/// consistently, and overlaps counted once (`repair` without filling). If that is open, areas are
+/// compared: the decrease of the area, but at most the lost area (`lost_area`), so that neither
+/// faces hidden in a union nor new fillings count as a loss. Nothing is measured for coordinates
+/// beyond 2^300.
 ///
 /// \param is_left [F] whether `made` has a part of each face
 /// \pre   no two faces of `made` meet
@@ -34,10 +35,10 @@ struct loss {
 [[nodiscard]] loss find_loss(mesh_view given, std::span<const std::uint8_t> is_left, mesh_view made,
                              const progress_callback& progress);
 
-/// The area of the faces of `given` of which nothing is left and that are neither on `made`, nor
+/// The area of the faces of `given` of which nothing is left, and which are neither on `made` nor
 /// inside its closed components.
 ///
-/// Looked at in the middle of each face, in doubles: it is a bound on guesses, and decides nothing
+/// Tested at the center of each face, in doubles: a limit for heuristics, which decides nothing
 /// about the mesh.
 ///
 /// \param is_left [F] whether `made` has a part of each face
@@ -46,14 +47,14 @@ struct loss {
 [[nodiscard]] double lost_area(mesh_view given, std::span<const std::uint8_t> is_left,
                                mesh_view made);
 
-/// Parts of which nothing is left.
+/// Numbers of parts of which nothing is left.
 struct vanished_parts {
-    std::uint64_t lost = 0;    ///< that lost more than some area: they bound nothing
-    std::uint64_t within = 0;  ///< that lost none: they were closed, within the solid
+    std::uint64_t lost = 0;    ///< parts that lost more than `largest` area: they bound nothing
+    std::uint64_t within = 0;  ///< parts that lost no area: they were closed, within the solid
 };
 
-/// How many parts of `mesh`, by edges, have nothing left of them, by whether they lost more than
-/// that area (`lost_area`) or none.
+/// Counts the parts of `mesh` (faces linked by edges) of which nothing is left, by whether they
+/// lost more than `largest` area (`lost_area`) or none.
 ///
 /// \param is_left [F] of the input, whether `made` has a part of each face
 /// \pre   `made` is closed
@@ -61,10 +62,10 @@ struct vanished_parts {
                                             std::span<const std::uint8_t> is_left, mesh_view made,
                                             double largest);
 
-/// That of faces with the same corners once.
+/// The area of the mesh, with faces of the same corners counted once.
 [[nodiscard]] double area_of_distinct(mesh_view mesh);
 
-/// Whether a component, by vertices, has a negative volume.
+/// Whether a component (faces linked by vertices) has a negative volume.
 [[nodiscard]] bool has_inward_component(mesh_view mesh);
 
 }  // namespace treeform::detail::repair

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where a surface ends.
+/// Finds the rims of holes.
 
 #include <libmesh/repair/working_mesh.hpp>
 
@@ -9,26 +9,26 @@
 
 namespace treeform::detail::repair {
 
-/// A closed way of different points, at least three, in the direction in which the faces that fill
-/// it will run.
+/// A closed sequence of at least three different points, in the direction of the faces that will
+/// fill it.
 struct open_rim {
     std::vector<std::uint32_t> points{};
-    std::vector<std::uint32_t> faces{};  ///< at the edge from each point to the next: one that runs
-                                         ///< against it
+    /// for the edge from each point to the next, a face that runs in the opposite direction
+    std::vector<std::uint32_t> faces{};
 };
 
-/// What rims run along.
+/// The edges of which rims consist.
 enum class rim_edges : std::uint8_t {
-    open,  ///< edges along which faces run more often one way than the other
-    free   ///< edges of one face; what does not close along these alone is no rim
+    open,  ///< edges whose signed face count is not zero
+    free   ///< edges of one face; sequences that do not close along these are not rims
 };
 
-/// The rims of all holes: along them, faces run as often one way as the other.
+/// The rims of all holes: filling all of them balances every edge.
 ///
-/// An edge along which faces run more often one way than the other, by n, is in n rims. So rims are
-/// there whatever the mesh, since all that faces leave over at a point goes on to another. A rim
-/// goes on at the next open edge around its last point; where there are several fans, or crowded
-/// edges, at the lowest open edge that is left. Rims are in the order of their lowest edges.
+/// An edge with signed face count n is in |n| rims. Rims exist for any mesh, since the imbalances
+/// of the edges at a point add up to 0. A rim continues at the next open edge around its last point
+/// or, if there are several fans or edges of more than two faces, at the lowest remaining open
+/// edge. Rims are in the order of their lowest edges.
 ///
 /// \cost O(V + F log F)
 /// \same on any number of threads

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Faces that agree on what is outside.
+/// Orients faces consistently, and outward.
 
 #include <libmesh/repair/working_mesh.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -11,60 +11,60 @@
 
 namespace treeform::detail::repair {
 
-/// Turns faces until two that have an edge to themselves run along it opposite ways; returns how
-/// many. Of each patch, the fewer are turned, and of as many, not the lowest face. A patch with one
-/// side only, as the Moebius strip, stays as it is.
+/// Flips faces until any two that share an edge with no third face are consistent; returns the
+/// number of flipped faces. In each patch, the minority is flipped; on a tie, the lowest face is
+/// kept. A one-sided patch, such as a Moebius strip, is not changed.
 ///
 /// \cost O(V + F)
 /// \same on any number of threads
 std::uint64_t make_faces_agree(working_mesh& mesh);
 
-/// What is turned as one: all that edges link, or shells (`shells`), of which several may touch
-/// along edges. Shells are for meshes that disagreed there: else what runs along an edge says what
-/// is meant, and a shell may be a wedge where the surface passes through itself.
+/// The unit that is flipped: all faces linked by edges, or shells (`shells`), of which several may
+/// touch along edges. Shells are for meshes that were inconsistent there; otherwise orientations at
+/// edges are taken as intended, and a shell may be a wedge where the surface passes through itself.
 enum class turned_as_one : std::uint8_t { component, shell };
 
-/// What is known of all edges of a mesh.
+/// Known properties of all edges of a mesh.
 enum class edge_facts : std::uint8_t {
     unknown,
-    closed,   ///< faces run as often one way as the other
-    manifold  ///< closed, and the faces at each vertex are one fan
+    closed,   ///< all signed face counts are zero
+    manifold  ///< closed, and the faces at each vertex form one fan
 };
 
-/// Its faces, and what is known of it.
+/// A closed component.
 struct closed_component {
     std::vector<std::uint32_t> faces{};
     box3 box{};
     double volume = 0.0;
-    bool is_filled = false;                  ///< some of its faces are guesses
-    std::optional<prepared_mesh> surface{};  ///< where it was asked for
-    std::optional<prepared_mesh> given{};    ///< without what was guessed; likewise
+    bool is_filled = false;                  ///< whether some of its faces are fillings
+    std::optional<prepared_mesh> surface{};  ///< its mesh; on demand
+    std::optional<prepared_mesh> given{};    ///< the same without fillings; on demand
 };
 
-/// The closed components of a mesh, those whose faces run as often one way as the other along each
-/// edge, and which way they face.
+/// The closed components of a mesh, that is, those whose signed face counts of edges are all zero,
+/// and their orientation.
 class closed_components {
   public:
     /// \cost O(V + F)
     closed_components(working_mesh& mesh, turned_as_one what, edge_facts known);
 
-    /// Turns those outward that have a negative volume and lie inside no other; returns how many.
-    /// What lies inside of one is turned with it, if from outside every second one is inward: a
-    /// solid with cavities, inside out. Cavities stay inside of what was filled, whether or not the
-    /// filling passes through them.
+    /// Flips the components that have a negative volume and lie inside no other; returns their
+    /// number. Components inside one of these are flipped with it if, from outside, every second
+    /// one is inward: a solid with cavities that is inside out. Cavities stay inside a filled
+    /// component, even if the filling passes through them.
     ///
-    /// \cost for a component turned inward, a winding number around each one whose box holds its
-    ///       own
+    /// \cost for an inward component, a winding number around each component whose box contains its
+    ///       box
     /// \same on any number of threads
     std::uint64_t turn_outward();
 
-    /// Whether every one has a positive volume.
+    /// Whether every component has a positive volume.
     [[nodiscard]] bool is_outward() const;
-    /// Of all of them.
+    /// The sum of their volumes.
     [[nodiscard]] double volume() const;
 
-    /// Whether the others wind once around every component that has a negative volume, and not
-    /// around any that has a positive one, so that each bounds what is inside.
+    /// Whether the winding number of the others is 1 around every component with a negative volume,
+    /// and 0 around every other component.
     ///
     /// \pre no two components meet; `turned_as_one::component`
     [[nodiscard]] bool is_well_nested();

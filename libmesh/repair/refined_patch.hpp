@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Triangles that close a rim, cut to the size of those around it.
+/// Refines a filling to the size of the triangles around it.
 
 #include <libmesh/repair/fill_hole.hpp>
 #include <libmesh/repair/open_rims.hpp>
@@ -10,11 +10,11 @@
 
 namespace treeform::detail::repair {
 
-/// `filling` with new points in the middle of triangles that are larger than the edges of the rim
-/// near them, and with edges swapped where the angles across them add up to more than 180 degrees.
-/// No triangle is degenerate, no edge has been there before.
+/// `filling` with new points at the centers of triangles that are large compared with the edges of
+/// the rim near them, and with edges flipped if the opposite angles add up to more than 180
+/// degrees. No triangle is degenerate, and no edge repeats an edge of the mesh.
 ///
-/// \param edges of the mesh without the filling
+/// \param edges the edges of the mesh without the filling
 /// \cost  O(n log n) for n points, at most 100,000
 /// \same  on any number of threads
 /// \source Liepa, Filling holes in meshes, SGP 2003, section 4

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Meshes that are a guess as a whole.
+/// Detects meshes that cannot be repaired meaningfully.
 
 #include <libmesh/repair/edge_parts.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -10,12 +10,12 @@
 
 namespace treeform::detail::repair {
 
-/// Whether faces disagree at so many edges of more than two that what they bound is anybody's
-/// guess: half of the faces of tetrahedra, say.
+/// Whether so many edges of three or more faces are unbalanced that the bounded solid is unclear;
+/// for example, half of the faces of tetrahedra.
 [[nodiscard]] bool is_hopeless(const edge_tally& tally, std::size_t face_count);
 
-/// Whether more than `most` pairs of faces meet for each face, so that they cut space into
-/// splinters. False where `progress` asks to stop.
+/// Whether more than `most` pairs of faces meet for each face, so that space is cut into splinters.
+/// False if `progress` returned false.
 ///
 /// \cost one `self_intersections`
 [[nodiscard]] bool is_tangle(mesh_view mesh, double most, const progress_callback& progress);

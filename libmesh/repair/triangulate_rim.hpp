@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Rims closed by triangles between their points.
+/// Closes rims by triangles between their points.
 
 #include <libmesh/repair/fill_hole.hpp>
 #include <libmesh/repair/open_rims.hpp>
@@ -10,13 +10,13 @@
 
 namespace treeform::detail::repair {
 
-/// Triangles between the points of the rim that close it and go on as the faces around it do: of
-/// the least sum of areas, squares of longest edges, and folds at edges. None of them is degenerate
-/// and no edge has been there before; of rims of more than 100 points, the best corners are cut off
-/// first until so few are left. None where there is no such way.
+/// Triangles between the points of the rim that close it and continue the faces around it: they
+/// minimize a sum of areas, squares of longest edges, and folds at edges. None is degenerate, and
+/// no edge repeats an edge of the mesh. For rims of more than 100 points, the best corners are
+/// first cut off until 100 are left. Empty if there are no such triangles.
 ///
-/// \param edges of the mesh
-/// \cost  O(n^3) for a rim of n <= 100 points, else O(n log n) more
+/// \param edges the edges of the mesh
+/// \cost  O(n^3) for a rim of n <= 100 points; beyond that, plus O(n log n)
 [[nodiscard]] std::vector<face> triangulate_rim(const working_mesh& mesh, const open_rim& rim,
                                                 const directed_edges& edges);
 

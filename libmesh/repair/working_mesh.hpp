@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A mesh while it is repaired.
+/// The mesh that is being repaired.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/repair.hpp>
@@ -14,7 +14,7 @@
 
 namespace treeform::detail::repair {
 
-/// Steps renumber and drop faces; points stay those of the input, so that they keep their numbers.
+/// Steps renumber and drop faces; points keep the numbers of the input.
 struct working_mesh {
     std::vector<point3> points;
     std::vector<face> faces;            ///< each with three different corners
@@ -27,7 +27,7 @@ struct working_mesh {
         source.push_back(from);
     }
 
-    /// [F] 1 for faces that fill holes, which have no source; empty where there are none.
+    /// [F] 1 for faces that fill holes, which have no source; empty if there are none.
     [[nodiscard]] std::vector<std::uint32_t> fillings() const {
         std::vector<std::uint32_t> is_filling;
         if (std::ranges::count(source, repair_result::none) == 0) return is_filling;
@@ -35,7 +35,7 @@ struct working_mesh {
         return is_filling;
     }
 
-    /// Drops the faces for which `is_dropped(f)`; returns how many.
+    /// Drops the faces for which `is_dropped(f)` is true; returns their number.
     template <class Dropped>
     std::uint64_t drop(const Dropped& is_dropped) {
         std::uint32_t kept = 0;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Faces that cover each other.
+/// Removes faces that cover each other.
 
 #include <treeform/mesh/mesh.hpp>
 
@@ -10,9 +10,9 @@
 
 namespace treeform::detail::round {
 
-/// [F] Which faces go, of those with the same corners: of a solid, they go in pairs back to back,
-/// since these bound nothing between them, so that the others face the same way; else all but the
-/// first go. The first ones stay.
+/// [F] 1 for faces to remove, of those with the same corners. For a solid, pairs of opposite faces
+/// are removed, since there is nothing between them, so that the remaining ones have the same
+/// orientation. Otherwise, all but the first are removed. The first ones stay.
 [[nodiscard]] std::vector<std::uint8_t> cancelled_faces(std::span<const face> faces, bool solid);
 
 }  // namespace treeform::detail::round

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where in space faces are, roughly.
+/// A coarse bit grid of the space that faces occupy.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/aabb.hpp>
@@ -14,14 +14,15 @@
 
 namespace treeform::detail::round {
 
-/// 64 x 64 x 64 cells of a box, and which of them the boxes of faces reach into, a bit each: 64 kB.
+/// 64 x 64 x 64 cells of a box, with a bit for each cell into which the box of a face reaches.
+/// Size: 64 kB.
 ///
-/// The cell of a coordinate never goes down when the coordinate goes up, however it is rounded, and
-/// what is beyond the box counts for the last cell. So the cells of a face's box are those between
-/// the cells of its corners, and boxes that overlap have a cell in common.
+/// The cell number is a monotone function of the coordinate, even with rounding, and coordinates
+/// beyond the box are in the outermost cell. So the cells of a face's box are those between the
+/// cells of its corners, and boxes that overlap have a common cell.
 class coarse_grid {
   public:
-    /// Its numbers along x, y and z in the three lowest bytes.
+    /// The cell numbers along x, y and z, in the three lowest bytes.
     using cell = std::uint32_t;
 
     explicit coarse_grid(const aabb<double, 3>& reach) : low_(reach.min), rows_(side * side, 0) {
@@ -41,7 +42,8 @@ class coarse_grid {
         return c;
     }
 
-    /// Several threads may do so at the same time.
+    /// Marks the cells of the box of a face, from the cells of its corners. May be called from
+    /// several threads at once.
     void add(cell a, cell b, cell c) {
         const range all(a, b, c);
         const std::atomic_ref is_full(is_full_);
@@ -55,7 +57,7 @@ class coarse_grid {
             }
     }
 
-    /// To be called when all have been added.
+    /// Call it after all faces were added.
     void finish() {
         around_.assign(rows_.size(), 0);
         for (std::size_t z = 0; z < side; ++z)
@@ -69,7 +71,7 @@ class coarse_grid {
             }
     }
 
-    /// False only if the face's box overlaps none of those that were added.
+    /// False only if the face's box overlaps the box of no added face.
     [[nodiscard]] bool may_meet(cell a, cell b, cell c) const {
         if (!is_full_ && touch(a, b) && touch(a, c) && !is_around(a)) return false;  // nearly all
         const range all(a, b, c);
@@ -82,15 +84,15 @@ class coarse_grid {
 
   private:
     static constexpr std::size_t side = 64;
-    static constexpr std::size_t most_rows = 256;  // what reaches further is not worth the while
+    static constexpr std::size_t most_rows = 256;  // larger boxes are not worth testing
 
-    /// Whether no number of the cells differs by more than one: then a number of 128 more than
-    /// those of `a`, less those of `b`, and one more is 128 to 130, and the other way round.
+    /// Whether no coordinate of the cells differs by more than 1: then 128 + a - b + 1 is 128 to
+    /// 130 in each byte, and so is 128 + b - a + 1.
     static bool touch(cell a, cell b) {
         constexpr cell top = 0x808080, one = 0x010101, all_but_low = 0xFCFCFC;
         return (((((a | top) - b + one) ^ top) | (((b | top) - a + one) ^ top)) & all_but_low) == 0;
     }
-    /// Whether the cell or one that touches it has been reached.
+    /// Whether the cell, or a cell that touches it, is marked.
     [[nodiscard]] bool is_around(cell c) const {
         return (around_[(c >> 16) * side + (c >> 8 & 0xFFU)] >> (c & 0xFFU) & 1U) != 0;
     }
@@ -116,8 +118,8 @@ class coarse_grid {
 
     std::array<double, 3> low_;
     std::array<double, 3> scale_{};
-    std::vector<std::uint64_t> rows_;    ///< along x, a bit a cell
-    std::vector<std::uint64_t> around_;  ///< the same with all cells that touch those
+    std::vector<std::uint64_t> rows_;    ///< rows along x, with a bit for each cell
+    std::vector<std::uint64_t> around_;  ///< the same, with all cells that touch marked cells
     bool is_full_ = false;
 };
 

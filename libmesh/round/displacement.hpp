@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How far a surface lies from what it was made of.
+/// The displacement of a surface from the one of which it was made.
 
 #include <treeform/mesh/mesh.hpp>
 
@@ -9,19 +9,20 @@
 
 namespace treeform::detail::round {
 
-/// How far apart two surfaces are, in each coordinate, as seen from their vertices.
+/// The distance of two surfaces, as the largest difference of a coordinate, measured at their
+/// vertices.
 struct surface_moves {
-    /// Points of the later one from the point of the earlier that each was, or else from the
-    /// nearest place on its faces.
+    /// Displacement of points of the later surface: from the earlier point that each was, or else
+    /// from the nearest point of the earlier faces.
     double moved = 0.0;
-    /// Points of the earlier one that are gone from the nearest place on the later: far, where a
-    /// part that was too thin has gone.
+    /// Distance of removed points of the earlier surface from the nearest point of the later one.
+    /// Large if a part that was too thin was removed.
     double gone = 0.0;
 };
 
-/// Measured in double where the points are, so that moves on the way there do not add up.
+/// Computed in double, from the final points, so that intermediate moves do not add up.
 ///
-/// \param point_of  [V] of `now`: point of `before`, or beyond these
+/// \param point_of  [V of `now`] point of `before`; or a number beyond these
 /// \pre   coordinates are finite
 /// \cost  as `closest_point` for the points that are new or gone
 /// \same  on any number of threads

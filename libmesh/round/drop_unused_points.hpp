@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Surfaces without the points that faces have left behind where they vanished.
+/// Drops points that no face uses.
 
 #include <libmesh/base/used_points.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -10,9 +10,9 @@
 
 namespace treeform::detail::round {
 
-/// The others keep their order.
+/// Drops the points that no face uses. The others keep their order.
 ///
-/// \param point_of  [V] goes along
+/// \param point_of  [V] is updated as well
 /// \cost O(V + F)
 inline void drop_unused_points(mesh& surface, std::vector<std::uint32_t>& point_of) {
     const std::vector<std::uint32_t> used = base::used_points(surface.points.size(), surface.faces);

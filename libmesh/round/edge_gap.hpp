@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Edges that pass each other.
+/// The gap between edges that pass each other.
 
 #include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -11,13 +11,13 @@
 
 namespace treeform::detail::round {
 
-/// The shortest way between two edges that has both ends between theirs.
+/// The shortest segment between two edges, if it ends inside both.
 struct edge_gap {
     double length;
     point3 middle;
 };
 
-/// \return none where the shortest way is at an end, or the edges are parallel
+/// \return none if the shortest segment is at an end of an edge, or the edges are parallel
 [[nodiscard]] inline std::optional<edge_gap> gap_between(const std::array<point3, 2>& s,
                                                          const std::array<point3, 2>& t) {
     const point3 u = base::minus(s[1], s[0]), v = base::minus(t[1], t[0]),

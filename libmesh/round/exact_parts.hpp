@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The components of an exact surface, and which of them rounding leaves nothing of.
+/// The components of an exact surface, to find those that vanish by rounding.
 
 #include <libmesh/round/round_surface.hpp>
 #include <treeform/mesh/properties.hpp>
@@ -15,7 +15,7 @@ namespace treeform::detail::round {
 class exact_parts {
   public:
     exact_parts() = default;
-    /// \param place_of  where a point of the surface is when rounded
+    /// \param place_of  returns the rounded position of a point of the surface
     template <class PlaceOf>
     exact_parts(const exact_surface& exact, const PlaceOf& place_of)
         : part_of_(face_components(exact.given.size() + exact.constructed.size(), exact.faces)) {
@@ -24,8 +24,8 @@ class exact_parts {
                 place_of_part_.push_back(place_of(exact.faces[f][0]));
     }
 
-    /// Counts the parts of which `result` has no face, and takes these out of `before`, the surface
-    /// that was rounded: what is gone as a whole has not moved.
+    /// Counts the components of which `result` has no face, and removes them from `before`, the
+    /// surface that was rounded, since vanished components do not count as moved.
     void count_vanished(rounded_surface& result, mesh& before) const {
         constexpr std::size_t most_listed = 100;
         std::vector<std::uint8_t> is_left(place_of_part_.size(), 0);
@@ -43,7 +43,7 @@ class exact_parts {
     }
 
   private:
-    /// By face, from 0 on in the order of their lowest faces; or empty.
+    /// [F] component of each face, in the order of their lowest faces; or empty.
     std::vector<std::uint32_t> part_of_{};
     std::vector<point3> place_of_part_{};
 };

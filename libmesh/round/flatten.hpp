@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Parts of a solid's surface that nearly lie in one plane, with as few faces as their rims need.
+/// Replaces nearly flat parts of a solid's surface by triangles of their rims.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/self_intersections.hpp>
@@ -13,41 +13,42 @@
 namespace treeform::detail::round {
 
 struct flatten_options {
-    double reach = 0.0;  ///< how far corners may be from a plane, a straight rim, and each other
-    std::span<const std::uint8_t> certified{};  ///< [F] 1 for faces that no part grows into
+    /// largest distance of corners from a plane, from a straight rim, and from each other
+    double reach = 0.0;
+    std::span<const std::uint8_t> certified{};  ///< [F] 1 for faces that must not belong to a part
 };
 
 struct flattened {
-    std::vector<point3> points;  ///< those given, then where rims cross
+    std::vector<point3> points;  ///< the given points, then crossings of rims
     std::vector<face> faces;
     std::vector<std::uint32_t>
-        face_of;                       ///< [F] face that the middle of each one lies in, or next to
-    std::vector<std::uint8_t> is_new;  ///< [F] 0 for faces that are as they were
+        face_of;  ///< [F] the former face that contains the center of each, or is next to it
+    std::vector<std::uint8_t> is_new;  ///< [F] 0 for unchanged faces
 };
 
-/// Faces of a CAD part that share a plane no longer do exactly once the part has been rotated. Cut
-/// along each other, they become many pieces, no further apart than rounding moves them. Around
-/// the faces that meet:
-/// - points that are within reach of each other become one;
-/// - edges get the points that are within reach of them;
-/// - connected faces near one plane are a flat part, grown from the largest face that is in none;
-/// - a part is replaced by triangles of what its rim winds around, seen along an axis; where it
-///   winds around nothing, as around two sheets back to back, nothing is left;
-/// - a rim between two parts becomes straight where all of it is within reach of the straight way;
-/// - where two sides of a rim cross, both get a new point.
-/// If a part has no such triangles, its rim is not straightened. If it still has none, all starts
-/// over with its faces among those that meet, at most three times. After that it is replaced face
-/// by face. No result, if that does not end.
+/// After a CAD part was rotated, its coplanar faces are no longer exactly coplanar. Cut along each
+/// other, they become many pieces whose distances are below the rounding errors. Around the faces
+/// that meet:
+/// - points within reach of each other are joined;
+/// - edges are split at points within reach of them;
+/// - connected faces near one plane form a flat part, grown from the largest face that is in none;
+/// - a part is replaced by triangles of the area around which its rim winds, in projection along an
+///   axis; if that is empty, as for two sheets back to back, nothing is left;
+/// - a rim between two parts becomes straight if all of it is within reach of the segment;
+/// - where two sides of a rim cross, both are split at a new point. If a part has no such
+/// triangles, its rim is not straightened. If that fails, too, the algorithm restarts with its
+/// faces among those that meet, at most three times; after that, the part is replaced face by face.
+/// None if that does not terminate.
 ///
-/// The sum of the boundaries stays what it was, so that a closed surface stays closed; points stay
-/// where they are. Whether less meets afterwards is for the caller to see.
+/// Signed face counts of edges are preserved, so a closed surface stays closed. Points do not move.
+/// The caller must check whether fewer faces meet afterwards.
 ///
 /// \param  meeting  pairs of faces that meet
-/// \cost   O(F), O(n log n) for the n corners there, and O(n^1.5) for those of a rim; each at most
-///         160 times
+/// \cost   O(F), O(n log n) for the n corners of these faces, and O(n^1.5) for n corners of a rim;
+///         each at most 160 times
 /// \same   on any number of threads
-/// \source Devillers, Lazard and Lenhart, 3D Snap Rounding, SoCG 2018, for points that go into
-///         edges near them
+/// \source Devillers, Lazard and Lenhart, 3D Snap Rounding, SoCG 2018, for splitting edges at near
+///         points
 [[nodiscard]] std::optional<flattened> flatten(mesh_view surface,
                                                std::span<const face_pair> meeting,
                                                const flatten_options& options);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Points that are near each other become one.
+/// Joins points that are near each other.
 
 #include <treeform/mesh/mesh.hpp>
 
@@ -10,11 +10,12 @@
 
 namespace treeform::detail::round {
 
-/// [V] What each point becomes: nearest pairs first, those of `near` that are within `reach` of
-/// each other become one of them, no further away; two that are held never do.
+/// [V] The point that each point becomes. Points of `near` within `reach` of each other become one
+/// of them, nearest pairs first, and none moves by more than `reach`; two held points are never
+/// joined.
 ///
 /// \param near     ascending
-/// \param is_held  [V] 1 for points that stay themselves
+/// \param is_held  [V] 1 for points that must not change
 [[nodiscard]] std::vector<std::uint32_t> joined_points(std::span<const point3> points,
                                                        std::span<const std::uint32_t> near,
                                                        std::span<const std::uint8_t> is_held,

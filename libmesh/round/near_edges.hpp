@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The edges of some faces of a surface.
+/// The edges of chosen faces of a surface.
 
 #include <libmesh/base/fill_stars.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -12,15 +12,15 @@
 
 namespace treeform::detail::round {
 
-/// The edges of chosen faces, each with its uses: the chosen faces it is an edge of.
+/// The edges of chosen faces, each with its uses, that is, the chosen faces at it.
 ///
 /// \cost O(V + N) for N faces of V points
 class near_edges {
   public:
     struct use {
-        std::uint64_t edge;   ///< its ends, the lower in front, as one number
-        std::uint32_t place;  ///< of the face among those chosen
-        int way;              ///< 1 when the face runs from the lower end to the higher, else -1
+        std::uint64_t edge;   ///< its ends as one number, the lower in the high bits
+        std::uint32_t place;  ///< position of the face among the chosen ones
+        int way;              ///< 1 if the face runs from the lower end to the higher, else -1
     };
 
     /// `faces` are numbers of faces of the surface. Both outlive this.
@@ -46,7 +46,7 @@ class near_edges {
     static constexpr std::size_t grain = std::size_t{1} << 8;  ///< points
 
     std::span<const std::uint32_t> faces_;
-    base::faces_by_point<std::uint64_t, use> at_;  ///< at lower ends, sorted
+    base::faces_by_point<std::uint64_t, use> at_;  ///< by lower end, sorted
 };
 
 }  // namespace treeform::detail::round

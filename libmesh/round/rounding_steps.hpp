@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How far rounding moves a point, and what a round of it changes.
+/// Limits and state of the rounds of `round_surface`, and the displacement of points by rounding.
 
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/point_math.hpp>
@@ -16,15 +16,15 @@
 
 namespace treeform::detail::round {
 
-/// How far rounds of mending go.
+/// Limits of the rounds.
 struct rounding_rounds {
-    double reach;          ///< how far apart what is joined may be, at first
-    double limit;          ///< and in the end
-    double height;         ///< of slivers
-    std::uint64_t visits;  ///< pairs of faces that may be held against each other to take these out
+    double reach;          ///< largest distance of joined elements, at first
+    double limit;          ///< the same at the end
+    double height;         ///< height below which faces are slivers
+    std::uint64_t visits;  ///< limit of the pairs of faces tested to remove slivers
 };
 
-/// What a round changes before it cuts.
+/// The state that a round changes before it cuts.
 struct rounding_state {
     mesh surface;
     std::vector<std::uint32_t> face_of, point_of;
@@ -44,11 +44,12 @@ inline double largest_difference(const point3& p, const point3& q) {
     return base::largest_of(base::minus(p, q));
 }
 
-/// Half a unit in the last place of the largest coordinate: rounding to nearest moves none further.
+/// Half a unit in the last place of the largest coordinate: the largest displacement by rounding to
+/// nearest.
 inline double half_unit(const point3& p) {
     const double largest = base::largest_of(p);
     const double unit = std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
-    return std::max(unit / 2, std::numeric_limits<double>::denorm_min());  // half of which is none
+    return std::max(unit / 2, std::numeric_limits<double>::denorm_min());  // whose half is 0
 }
 
 }  // namespace treeform::detail::round

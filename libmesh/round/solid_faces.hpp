@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The faces of an arrangement that bound a choice of its cells.
+/// The faces of an arrangement that bound the chosen cells.
 
 #include <libmesh/arrange/cells.hpp>
 #include <libmesh/arrange/mesh_arrangement.hpp>
@@ -12,12 +12,12 @@
 namespace treeform::detail::round {
 
 struct solid_faces {
-    std::vector<face> faces;             ///< in the order of the arrangement; inside is behind
-    std::vector<std::uint32_t> face_of;  ///< face of the arrangement that each one is
+    std::vector<face> faces;  ///< in the order of the arrangement, with the inside behind
+    std::vector<std::uint32_t> face_of;  ///< [F] the face of the arrangement
 };
 
-/// The faces with exactly one side in cells that are inside. Along each edge they run as often one
-/// way as the other, since all of space is inside or not.
+/// The faces with exactly one side in cells that are inside. They are closed: the signed face count
+/// of every edge is zero.
 ///
 /// \pre `inside` has a value for each cell, and `cells.open` is empty
 [[nodiscard]] solid_faces faces_around(const mesh_arrangement& cut, const arrangement_cells& cells,

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Faces of a closed surface that have their outside behind them.
+/// Finds the faces of a closed surface that were turned inside out.
 
 #include <libmesh/arrange/corner_line.hpp>
 #include <libmesh/round/near_edges.hpp>
@@ -13,27 +13,27 @@
 
 namespace treeform::detail::round {
 
-/// How often faces that a surface has besides those given wind around what is right beside a face,
-/// on the side where a line through it is followed. Empty where there are none.
+/// The winding number of further faces of a surface, just beside a face, on the side on which a
+/// line through it is followed. Empty if there are no further faces.
 using winding_of_rest = std::function<std::int64_t(const arrange::corner_line& line, bool ahead)>;
 
-/// The faces of a solid that it does not wind around once behind them and not at all in front, as
-/// part of it was turned inside out when its points moved, or has passed another part, and still
-/// meets nothing; ascending.
+/// The faces of a solid whose winding numbers are not 1 behind and 0 in front, ascending: parts
+/// that were turned inside out when points moved, or moved through another part, without meeting
+/// anything now.
 ///
-/// A part is connected along edges of two faces; there is one winding number in front of all of it.
-/// It is 0 if it has a face that has not moved and whose box meets no box of a face that has: a
-/// point next to such a face is met by nothing on its way from the exact places to the rounded
-/// ones, as rounding is monotone, and what lies beyond one side of a box of doubles stays there. A
-/// line tells of each loose part, all of which is near what has moved. Exact.
+/// Exact. A part is a set of faces linked by edges of two faces; the winding number in front is the
+/// same for all of it. It is 0 if the part has a face that did not move, and whose box meets no box
+/// of a moved face: nothing crosses a point next to such a face while points move to their rounded
+/// positions, since rounding is monotone, and everything beyond one side of a box of doubles stays
+/// there. For every other part, all of which is near moved faces, the winding number is computed by
+/// a ray.
 ///
-/// \param near the faces that have moved and all whose boxes meet one of theirs
-/// \param rest faces left out, none of which has moved or meets a box of a face that has
-/// \pre   the surface is closed, and its faces have an area and meet in common corners and edges
-///        only, where they were and where they are; before, all had the outside in front and the
-///        inside behind
-/// \cost  O(N log N) for N faces near; where parts are loose, a tree over the surface and a query
-///        for each
+/// \param near the moved faces, and those whose boxes meet one of theirs
+/// \param rest further faces, none of which moved or meets the box of a moved face
+/// \pre   the surface is closed, and its faces are not degenerate and meet only in common corners
+///        and edges, before and after; before, all had the outside in front and the inside behind
+/// \cost  O(N log N) for N near faces; if there are parts without an unmoved face, a tree over the
+///        surface and a query for each
 /// \same  on any number of threads
 [[nodiscard]] std::vector<std::uint32_t> find_turned_faces(mesh_view surface,
                                                            const near_edges& near,

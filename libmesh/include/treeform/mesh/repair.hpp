@@ -79,9 +79,9 @@ struct repair_options {
 
 /// Counts of each step's changes. Closed gaps, chosen orientations and filled holes are heuristic.
 struct repair_statistics {
-    std::uint64_t tetrahedra = 0;      ///< tetrahedra formed by faces; only their boundary was kept
-    std::uint64_t degenerate = 0;      ///< faces without area, and slivers beside them, dropped
-    std::uint64_t repeated = 0;        ///< faces that repeat another, dropped
+    std::uint64_t tetrahedra = 0;  ///< tetrahedra formed by faces; only their boundary was kept
+    std::uint64_t degenerate = 0;  ///< faces without area, dropped; if there are any, also slivers
+    std::uint64_t repeated = 0;    ///< faces that repeat another, dropped
     std::uint64_t closed_edges = 0;    ///< pairs of border edges joined into one edge
     std::uint64_t split_edges = 0;     ///< border edges split at vertices that lie on them
     double gap_limit = 0.0;            ///< largest width of cracks searched for

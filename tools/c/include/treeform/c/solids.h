@@ -223,8 +223,9 @@ TREEFORM_C_API void treeform_resolve_options_init(treeform_resolve_options* opti
 
 /// Counts of each step's changes. Closed gaps, chosen orientations and filled holes are heuristic.
 typedef struct treeform_repair_statistics {
-    uint64_t tetrahedra;      ///< tetrahedra formed by faces; only their boundary was kept
-    uint64_t degenerate;      ///< faces without area, and slivers beside them, dropped
+    uint64_t tetrahedra;  ///< tetrahedra formed by faces; only their boundary was kept
+    /// faces without area, dropped; if there are any, also slivers
+    uint64_t degenerate;
     uint64_t repeated;        ///< faces that repeat another, dropped
     uint64_t closed_edges;    ///< pairs of border edges joined into one edge
     uint64_t split_edges;     ///< border edges split at vertices that lie on them
