@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Progress of work that several threads do, and the end of it when the caller says so.
+/// Thread-safe progress, which throws if the caller cancels.
 
 #include <functional>
 #include <mutex>
@@ -10,7 +10,7 @@
 
 namespace treeform::detail::stream {
 
-/// Thrown through the work, and caught where it was called.
+/// Thrown if the progress callback returned false; caught by the public functions.
 struct cancelled {};
 
 class cancellable_progress {

@@ -1,7 +1,6 @@
 #pragma once
 /// \file
-/// The processes (ranks) that do one work together: what each sends to all, and which share is
-/// whose.
+/// Communication of the processes (ranks) of a job, and the division of work into shares.
 
 #include <libmesh/stream/state_record.hpp>
 #include <treeform/mesh/mesh_file.hpp>
@@ -15,10 +14,10 @@
 
 namespace treeform::detail::stream {
 
-/// Consecutive things; all unless said otherwise.
+/// A range of consecutive elements; by default all.
 struct share {
     std::uint64_t first = 0;
-    std::uint64_t last = std::numeric_limits<std::uint64_t>::max();  ///< and one more
+    std::uint64_t last = std::numeric_limits<std::uint64_t>::max();  ///< exclusive
 
     [[nodiscard]] std::uint64_t size() const { return last - first; }
     [[nodiscard]] bool has(std::uint64_t i) const { return i >= first && i < last; }
@@ -31,10 +30,10 @@ class communicator {
     [[nodiscard]] std::size_t size() const { return all_.size; }
     [[nodiscard]] std::size_t rank() const { return all_.rank; }
     [[nodiscard]] bool is_root() const { return all_.rank == 0; }
-    /// One that is alone, where others do nothing.
+    /// Whether there is only one process.
     [[nodiscard]] bool is_alone() const { return all_.size == 1; }
 
-    /// Of `count` things, those of a rank.
+    /// The share of a rank in `count` elements.
     [[nodiscard]] share share_of(std::uint64_t count, std::size_t rank) const {
         const std::uint64_t each = count / size();
         const auto begin = [&](std::uint64_t r) {
@@ -43,10 +42,10 @@ class communicator {
         return {begin(rank), begin(rank + 1)};
     }
 
-    /// Whose share has thing `i` of `count`.
+    /// The rank whose share contains element `i` of `count`.
     [[nodiscard]] std::size_t owner_of(std::uint64_t i, std::uint64_t count) const {
         const std::uint64_t each = count / size();
-        const std::uint64_t larger = count % size() * (each + 1);  // things in shares of one more
+        const std::uint64_t larger = count % size() * (each + 1);  // elements in the larger shares
         return static_cast<std::size_t>(i < larger ? i / (each + 1)
                                                    : count % size() + (i - larger) / each);
     }
@@ -60,7 +59,7 @@ class communicator {
             for (std::string& bytes : all_.exchange(mine.bytes())) received.emplace_back(bytes);
         return received;
     }
-    /// Rank by rank: `send(mine)` writes what the rank sends, which all receive,
+    /// Rank by rank: the rank writes its message in `send(mine)`, and all ranks get it in
     /// `receive(received)`, before the next rank begins. Collective: every rank must call this.
     template <class Send, class Receive>
     void sequential(const Send& send, const Receive& receive) const {
@@ -70,8 +69,8 @@ class communicator {
             receive(std::move(exchange(mine)[turn]));
         }
     }
-    /// Where this one stops in its turn, of so many bytes: at the end of its share; the last one
-    /// goes to the end, wherever that is.
+    /// The byte at which this rank ends its turn: the end of its share of `bytes`; no limit for the
+    /// last rank.
     [[nodiscard]] std::uint64_t end_of_turn(std::uint64_t bytes) const {
         return rank() + 1 == size() ? std::numeric_limits<std::uint64_t>::max()
                                     : share_of(bytes, rank()).last;
@@ -92,7 +91,7 @@ class communicator {
         return all;
     }
 
-    /// Of what lower ranks give.
+    /// The sum of the values of lower ranks.
     [[nodiscard]] std::uint64_t sum_before(std::uint64_t mine) const {
         state_writer sent;
         sent.number(mine);

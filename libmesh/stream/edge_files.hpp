@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Counts edges of more than two faces, of more faces than memory holds, which each rank has some
-/// of.
+/// Counts edges of more than two faces, for more faces than fit into memory, distributed over
+/// ranks.
 
 #include <libmesh/stream/cancellable_progress.hpp>
 #include <libmesh/stream/communicator.hpp>
@@ -21,14 +21,14 @@
 
 namespace treeform::detail::stream {
 
-using numbered_edge = std::uint64_t;               ///< by the numbers of its ends
-using placed_edge = std::array<std::uint64_t, 3>;  ///< by the places of its ends, in floats
+using numbered_edge = std::uint64_t;               ///< by the point numbers of its ends
+using placed_edge = std::array<std::uint64_t, 3>;  ///< by the coordinates of its ends, in floats
 
 [[nodiscard]] inline numbered_edge edge_between(std::uint32_t a, std::uint32_t b) {
     return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
 }
 
-/// Equal where the ends have equal coordinates (-0 equals +0). \pre float32 holds these
+/// Equal if the ends have equal coordinates (-0 equals +0). \pre coordinates are float32 values
 [[nodiscard]] inline placed_edge edge_between(const point3& a, const point3& b) {
     const auto bits = [](double x) {
         return std::uint64_t{std::bit_cast<std::uint32_t>(static_cast<float>(x) + 0.0F)};
@@ -39,24 +39,24 @@ using placed_edge = std::array<std::uint64_t, 3>;  ///< by the places of its end
     return {from[0] << 32 | from[1], from[2] << 32 | to[0], to[1] << 32 | to[2]};
 }
 
-/// All uses of an edge go to the same of several buckets, each of which memory holds. Each rank
-/// has a file for its uses of a bucket, and counts a share of the buckets.
+/// All uses of an edge are put into the same bucket; each bucket fits into memory. Each rank has a
+/// file for its uses in each bucket, and counts a share of the buckets.
 template <class Edge>
 class TREEFORM_API edge_files {
   public:
-    /// For at most `uses` of edges by all ranks. Files are called `name` and numbers. About
-    /// `memory` bytes are held.
+    /// For at most `uses` of edges by all ranks together. File names are `name` followed by
+    /// numbers. Uses about `memory` bytes.
     edge_files(const work_folder& folder, const communicator& all, std::string name,
                std::uint64_t uses, std::uint64_t memory);
     ~edge_files();
     edge_files(const edge_files&) = delete;
     edge_files& operator=(const edge_files&) = delete;
 
-    /// A face has this edge.
+    /// Adds a use of an edge by a face.
     void put(const Edge& edge) {
         writers_[static_cast<std::size_t>((mixed(edge) >> 32) * writers_.size() >> 32)].put(edge);
     }
-    /// How many edges more than two faces have, of those of all ranks. Call it once, after all
+    /// The number of edges with more than two faces, over all ranks. Call it once, after all uses
     /// were put. Collective: every rank must call this. \throws io_error, cancelled
     [[nodiscard]] std::uint64_t count_nonmanifold(cancellable_progress& pace);
 
@@ -76,7 +76,7 @@ class TREEFORM_API edge_files {
     const communicator& all_;
     std::string name_;
     std::vector<record_writer<Edge>> writers_{};  ///< for each bucket
-    std::size_t most_;                            ///< uses held at a time
+    std::size_t most_;                            ///< uses in memory at a time
 };
 
 extern template class edge_files<numbered_edge>;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// One file of the parts that each rank writes.
+/// Joins the parts of a file that the ranks write.
 
 #include <libmesh/stream/communicator.hpp>
 
@@ -11,20 +11,20 @@
 
 namespace treeform::detail::stream {
 
-/// Copies bytes from one file into another, which is there. \throws io_error
+/// Copies bytes from one file into another, existing file. \throws io_error
 void copy_bytes(const std::filesystem::path& from, std::uint64_t first,
                 const std::filesystem::path& to, std::uint64_t at, std::uint64_t count);
 
-/// Where one writes its part of a file, rank 0 the whole: `part` is that of another.
+/// The path to which a rank writes its part of file `to`: rank 0 a temporary file beside it, which
+/// becomes the whole; other ranks `part`.
 [[nodiscard]] std::filesystem::path part_path(const std::filesystem::path& to,
                                               const communicator* all,
                                               const std::filesystem::path& part);
 
-/// Text on its way to a file.
+/// Writes text to a file; ranks write consecutive parts.
 class text_out {
   public:
-    /// `all` are the ranks that write a part each, the others in `part`; none: it is written
-    /// here.
+    /// `all`: each rank writes a part, ranks other than 0 to `part`. Null: this process writes all.
     text_out(std::filesystem::path to, const communicator* all, const std::filesystem::path& part);
 
     /// \throws io_error

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is kept of groups of several points, where it is not simply the first of them.
+/// The points kept of groups, if these are not simply the first ones.
 
 #include <libmesh/stream/all_to_all.hpp>
 #include <libmesh/stream/tile_steps.hpp>
@@ -12,8 +12,8 @@
 
 namespace treeform::detail::stream {
 
-/// Points with their properties as rows of numbers: three for the coordinates, then the bytes of
-/// the columns.
+/// Packs points with their properties into rows of numbers: three for the coordinates, then the
+/// bytes of the columns.
 class packed_points {
   public:
     explicit packed_points(const mesh_file& header);
@@ -25,7 +25,7 @@ class packed_points {
 
     struct field {
         std::size_t column;
-        std::size_t byte;  ///< in the row
+        std::size_t byte;  ///< position in the row
         scalar_type type;
     };
     [[nodiscard]] const std::vector<field>& fields() const { return fields_; }
@@ -35,28 +35,28 @@ class packed_points {
     std::vector<field> fields_{};
 };
 
-/// The rows that stand for the groups of several points, by ascending number of their first. Of
-/// several ranks, each has those of the first points that are assigned to it.
+/// The kept rows of groups of several points, ascending by the number of the group's first point.
+/// Each rank has those of the first points assigned to it.
 class kept_rows {
   public:
-    /// Reads the points that are assigned to the process. Replaces the longest move of `w` by that
-    /// to what is kept. Collective: every rank must call this.
+    /// Reads the points assigned to the process. Sets the longest move in `w` to that from the
+    /// points to the kept rows. Collective: every rank must call this.
     kept_rows(cancellable_progress& pace, const work_folder& folder, const communicator& all,
               const tile_task& task, tile_steps& steps, tiles_welded& w);
 
-    /// Rank 0 gets the rows of all. \pre all points are assigned to it
+    /// Sends the rows of all ranks to rank 0. \pre all points are assigned to it
     void gather_first(const tiles_welded& w);
 
-    /// Whether the point gives its properties to what is kept.
+    /// Whether the properties of the point are those of its group.
     [[nodiscard]] bool gives(std::uint64_t point) const { return givers_.keeps(point); }
-    /// Points that do not, of those that are assigned to the process.
+    /// Number of points for which this is false, of those assigned to the process.
     [[nodiscard]] std::uint64_t dropped() const { return givers_.dropped(); }
-    /// Whether float32 holds the coordinates of all rows.
+    /// Whether float32 holds the coordinates of all rows exactly.
     [[nodiscard]] bool single() const { return single_; }
 
-    /// From the first row again.
+    /// Restarts at the first row.
     void rewind();
-    /// Puts the next row in the place of a point of `block`.
+    /// Replaces a point of `block` by the next row.
     void replace(io::point_block& block, std::size_t point);
 
   private:
@@ -75,12 +75,13 @@ class kept_rows {
     weld_keep keep_;
     std::uint64_t points_;
     packed_points packed_;
-    shared_sorter members_;  ///< leader, number, key, and the packed point
-    all_to_all changes_;     ///< first points of groups, and those that give instead
+    shared_sorter members_;  ///< rows of leader, number, key, and the packed point
+    /// pairs of a group's first point and the point that gives its properties
+    all_to_all changes_;
     kept_points givers_;
     bool single_ = true;
     bool has_all_;
-    std::vector<record_count> counts_{};  ///< of the rows of each: leader, and the packed point
+    std::vector<record_count> counts_{};  ///< rows of each rank: leader, and the packed point
     std::optional<row_merge> next_{};
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Files that all ranks see for some time.
+/// Temporary files shared by all ranks.
 
 #include <libmesh/stream/communicator.hpp>
 #include <libmesh/stream/record_file.hpp>
@@ -12,7 +12,7 @@
 
 namespace treeform::detail::stream {
 
-/// Rank 0 makes them, and removes them at the end, whatever that is.
+/// Rank 0 creates the files, and removes them at the end, also after an exception.
 class passing_files {
   public:
     explicit passing_files(const communicator& all) : all_(all) {}
@@ -23,8 +23,8 @@ class passing_files {
         for (const std::filesystem::path& file : files_) std::filesystem::remove(file, ignored);
     }
 
-    /// Makes an empty one, in the place of what a killed run has left. Others see it when they have
-    /// received it. \throws io_error
+    /// Creates an empty file, replacing one that a killed run left. Other ranks may use it after
+    /// the next communication. \throws io_error
     void add(std::filesystem::path file) {
         if (!all_.is_root()) return;
         std::filesystem::remove(file);

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The values of points that rules, conditions and choices look at, block by block.
+/// Computes the values of points that the order, the conditions and the choice of kept points use,
+/// block by block.
 
 #include <libmesh/weld/agreement.hpp>
 #include <treeform/mesh/point_stream.hpp>
@@ -19,14 +20,14 @@ class point_keys {
     ///         std::invalid_argument as `weld`
     point_keys(const mesh_file& header, const weld_stream_options& options);
 
-    /// What the values are for.
+    /// The conditions on the values.
     [[nodiscard]] const weld::agreement& agree() const { return agree_; }
     [[nodiscard]] const std::vector<weld_condition>& conditions() const { return conditions_; }
 
-    /// Those of all points, one point after the other, in the place of what is in `to`.
+    /// Writes the values of all points, point after point, to `to`.
     void values_of(io::point_block& block, std::vector<std::uint64_t>& to) const;
-    /// One a point: less for what comes first in the order, or is rather kept; 0 without a
-    /// property.
+    /// Writes one key for each point: smaller for points that come earlier in the order, or are
+    /// preferred; 0 without a property.
     void order_of(io::point_block& block, std::vector<std::uint64_t>& to) const;
     void choice_of(io::point_block& block, std::vector<std::uint64_t>& to) const;
 

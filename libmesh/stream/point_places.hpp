@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where the points of a mesh are in files, while its faces are read.
+/// Stores the points of a mesh in files while its faces are read.
 
 #include <libmesh/io/face_rows.hpp>
 #include <libmesh/io/scratch.hpp>
@@ -16,14 +16,14 @@
 
 namespace treeform::detail::stream {
 
-/// Bounds the pages of mapped files that are in memory at once.
+/// Limits the pages of mapped files in memory.
 class page_budget {
   public:
-    /// At most about `memory` bytes are to be held.
+    /// Keeps at most about `memory` bytes.
     explicit page_budget(std::uint64_t memory)
         : at_once_(std::max<std::uint64_t>(1024, memory / page)) {}
 
-    /// Whether memory must be given back first.
+    /// Whether memory must be released before the next access.
     [[nodiscard]] bool is_spent() {
         if (++since_ <= at_once_) return false;
         since_ = 0;
@@ -31,13 +31,13 @@ class page_budget {
     }
 
   private:
-    static constexpr std::uint64_t page = 4096;  ///< bytes that reading one record brings in
+    static constexpr std::uint64_t page = 4096;  ///< bytes loaded by reading one record
 
     std::uint64_t at_once_;
     std::uint64_t since_ = 0;
 };
 
-/// In a file of its own that nobody else sees.
+/// Points in a private file.
 class placed_points : public io::point_store {
   public:
     placed_points(std::unique_ptr<io::scratch> file, std::uint64_t memory)
@@ -50,19 +50,19 @@ class placed_points : public io::point_store {
     std::unique_ptr<io::scratch> file_;
     page_budget budget_;
     std::size_t size_ = 0;
-    std::size_t held_ = 0;  ///< bytes since memory was given back
+    std::size_t held_ = 0;  ///< bytes since memory was released
 };
 
-/// In a file of each rank.
+/// Points in one file for each rank.
 class shared_points : public io::point_store {
   public:
-    /// Of `count` points, the process puts those of its `io::file_part`.
+    /// For `count` points in total; the process puts those of its `io::file_part`.
     shared_points(const work_folder& folder, const communicator& all, std::size_t count,
                   std::uint64_t memory);
 
     void put(points_view points) override;
     [[nodiscard]] point3 at(std::uint32_t point) override;
-    /// Those that a process has put, which nobody needs any more.
+    /// Removes the file of a rank; call it when no rank needs it any more.
     static void remove(const work_folder& folder, std::size_t rank) {
         std::filesystem::remove(path(folder, rank));
     }
@@ -72,10 +72,10 @@ class shared_points : public io::point_store {
 
     const work_folder& folder_;
     std::size_t rank_;
-    std::vector<std::uint64_t> firsts_{};  ///< of each part, and the count
+    std::vector<std::uint64_t> firsts_{};  ///< first point of each part, then the count
     page_budget budget_;
     std::vector<io::source> parts_{};
-    std::size_t last_ = 0;  ///< the part that was looked at
+    std::size_t last_ = 0;  ///< the part accessed last
 };
 
 }  // namespace treeform::detail::stream

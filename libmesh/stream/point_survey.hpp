@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is to be known of a cloud before it is cut into tiles.
+/// The survey of a cloud before it is cut into tiles.
 
 #include <libmesh/stream/cancellable_progress.hpp>
 #include <libmesh/stream/communicator.hpp>
@@ -18,31 +18,32 @@ namespace treeform::detail::stream {
 struct point_survey {
     cloud_survey cloud{};
     struct part {
-        std::vector<point3> points{};         ///< finite, all different
-        std::vector<std::uint32_t> counts{};  ///< of equal ones, that each stands for; empty: of 1
-        double share = 1.0;                   ///< of what it stands for
+        std::vector<point3> points{};  ///< finite and all different
+        /// number of equal points that each represents; empty: 1
+        std::vector<std::uint32_t> counts{};
+        double share = 1.0;  ///< fraction of the points that the sample contains
     };
-    part sample{};  ///< of all points
-    /// Of the cubes whose diagonal is the tolerance, a point in each: about what is kept. None
-    /// where the tolerance was not known yet.
+    part sample{};  ///< sample of all points
+    /// A sample with one point in each cube whose diagonal is the tolerance: approximately the kept
+    /// points. None if the tolerance was not known yet.
     std::optional<part> places{};
 };
 
-/// Points read at a time.
+/// Number of points read at a time.
 inline constexpr std::size_t points_a_block = std::size_t{1} << 15;
 
-/// Reads the cloud once, each of `all` its share, in memory that does not depend on its size.
-/// Samples have `most` points. All know all in the end.
+/// Reads the cloud once, each rank its share, with memory independent of its size. Samples have at
+/// most `most` points. All ranks get the result for the whole cloud.
 /// \throws io_error, cancelled
 [[nodiscard]] point_survey survey(joined_points& points, const communicator& all, const share& mine,
                                   std::optional<double> tolerance, std::size_t most,
                                   cancellable_progress& pace);
 
-/// The number of the cube of a point, equal for those of one cube; with tolerance 0 of the point.
+/// A number equal for points in the same cube; with tolerance 0, for equal points.
 [[nodiscard]] std::uint64_t cube_of(const point3& p, double tolerance);
 
 void store(const point_survey& survey, state_writer& state);
-/// The sample is not among it.
+/// Loads a survey, without the sample.
 [[nodiscard]] point_survey load_survey(state_reader& state);
 
 }  // namespace treeform::detail::stream

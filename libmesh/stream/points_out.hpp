@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Points on their way to a file, of which each rank may write a part.
+/// Writes points to a file, of which each rank may write a part.
 
 #include <libmesh/stream/communicator.hpp>
 #include <libmesh/stream/leading_points.hpp>
@@ -21,10 +21,10 @@ namespace treeform::detail::stream {
 
 using output_path = std::pair<std::filesystem::path, write_options>;
 
-/// Rows of a block on their way to a file of points.
+/// Writes rows of blocks to a point file.
 class points_out {
   public:
-    /// `all` are the ranks that write a part each; none: the file is written here.
+    /// `all`: each rank writes a part. Null: this process writes the whole file.
     points_out(const output_path& to, const mesh_file& header, std::uint64_t count,
                const communicator* all, const std::filesystem::path& part,
                std::size_t most_corners = 0);
@@ -33,7 +33,8 @@ class points_out {
 
     void write(const io::point_block& block, const std::vector<std::uint32_t>& rows);
     void write(const io::point_block& block);
-    /// The process has `mine` of the points. Collective: every rank must call this.
+    /// Begins the part of the process, which has `mine` points. Collective: every rank must call
+    /// this.
     void start_part(const work_folder& folder, const mesh_file& header, const std::string& name,
                     std::uint64_t mine);
     void write(tile_faces& faces, bool all);
@@ -51,7 +52,7 @@ class points_out {
     const communicator* all_;
     point_writer writer_;
     std::optional<leading_points> leading_{};
-    std::optional<passing_files> values_{};  ///< of all parts, where they share them
+    std::optional<passing_files> values_{};  ///< values of all parts, if parts share them
     io::point_block some_{};
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Polygons that were cut into triangles become polygons again.
+/// Rejoins triangles of polygons.
 
 #include <treeform/mesh/mesh_file.hpp>
 
@@ -9,10 +9,10 @@
 
 namespace treeform::detail::stream {
 
-/// Puts neighboring triangles of one polygon together that still are a fan, and leaves those that
-/// are not, or that would repeat a corner which `unlike_corners` forbids, as faces of their own.
-/// The row of a polygon is that of its first triangle. The reverse of `mesh_file::split_polygons`
-/// when nothing has changed in between.
+/// Joins consecutive triangles of one polygon that still form a fan. Triangles that do not, or that
+/// would repeat a corner although `unlike_corners` is set, stay separate faces. The row of a
+/// polygon is that of its first triangle. The inverse of `mesh_file::split_polygons` if nothing
+/// changed in between.
 ///
 /// \pre `polygon` is [F], ascending; "face" has a row a triangle
 void rejoin_polygons(mesh_file& file, std::span<const std::uint32_t> polygon, bool unlike_corners);

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Files of records as they are in memory, written and read front to back, a piece at a time. None
-/// is open between two pieces, so there may be any number of them.
+/// Files of records, stored as in memory, written and read sequentially in pieces. Files are not
+/// kept open between pieces, so there may be any number of them.
 
 #include <libmesh/stream/state_record.hpp>
 #include <treeform/mesh/weld_stream.hpp>
@@ -18,10 +18,10 @@
 
 namespace treeform::detail::stream {
 
-/// A number for all bytes given, that any change of them changes nearly always. Not for enemies.
+/// A checksum against accidental changes; not cryptographic.
 class TREEFORM_API digest {
   public:
-    /// A multiple of eight bytes.
+    /// Adds bytes; their number must be a multiple of eight.
     void add(std::span<const std::byte> bytes);
     [[nodiscard]] std::uint64_t value() const { return value_; }
 
@@ -29,7 +29,7 @@ class TREEFORM_API digest {
     std::uint64_t value_ = 0x9e3779b97f4a7c15;
 };
 
-/// What shows that a file of records is whole.
+/// The number of records and the checksum of a file, to verify that it is complete.
 struct record_count {
     std::uint64_t records = 0;
     std::uint64_t digest = 0;
@@ -38,22 +38,23 @@ struct record_count {
 void store_count(const record_count& c, state_writer& state);
 [[nodiscard]] record_count load_count(state_reader& state);
 
-/// Whether it is of the folder, its files or the memory, not of what is read or written.
+/// Whether an error concerns the folder, its files or the memory, not an input or output file.
 [[nodiscard]] inline bool is_of_tiles(const io_error& error) {
     return error.why() != io_error::kind::file && error.why() != io_error::kind::blocks;
 }
 
-/// Appends bytes to a file, which is opened for it. \throws io_error
+/// Opens a file, appends bytes, and closes it. \throws io_error
 TREEFORM_API void append_to(const std::filesystem::path& path, std::span<const std::byte> bytes);
 /// Writes bytes into a file, from byte `at` on. \throws io_error
 TREEFORM_API void write_to(const std::filesystem::path& path, std::uint64_t at,
                            std::span<const std::byte> bytes);
-/// Puts what was written on the disk. \throws io_error
+/// Flushes a file to the disk. \throws io_error
 TREEFORM_API void sync_file(const std::filesystem::path& path);
-/// Reads from byte `at` on, as many as there are. \throws io_error
+/// Reads from byte `at` on, up to the end of the file; returns the number of bytes read. \throws
+/// io_error
 [[nodiscard]] TREEFORM_API std::size_t read_from(const std::filesystem::path& path,
                                                  std::uint64_t at, std::span<std::byte> bytes);
-/// A file that is open to be read, for many short looks.
+/// A file kept open for many short reads.
 class TREEFORM_API open_file {
   public:
     /// \throws io_error
@@ -70,14 +71,14 @@ class TREEFORM_API open_file {
     std::filesystem::path path_;
     int fd_;
 };
-/// None where there is no such file.
+/// The size of a file in bytes; none if it does not exist.
 [[nodiscard]] std::optional<std::uint64_t> size_of(const std::filesystem::path& path);
 [[noreturn]] TREEFORM_API void fail_damaged(const std::filesystem::path& path);
 
 template <class Record>
 requires(std::is_trivially_copyable_v<Record> && sizeof(Record) % 8 == 0) class record_writer {
   public:
-    /// Starts the file anew. `bytes` are held back at most.
+    /// Creates or truncates the file. Buffers at most `bytes`.
     record_writer(std::filesystem::path path, std::size_t bytes)
         : path_(std::move(path)), most_(bytes / sizeof(Record) + 1) {
         std::filesystem::remove(path_);
@@ -94,13 +95,13 @@ requires(std::is_trivially_copyable_v<Record> && sizeof(Record) % 8 == 0) class 
         held_.insert(held_.end(), records.begin(), records.end());
         if (held_.size() >= most_) flush();
     }
-    /// Writes out the rest. \throws io_error
+    /// Writes the rest, and flushes it to the disk. \throws io_error
     record_count finish() {
         const record_count all = finish_unsynced();
         sync_file(path_);
         return all;
     }
-    /// The same for what need not outlive the process.
+    /// The same without flushing to the disk, for files that need not outlive the process.
     record_count finish_unsynced() {
         flush();
         held_ = {};
@@ -132,15 +133,15 @@ class record_reader {
         : path_(std::move(path)),
           expected_(expected),
           most_((bytes / sizeof(Record) / together + 1) * together) {}
-    /// Only `count` records from `first` on, which are not checked.
+    /// Reads only `count` records from `first` on; the checksum is not verified.
     void narrow(std::uint64_t first, std::uint64_t count) {
         read_ = first;
         expected_.records = first + count;
         is_part_ = true;
     }
 
-    /// The next records, no longer valid at the next call; none at the end.
-    /// \throws io_error when the file is not what was written
+    /// The next records, valid until the next call; none at the end.
+    /// \throws io_error if the file was changed or is incomplete
     [[nodiscard]] std::span<const Record> next() {
         const std::uint64_t left = expected_.records - read_;
         held_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(left, most_)));
@@ -163,7 +164,7 @@ class record_reader {
     digest digest_{};
 };
 
-/// Whether the file holds what was written.
+/// Whether the file is complete and unchanged.
 template <class Record>
 [[nodiscard]] bool is_whole(const std::filesystem::path& path, const record_count& expected) {
     constexpr std::size_t bytes = std::size_t{1} << 20;

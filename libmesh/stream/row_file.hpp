@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Files of rows of 64-bit numbers, as many a row as their user says, and rows sorted on the disk.
+/// Files of rows of 64-bit numbers, with any fixed number in each row, and external sorting of
+/// rows.
 
 #include <libmesh/stream/communicator.hpp>
 #include <libmesh/stream/record_file.hpp>
@@ -18,13 +19,13 @@
 namespace treeform::detail::stream {
 
 using numbers = std::span<const std::uint64_t>;
-using row_writer = record_writer<std::uint64_t>;  ///< rows one after the other
+using row_writer = record_writer<std::uint64_t>;  ///< row after row
 
-/// Rows of a file, one by one.
+/// Reads the rows of a file one by one.
 class row_reader {
   public:
-    /// `expected` counts the numbers. `bytes` are read at a time, about. A share of the rows that
-    /// is not all is not checked.
+    /// `expected` counts numbers, not rows. Reads about `bytes` at a time. If `some` is not all
+    /// rows, the checksum is not verified.
     row_reader(std::filesystem::path path, record_count expected, std::size_t width,
                std::size_t bytes, const share& some = {})
         : reader_(std::move(path), expected, bytes, width), width_(width) {
@@ -52,8 +53,8 @@ class row_chain {
   public:
     struct file {
         std::filesystem::path path{};
-        record_count count{};  ///< of numbers
-        share some{};          ///< of its rows; others are left out
+        record_count count{};  ///< in numbers
+        share some{};          ///< the rows to read
     };
     row_chain(std::vector<file> files, std::size_t width, std::size_t bytes)
         : files_(std::move(files)), width_(width), bytes_(bytes) {
@@ -83,8 +84,8 @@ class row_chain {
     std::optional<row_reader> reader_{};
 };
 
-/// The rows of several files, each ascending by its first `keys` numbers, as one such file; of
-/// equal ones those of earlier files first.
+/// Merges the rows of several files that are each sorted by their first `keys` numbers; of equal
+/// keys, those of earlier files come first.
 class row_merge {
   public:
     row_merge(std::vector<row_reader> readers, std::size_t keys);
@@ -102,14 +103,14 @@ class row_merge {
     std::vector<std::size_t> heap_{};
 };
 
-/// Sorts rows by their first `keys` numbers in pieces of the folder that memory holds.
+/// External merge sort of rows by their first `keys` numbers.
 class row_sorter {
   public:
     struct shape {
         std::size_t width;
         std::size_t keys;
     };
-    /// Files are called `name` and a number. About `memory` bytes are held.
+    /// File names are `name` and a number. Uses about `memory` bytes.
     row_sorter(const work_folder& folder, std::string name, shape size, std::uint64_t memory);
     ~row_sorter();
     row_sorter(const row_sorter&) = delete;
@@ -119,8 +120,7 @@ class row_sorter {
         held_.insert(held_.end(), r.begin(), r.end());
         if (held_.size() >= most_) write_held();
     }
-    /// All rows in order; of equal keys, first those that came first. May be called again, but
-    /// nothing can be put after it.
+    /// All rows in order; a stable sort. May be called again, but no row may be put afterwards.
     [[nodiscard]] row_merge sorted();
 
   private:

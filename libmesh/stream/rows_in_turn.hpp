@@ -1,7 +1,6 @@
 #pragma once
 /// \file
-/// Rows behind the points of a file whose places only those know who have read what is ahead of
-/// them.
+/// Reads rows after the points of a file whose positions depend on all rows before them.
 
 #include <libmesh/io/point_blocks.hpp>
 #include <libmesh/stream/communicator.hpp>
@@ -13,7 +12,7 @@
 
 namespace treeform::detail::stream {
 
-/// As for `io::point_blocks`.
+/// A file, as for `io::point_blocks`.
 struct file_of_rows {
     const std::filesystem::path& path;
     std::string_view format{};
@@ -21,12 +20,12 @@ struct file_of_rows {
     const io::record_index* known = nullptr;
 };
 
-/// Each rank in turn reads on where the one before has ended, up to the end of its share of the
-/// bytes, and calls `take` with each block that it reads, and then `done`. Returns where the rows
-/// of each begin, and where the last ones end. Collective: every rank must call this; all throw
-/// what is wrong first in the file.
+/// Each rank in turn continues where the previous one ended, up to the end of its share of the
+/// bytes, calls `take` with each block, and then `done`. Returns the position at which the rows of
+/// each rank begin, and the end of the last ones. Collective: every rank must call this; all throw
+/// the first error in the file.
 ///
-/// \throws io_error, and what `take` throws
+/// \throws io_error, and exceptions of `take`
 [[nodiscard]] std::vector<io::row_place> rows_in_turn(
     const communicator& all, const file_of_rows& of,
     const std::function<void(const io::row_block&)>& take,

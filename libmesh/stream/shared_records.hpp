@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Files that each rank looks at before any of them can read its share: at the lines of a text that
-/// begin in its share of the bytes, and likewise at points with lists, one after the other.
+/// Surveys files so that each rank can then read its share: lines of text, each rank those that
+/// begin in its share of the bytes; and points with lists, rank after rank.
 
 #include <libmesh/io/reading.hpp>
 #include <libmesh/io/record_index.hpp>
@@ -14,9 +14,9 @@
 
 namespace treeform::detail::stream {
 
-/// What is known of each file when all have looked; none of what is no text of points or of a PLY,
-/// and of what cannot be read: what is wrong is said where it is read from the front. Collective:
-/// every rank must call this.
+/// The index of the records of each file. None for files that are neither text nor a PLY with
+/// lists, and for files that cannot be read, whose errors are reported when they are read.
+/// Collective: every rank must call this.
 [[nodiscard]] std::vector<std::optional<io::record_index>> survey_records(
     const std::vector<std::filesystem::path>& paths, const io::reading& how,
     const communicator& all);

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Space cut into cells by planes across the axes, so that each has about the same share of a
-/// sample.
+/// Divides space into cells by axis-aligned planes (a k-d tree), so that each has about the same
+/// share of a sample.
 
 #include <libmesh/stream/state_record.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -12,13 +12,13 @@
 
 namespace treeform::detail::stream {
 
-/// Each point is in one cell: a cell has its low faces, but not its high ones. Cells are as wide
-/// one way as the other, so that few things reach into several of them.
+/// Each point is in one cell: a cell contains its low faces, but not its high ones. Cells are
+/// nearly cubic, so that few elements reach into several of them.
 class space_cells {
   public:
     /// At most `count` cells. \pre the points are finite \cost O(n log n) time for n points
     space_cells(std::vector<point3> sample, std::size_t count);
-    /// What `store` has stored.
+    /// Loads cells from `store`.
     explicit space_cells(state_reader& state);
     void store(state_writer& state) const;
 
@@ -35,8 +35,9 @@ class space_cells {
     static constexpr std::size_t no_axis = 3;
     struct node {
         double cut = 0.0;
-        std::uint32_t high = 0;  ///< what is at `cut` or beyond; what is below is the next node
-        std::uint32_t cell = 0;  ///< where there is no axis
+        /// the node for coordinates from `cut` on; that for lower ones is the next node
+        std::uint32_t high = 0;
+        std::uint32_t cell = 0;  ///< for a leaf (no axis)
         std::size_t axis = no_axis;
     };
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Faces, and other rows behind the points, of a mesh that is welded in tiles.
+/// Faces, and other rows after the points, of a mesh that is welded in tiles.
 
 #include <libmesh/io/point_blocks.hpp>
 #include <libmesh/stream/edge_files.hpp>
@@ -23,21 +23,21 @@ namespace treeform::detail::stream {
 
 inline constexpr std::size_t rows_a_block = std::size_t{1} << 15;
 
-/// How many are read at once where so many are left.
+/// The number of rows to read next if `left` are left.
 [[nodiscard]] inline std::size_t rows_of_next(std::uint64_t left, std::size_t most = rows_a_block) {
     return static_cast<std::size_t>(std::min<std::uint64_t>(left, most));
 }
 
-/// Corners of the face that has most.
+/// The largest number of corners of a face.
 [[nodiscard]] std::size_t longest_face(const io::row_block& block);
 
-/// Whether a file has rows behind its points.
+/// Whether a file has rows after its points.
 [[nodiscard]] bool has_rows_behind(const mesh_file& header);
 
-/// Each rank has a share of the rows: a part of the file of about as many bytes as those of
-/// others. Where that is known without reading them (`point_blocks::row_parts`, and in text), each
-/// looks at its own; else, as where faces have any number of corners, each in turn looks at what
-/// begins in its share of the bytes, and reports where that ends.
+/// Each rank has a share of the rows: parts of the file of about equal size in bytes. If the parts
+/// are known without reading the rows (`point_blocks::row_parts`, and in text), each rank surveys
+/// its own; otherwise, as for faces with any number of corners, ranks survey in turn the rows that
+/// begin in their share of the bytes, and report where these end.
 class tile_faces {
   public:
     tile_faces(cancellable_progress& pace, const work_folder& folder, const tile_task& task,
@@ -51,19 +51,20 @@ class tile_faces {
     tile_faces(const tile_faces&) = delete;
     tile_faces& operator=(const tile_faces&) = delete;
 
-    /// Reads all rows once. Counts faces in `survey`, which gets what is to be said of the end of
-    /// the file. Collective: every rank must call this and `weld`.
-    /// \throws io_error for what is not as it should be, the first of it in the file; cancelled
+    /// Reads all rows once. Counts faces in `survey`, and adds warnings about the end of the file.
+    /// Collective: every rank must call this and `weld`.
+    /// \throws io_error for the first error in the file; cancelled
     void take_survey(cloud_survey& survey);
     /// Reads the points and the rows once, each rank its share. `rows` as for `give_back`.
     /// \throws io_error, cancelled
     void weld(tiles_welded& welded, kept_rows* rows, weld_stream_result& made);
-    /// How many rows `give` will write. With `all`, faces stay as they are.
+    /// Sets the number of rows in `head` that `give` will write. With `all`, all faces are kept.
     void describe(mesh_file& head, bool all) const;
     [[nodiscard]] std::size_t most_corners(bool all) const {
         return all ? most_corners_ : most_kept_corners_;
     }
-    /// Reads the rows once more: all of them, on one rank; or its share, where all call this.
+    /// Reads the rows once more, and writes them: all rows (`whole`), on one rank, or the share of
+    /// each rank.
     /// \pre `weld` was called
     void give(point_writer& to, bool all, bool whole);
 
@@ -105,26 +106,26 @@ class tile_faces {
     const tile_task& task_;
     tile_steps& steps_;
     std::vector<io::row_place>
-        parts_{};  ///< of several ranks: where that of each begins, and the last one ends
+        parts_{};  ///< with several ranks: the begin of the rows of each, and the end of the last
     std::size_t rows_at_once_ = rows_a_block;
-    std::uint64_t left_out_ = 0;  ///< faces of fewer than three corners
+    std::uint64_t left_out_ = 0;  ///< number of faces with fewer than three corners
     std::size_t most_corners_ = 0;
     std::size_t most_kept_corners_ = 0;
-    weld_stream_result made_{};                           ///< what is counted of it
-    std::uint64_t kept_places_ = 0;                       ///< records of `after_`
-    bool counts_now_ = false;                             ///< in the pass that counts
-    bool is_blank_ = false;                               ///< a soup that has nothing but corners
-    bool is_soup_;                                        ///< faces have corners of their own
-    std::vector<point3> corners_of_soup_{};               ///< of the face that begins
-    std::optional<paged_file<std::uint64_t>> numbers_{};  ///< new ones, by points
-    std::optional<paged_file<point3>> before_{};          ///< places, by points
-    std::optional<paged_file<point3>> after_{};           ///< places, by new numbers
+    weld_stream_result made_{};      ///< only counts
+    std::uint64_t kept_places_ = 0;  ///< number of records of `after_`
+    bool counts_now_ = false;        ///< during the pass that counts
+    bool is_blank_ = false;          ///< whether the faces of a soup have no data except corners
+    bool is_soup_;                   ///< whether faces do not share points
+    std::vector<point3> corners_of_soup_{};               ///< corners of the current face so far
+    std::optional<paged_file<std::uint64_t>> numbers_{};  ///< new number of each point
+    std::optional<paged_file<point3>> before_{};          ///< position of each point
+    std::optional<paged_file<point3>> after_{};           ///< position of each new number
     std::optional<edge_files<numbered_edge>> edges_before_{};
     std::optional<edge_files<placed_edge>> edges_of_soup_{};
     std::optional<edge_files<numbered_edge>> edges_after_{};
-    std::vector<std::uint32_t> rows_{};     ///< that faces of a block come from
-    std::vector<std::uint32_t> corners_{};  ///< new ones of a block
-    std::vector<point3> places_before_{};   ///< of these
+    std::vector<std::uint32_t> rows_{};     ///< source row of each face of a block
+    std::vector<std::uint32_t> corners_{};  ///< new corners of a block
+    std::vector<point3> places_before_{};   ///< positions of these
     std::vector<point3> places_after_{};
 };
 

@@ -24,15 +24,15 @@ namespace treeform::detail::stream {
 /// A face in a tile.
 template <class Real>
 struct tile_face {
-    std::uint32_t triangle = 0;  ///< of the file
+    std::uint32_t triangle = 0;  ///< its number in the file
     std::uint32_t stored = 0;
-    /// Numbers of points; the records of doubles end with a zero, so that no byte is unset.
+    /// Point numbers; for doubles padded with a zero, so that all bytes are set.
     std::array<std::uint32_t, sizeof(Real) == 8 ? 4 : 3> corners{};
     std::array<Real, 9> at{};
 };
 static_assert(sizeof(tile_face<float>) == 56 && sizeof(tile_face<double>) == 96);
 
-/// Numbers of triangles of the file.
+/// A pair of triangle numbers in the file.
 struct tile_pair {
     std::uint32_t a = 0;
     std::uint32_t b = 0;
@@ -40,14 +40,14 @@ struct tile_pair {
     std::uint32_t unused = 0;
 };
 
-/// What was found in a tile: pairs, the faces in them, and the counters.
+/// The result of a tile: pairs, the faces in them, and counters.
 struct tile_found {
     record_count pairs{};
     record_count faces{};
     intersection_result counted{};  ///< without pairs
 };
 
-/// For what is stored, and what ranks exchange.
+/// Serialization, for storing and for exchange between ranks.
 void store_box(const std::optional<box3>& box, state_writer& state);
 [[nodiscard]] std::optional<box3> load_box(state_reader& state);
 void store_search(const stream_search_result& s, state_writer& state);
@@ -58,22 +58,23 @@ class tile_search {
     tile_search(cancellable_progress& pace, const work_folder& folder, const communicator& of,
                 std::filesystem::path input, stream_search_options options);
 
-    /// Gives each tile its faces, or knows from an earlier run that they have them. Of several
-    /// ranks, each gives those of its part of the file.
+    /// Writes the faces of each tile, unless an earlier run did. With several ranks, each writes
+    /// those of its part of the file.
     /// \throws io_error, cancelled
     void scatter();
-    /// Whether `scatter` has been done, here or elsewhere.
+    /// Whether `scatter` was completed, by this or another process.
     [[nodiscard]] bool is_known() { return tiles() > 0 || take_over(); }
-    /// Whether the folder has tiles, be it of another input or of other options.
+    /// Whether the folder has tiles, even of another input or other options.
     [[nodiscard]] bool has_plan() const;
     [[nodiscard]] std::size_t tiles() const { return faces_.size(); }
     [[nodiscard]] std::vector<std::size_t> unfinished() const;
-    /// Searches it, unless it is finished. What two processes do at the same time is the same.
-    /// `part` and `of` are for the progress. \throws std::out_of_range, io_error, cancelled
+    /// Searches a tile, unless it is finished. Two processes that search the same tile write the
+    /// same bytes. `part` and `of` are for the progress. \throws std::out_of_range, io_error,
+    /// cancelled
     void search(std::size_t tile, std::size_t part, std::size_t of);
-    /// The faces of a finished tile are needed no more.
+    /// Removes the faces of a finished tile.
     void drop_faces(std::size_t tile) const;
-    /// Puts together what was found. \throws io_error naming the tiles that are not finished
+    /// Combines the results of all tiles. \throws io_error naming the tiles that are not finished
     [[nodiscard]] stream_search_result finish();
 
   private:
@@ -83,14 +84,13 @@ class tile_search {
     [[nodiscard]] std::string identity() const;
     void store_plan() const;
     [[nodiscard]] bool take_over();
-    /// What is stored of a tile; none where it is not finished. With `check`, of what it names,
-    /// each byte is looked at.
+    /// The stored result of a tile; none if it is not finished. With `check`, the checksums of its
+    /// files are verified.
     [[nodiscard]] std::optional<tile_found> load(std::size_t tile, bool check) const;
     void store(std::size_t tile, const tile_found& found) const;
 
     [[nodiscard]] std::size_t tile_count(std::uint64_t faces) const;
-    /// Returns false where faces could not be read; where all have been read in turn, all ranks
-    /// throw then.
+    /// Returns false if faces could not be read. With `in_turn`, all ranks throw instead.
     [[nodiscard]] bool give_tiles(bool in_turn);
     [[nodiscard]] bool share_rows(const io::face_rows& rows, bool in_turn,
                                   const io::record_index* known) const;
@@ -113,14 +113,15 @@ class tile_search {
     const communicator& all_;
     std::filesystem::path input_;
     stream_search_options options_;
-    std::uint64_t memory_;  ///< what is left for faces
+    std::uint64_t memory_;  ///< memory available for faces
     stream_search_result survey_{};
     bool bounds_known_ = false;
-    bool others_read_ = false;  ///< what is in the folder
+    bool others_read_ = false;  ///< whether other ranks may be reading files of the folder
     vertex_identity vertices_{};
     std::optional<space_cells> cells_{};
-    std::vector<std::vector<record_count>> faces_{};  ///< of each tile, that each rank gave it
-    std::vector<std::uint64_t> firsts_{};             ///< triangle of each rank
+    /// [tiles][ranks] faces that each rank wrote for each tile
+    std::vector<std::vector<record_count>> faces_{};
+    std::vector<std::uint64_t> firsts_{};  ///< first triangle of each rank
 };
 
 }  // namespace treeform::detail::stream

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// A cloud welded in tiles on the disk, step by step; steps are idempotent: a restart skips
-/// finished ones.
+/// Welds a cloud in tiles on the disk, in steps. Steps are idempotent; a restart skips finished
+/// ones.
 
 #include <libmesh/stream/all_to_all.hpp>
 #include <libmesh/stream/border_rows.hpp>
@@ -38,9 +38,9 @@ using weld::tile_member;
 using weld::tile_point;
 using weld::tile_role;
 
-/// Of an empty cloud: the program, its threads and what is read and written.
+/// Memory needed for an empty cloud: the program, its threads and its buffers.
 inline constexpr std::uint64_t base_memory = std::uint64_t{32} << 20;
-/// What is left for the points, of a process that may take `memory`; and the other way around.
+/// The memory available for points, in a process limited to `memory`; and the inverse.
 [[nodiscard]] inline std::uint64_t left_for_points(std::uint64_t memory) {
     return memory - std::min(base_memory, memory / 2);
 }
@@ -50,69 +50,71 @@ inline constexpr std::uint64_t base_memory = std::uint64_t{32} << 20;
 
 struct tile_task {
     cloud_inputs inputs{};
-    weld_stream_options options{};  ///< `memory` is what is left for the points
-    std::string identity{};         ///< what must be the same for earlier work to be of use
-    std::uint64_t memory = 0;       ///< of the process
+    weld_stream_options options{};  ///< `memory` is the memory available for points
+    std::string identity{};    ///< identifies the job; earlier work is reused only if it is equal
+    std::uint64_t memory = 0;  ///< limit of the process
 };
 
-/// What the tiles and their borders say of the whole cloud.
+/// The outcome of welding the tiles and their borders.
 struct tiles_welded {
     tiles_welded(double tolerance, const weld::agreement& agree) : border(tolerance, agree) {}
 
-    share points{};                         ///< of which the process gets the outcome
-    kept_points kept{0};                    ///< these, by number in the files
-    std::optional<kept_points> followed{};  ///< "dropped" in it: kept with others, if asked for
-    border_weld border;                     ///< names the leaders
-    std::uint64_t dropped = 0;              ///< of all points, as are the next two
+    share points{};       ///< the points assigned to the process
+    kept_points kept{0};  ///< the kept ones of these, by number in the files
+    /// points "dropped" in it are kept points with others in their group, if requested
+    std::optional<kept_points> followed{};
+    border_weld border;         ///< finds the leaders of points
+    std::uint64_t dropped = 0;  ///< of all points; so are the next two
     std::uint64_t groups = 0;
     double max_displacement = 0.0;
     struct file {
         std::filesystem::path path{};
         record_count count{};
     };
-    std::vector<file> drops{};  ///< that are assigned to the process
-    /// Of several ranks: those of points that [a] sends to [b].
+    std::vector<file> drops{};  ///< files of drops assigned to the process
+    /// With several ranks: [a][b] files of points that rank a sends to rank b.
     std::vector<std::vector<file>> sent{};
 };
 
-/// Tiles and their borders know points by their ranks: the places they have in the order that the
-/// rule goes through them. Without an order to ask for, these are their numbers.
+/// Tiles and borders identify points by their rank in the order in which the rule visits them.
+/// Without `order_by`, the rank of a point is its number.
 class tile_steps {
   public:
     tile_steps(cancellable_progress& pace, const work_folder& folder, const tile_task& task,
                const communicator& all, joined_points& source, const point_keys& keys);
 
-    /// Reads the cloud once; or knows it from an earlier run, whose work will then be continued.
-    /// Then says where it will be cut.
+    /// Reads the cloud once, or loads the survey of an earlier run, which is then continued. Then
+    /// plans the tiles.
     void take_survey();
     /// Unpacks compressed PCD inputs, once. Collective: every rank must call this.
     void unpack();
     [[nodiscard]] const cloud_survey& survey() const { return survey_.cloud; }
-    /// For what is known of other things than points.
+    /// For adding data about other elements than points.
     [[nodiscard]] cloud_survey& survey() { return survey_.cloud; }
-    /// Whether tiles have been given their points, here or elsewhere; of theirs, nothing is looked
-    /// at.
+    /// Whether the points of tiles were written, by this or another process. Does not check the
+    /// files.
     [[nodiscard]] bool has_tiles() { return scattered_ || know(); }
-    /// Whether the folder has tiles, be it of another cloud or of other options.
+    /// Whether the folder has tiles, even of another cloud or other options.
     [[nodiscard]] bool has_plan() const;
-    /// Reads it again and gives each tile its points.
+    /// Reads the cloud again, and writes the points of each tile.
     void scatter();
     /// Welds the tiles that are not finished.
     void weld_tiles();
-    /// Welds one, unless it is finished. What two processes do at the same time is the same.
+    /// Welds a tile, unless it is finished. Two processes that weld the same tile write the same
+    /// bytes.
     void weld_one(std::size_t tile);
     /// \throws io_error naming the tiles that are not finished
     void check_finished();
-    /// \throws io_error with what would be enough, where memory is not
+    /// \throws io_error with the memory that would suffice, if there is not enough
     void check_before_borders() const;
     [[nodiscard]] tiles_welded weld_borders();
-    /// Tells rank 0 of all points, and the others of none.
+    /// Assigns all points to rank 0.
     void gather_first(tiles_welded& w) const;
 
-    /// The kept points that points belong to; asked for one by one, from the first on.
+    /// The kept point of each point's group; must be requested one by one, from the first point on.
     class leaders {
       public:
-        /// Collective: every rank must call this, with its points.
+        /// Collective: every rank must call this, for its points.
         leaders(const tile_steps& steps, const communicator& all, const tiles_welded& welded);
         leaders(const tile_steps& steps, const tiles_welded& welded)
             : leaders(steps, steps.all(), welded) {}
@@ -124,20 +126,20 @@ class tile_steps {
 
         const border_weld& border_;
         std::unique_ptr<shared_sorter> sorter_{};
-        std::optional<row_merge> drops_{};  ///< points and their leaders
-        bool is_by_number_ = false;         ///< and not by rank
+        std::optional<row_merge> drops_{};  ///< dropped points and their leaders
+        bool is_by_number_ = false;         ///< otherwise by rank
     };
 
     void step_done() const;
     [[nodiscard]] joined_points& source() { return source_; }
     [[nodiscard]] const communicator& all() const { return communicator_; }
     [[nodiscard]] const point_keys& keys() const { return keys_; }
-    /// For rows on their way to the disk and back.
+    /// Memory for sorting rows on the disk.
     [[nodiscard]] std::uint64_t sorting_memory() const { return task_.options.memory / 8; }
 
   private:
     struct tile {
-        std::vector<record_count> points{};  ///< that each rank has given it
+        std::vector<record_count> points{};  ///< points that each rank wrote for it
         std::uint64_t own = 0;
         bool finished = false;
         record_count drops{};
@@ -149,11 +151,12 @@ class tile_steps {
     struct tile_files;
 
     [[nodiscard]] bool has_order() const { return !task_.options.order_by.empty(); }
-    /// The rule first where it comes to the same: it holds fewer points.
+    /// Whether to use the rule `chain`; false if the rule `first` has the same result, since it
+    /// needs less memory.
     [[nodiscard]] bool by_chain() const;
     [[nodiscard]] std::filesystem::path file(std::size_t t, const char* what) const;
     [[nodiscard]] std::size_t values() const { return keys_.agree().size(); }
-    /// Numbers in a row of a tile's points, and of its border.
+    /// Number of values in a row of a tile's points, and of its border.
     [[nodiscard]] std::size_t point_width() const { return 4 + values(); }
     [[nodiscard]] std::size_t border_width() const {
         return border_numbers + (!by_chain() ? values() : 0);
@@ -163,22 +166,22 @@ class tile_steps {
     }
     [[nodiscard]] std::uint64_t points_of(const tile& t) const;
     [[nodiscard]] std::filesystem::path points_file(std::size_t t, std::size_t part) const;
-    /// Of the points of files, those that a process reads.
+    /// The points of the files that a rank reads.
     [[nodiscard]] share read_by(std::size_t rank) const;
-    /// Tiles of a process, which have about as many points as those of others; or as many of those
-    /// that are not finished.
+    /// The tiles of a rank, with about the same number of points as those of others; with
+    /// `unfinished`, of points in unfinished tiles.
     [[nodiscard]] share tiles_of(std::size_t rank, bool unfinished = false) const;
 
     struct cut_sizes;
-    /// Whether a survey of the points says more of the memory that is needed than their number.
+    /// Whether the needed memory depends on the survey of the points, not only on their number.
     [[nodiscard]] bool needs_survey() const;
-    /// Decides where to cut.
-    /// \throws io_error with what would be enough, where memory is not
+    /// Plans the tiles.
+    /// \throws io_error with the memory that would suffice, if there is not enough
     void plan();
     struct planned;
     [[nodiscard]] std::optional<planned> plan_by(bool by_places) const;
     [[nodiscard]] planned plan_for_least_memory() const;
-    /// Memory of the process that is enough for a tile, and for the borders.
+    /// Memory of the process that suffices for a tile, and for the borders.
     struct memory_needs {
         std::uint64_t tiles = 0;
         std::uint64_t borders = 0;
@@ -186,7 +189,7 @@ class tile_steps {
     [[nodiscard]] memory_needs needs_of(const cut_sizes& sizes) const;
     [[nodiscard]] memory_needs needs_of_one_tile(std::uint64_t points) const;
     [[nodiscard]] std::uint64_t needs_of_rest() const;
-    /// Each throws io_error with what would be enough, where memory is not.
+    /// Each throws io_error with the memory that would suffice, if there is not enough.
     void check_before_survey();
     void check_before_tile() const;
     [[noreturn]] void fail_for_memory(std::uint64_t needed, const std::string& more = {}) const;
@@ -200,12 +203,12 @@ class tile_steps {
     [[nodiscard]] bool know();
     void survey_tiles();
     [[nodiscard]] bool load_plan();
-    /// Whether the folder has tiles to go on from, as far as sizes of files tell.
+    /// Whether the folder has tiles to resume from, judged by file sizes.
     [[nodiscard]] bool finds_tiles();
     [[nodiscard]] bool take_over();
     [[nodiscard]] bool find_tile(std::size_t t, bool check);
     void count_finished();
-    /// With `check`, of what it names, each byte is looked at.
+    /// With `check`, the checksums of its files are verified.
     [[nodiscard]] bool load_tile(std::size_t t, bool check);
     void store_plan() const;
     void store_tile(std::size_t t) const;
@@ -228,7 +231,7 @@ class tile_steps {
 
     class chain_borders;
     class run_borders;
-    /// Returns the files of drops, and considers their longest way.
+    /// Returns the files of drops, and updates `longest`.
     [[nodiscard]] std::vector<tiles_welded::file> weld_borders_in_runs(longest_move& longest) const;
     [[nodiscard]] bool is_outer(const point3& p, const share& tiles,
                                 std::vector<std::uint32_t>& halos) const;
@@ -243,11 +246,11 @@ class tile_steps {
     [[nodiscard]] std::size_t owner_of(std::uint64_t point) const {
         return communicator_.owner_of(point, survey_.cloud.points);
     }
-    /// Of the points with these ranks.
+    /// The numbers of the points with these ranks.
     [[nodiscard]] row_chain numbers_by_rank(const share& some = {}) const;
-    /// Returns the number of rows.
+    /// Writes the border rows of a tile, and returns their number.
     static std::uint64_t put_border(weld::tile_result& result, row_writer& to);
-    /// Calls `put` with each and its values.
+    /// Calls `put` with each asked point and its values.
     template <class Put>
     static void put_asked(weld::tile_result& result, const Put& put) {
         const std::size_t count = result.asked.size();
@@ -261,7 +264,7 @@ class tile_steps {
                                          const record_count& count, const share& some = {}) const;
     [[nodiscard]] row_merge sorted_drops(const std::vector<tiles_welded::file>& files) const;
 
-    [[nodiscard]] std::uint64_t most_points() const;  ///< in a tile
+    [[nodiscard]] std::uint64_t most_points() const;  ///< largest number of points in a tile
     [[nodiscard]] std::size_t at_a_time() const;
     [[nodiscard]] std::uint64_t bytes_per_point() const;
     [[nodiscard]] std::size_t bytes_per_reader() const;
@@ -276,16 +279,17 @@ class tile_steps {
     point_survey survey_{};
     double tolerance_ = 0.0;
     std::optional<tile_cuts> cuts_{};
-    memory_needs needs_{};                 ///< of them
-    bool scattered_ = false;               ///< the points are in their tiles
-    std::vector<record_count> numbers_{};  ///< of points by rank, where there is an order
-    record_count ranks_{};  ///< of the points that the process reads, while tiles get their points
+    memory_needs needs_{};                 ///< of the planned tiles
+    bool scattered_ = false;               ///< whether the points of tiles were written
+    std::vector<record_count> numbers_{};  ///< numbers of points by rank, if there is an order
+    record_count ranks_{};  ///< ranks of the points that the process reads, during `scatter`
     std::vector<tile> tiles_{};
 };
 
 inline constexpr std::uint64_t records_a_check = 65536;
-inline constexpr double bytes_of_border = 100.0;            ///< of a link in the border pass, about
-inline constexpr double bytes_of_cube = 200.0;              ///< of a cube in `crowded_chain`, about
-inline constexpr std::size_t piece = std::size_t{1} << 20;  ///< bytes read or written at a time
+inline constexpr double bytes_of_border = 100.0;  ///< approximate, for each link in the border pass
+inline constexpr double bytes_of_cube = 200.0;    ///< approximate, for each cube in `crowded_chain`
+/// number of bytes read or written at a time
+inline constexpr std::size_t piece = std::size_t{1} << 20;
 
 }  // namespace treeform::detail::stream

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The folder in which a cloud larger than memory is welded; what is there outlives the process.
+/// The folder of a job in tiles, whose content outlives the process.
 
 #include <libmesh/stream/cancellable_progress.hpp>
 #include <libmesh/stream/state_record.hpp>
@@ -13,25 +13,25 @@
 
 namespace treeform::detail::stream {
 
-/// Held by one process at a time, or shared by several. What is stored in it stays until `remove`,
-/// so that the same call can go on; a folder without anything ends with its last holder.
+/// Locked by one process at a time, or shared by several. Stored data stays until `remove`, so that
+/// the same call can resume; an empty folder is removed with its last lock.
 class TREEFORM_API work_folder {
   public:
     enum class use : std::uint8_t {
         alone,
         shared,
         member
-    };  ///< of several ranks, the root holds it
+    };  ///< with several ranks, only the root holds the lock
 
-    /// Makes the folder, or takes over what an earlier run has left. `job` is one word for what is
-    /// done there.
-    /// \throws io_error when it cannot be made, holds other files, is in use, or is for another
-    ///         job
+    /// Creates the folder, or takes over that of an earlier run. `job` is a word for the kind of
+    /// job.
+    /// \throws io_error if it cannot be created, has other files, is in use, or belongs to another
+    ///         kind of job
     work_folder(std::filesystem::path path, const std::string& job, use how = use::alone);
-    /// Holds it this way from now on. \throws io_error when it is in use; then it is not held
+    /// Changes the lock. \throws io_error if the folder is in use; it is then not locked
     void hold(use how);
-    /// The same alone, for who shares it: waits a little for others that are about to end.
-    /// \throws io_error when it is in use; cancelled
+    /// Changes a shared lock to an exclusive one; waits a little for others that are about to end.
+    /// \throws io_error if the folder is in use; cancelled
     void hold_alone(cancellable_progress& pace);
     ~work_folder();
     work_folder(const work_folder&) = delete;
@@ -40,13 +40,13 @@ class TREEFORM_API work_folder {
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     [[nodiscard]] std::filesystem::path file(const std::string& name) const { return path_ / name; }
 
-    /// What is stored under `name`; none when it is not there or is not whole.
+    /// The state stored under `name`; none if it does not exist or is damaged.
     [[nodiscard]] std::optional<state_reader> load(const std::string& name) const;
-    /// A name that nobody else uses, on any machine.
+    /// A name that no other process uses, on any machine.
     [[nodiscard]] static std::string own_name(const std::string& name);
-    /// Gives the file `from` the name `to`, which it may have already. \throws io_error
+    /// Renames the file `from` to `to`; no error if this was already done. \throws io_error
     void rename(const std::string& from, const std::string& to) const;
-    /// Stores it: whole, or not at all. \throws io_error
+    /// Stores a state atomically. \throws io_error
     void store(const std::string& name, const state_writer& state) const;
 
     /// Removes all files but the lock.
@@ -54,10 +54,10 @@ class TREEFORM_API work_folder {
     /// Removes the folder.
     void remove();
 
-    /// What those say who share a folder. \throws io_error
+    /// Errors for processes that share a folder. \throws io_error
     [[noreturn]] void fail_without_tiles() const;
     [[noreturn]] void fail_with_other_tiles() const;
-    /// Names the first hundred. \pre one at least
+    /// Names the first hundred tiles. \pre `tiles` is not empty
     [[noreturn]] void fail_unfinished(const std::vector<std::size_t>& tiles) const;
 
   private:
@@ -69,7 +69,7 @@ class TREEFORM_API work_folder {
     use how_ = use::alone;
 };
 
-/// Holds a shared folder alone for its life.
+/// Locks a shared folder exclusively during its lifetime.
 class held_alone {
   public:
     /// \throws as `work_folder::hold_alone`
