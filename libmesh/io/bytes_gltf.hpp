@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The bytes of a glTF: the parts of a GLB, and what buffers hold.
+/// The bytes of a glTF: the parts of a GLB, and the contents of buffers.
 
 #include <libmesh/io/model_gltf.hpp>
 #include <libmesh/io/source.hpp>
@@ -20,28 +20,29 @@ namespace treeform::detail::io {
 
 struct parts_gltf {
     std::string_view json{};
-    std::optional<std::string_view> binary{};  ///< of a GLB that has one
-    std::uint64_t trailing = 0;                ///< bytes behind the length that a GLB says
-    bool is_version_1 = false;                 ///< a GLB of glTF 1.0, of which this has the JSON
+    std::optional<std::string_view> binary{};  ///< binary part, if a GLB has one
+    std::uint64_t trailing = 0;                ///< bytes after the length in the GLB header
+    /// whether it is a GLB of glTF 1.0, of which this has only the JSON
+    bool is_version_1 = false;
 };
 
-/// \throws io_error for a GLB that is cut short, or of another version than 1 and 2
+/// \throws io_error for a GLB that is truncated, or of a version other than 1 and 2
 [[nodiscard]] parts_gltf parts_of_gltf(const source& in);
 
-/// What the buffers hold; each is looked for when it is first needed. What the constructor gets
-/// must outlive it.
+/// The contents of the buffers, each loaded when it is first needed. The arguments of the
+/// constructor must outlive this.
 ///
-/// A buffer is the binary part of the GLB, a "data:" of base64, or a file whose name is relative to
-/// the folder of `path` and does not leave that.
+/// A buffer is the binary part of the GLB, a base64 "data:" URI, or a file whose name is relative
+/// to the folder of `path` and does not leave it.
 class buffers_gltf {
   public:
-    /// `path` is empty for bytes that have none, beside which there are no files.
+    /// `path` is empty for bytes in memory, which cannot refer to files.
     buffers_gltf(const source& in, const std::filesystem::path& path, const model_gltf& model,
                  const parts_gltf& parts);
 
-    /// \throws io_error for what is not there, or not as long as it should be
+    /// \throws io_error for a buffer that is missing or too short
     [[nodiscard]] std::string_view bytes_of_view(std::size_t view);
-    /// Values of an accessor that stand elsewhere, element after element; none of others.
+    /// Sets the values of an accessor that are not in a buffer, element after element.
     void give_values(std::size_t accessor, std::string bytes) {
         given_[accessor] = std::move(bytes);
     }
@@ -49,7 +50,7 @@ class buffers_gltf {
         const auto at = given_.find(accessor);
         return at == given_.end() ? nullptr : &at->second;
     }
-    /// Bytes of the glTF itself.
+    /// Size in bytes of the glTF itself.
     [[nodiscard]] std::size_t file_size() const { return in_.size(); }
 
     /// Throws io_error "file: things[number] reason".

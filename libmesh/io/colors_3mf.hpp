@@ -10,18 +10,19 @@
 
 namespace treeform::detail::io {
 
-/// By triangles of the build; shorter than it, or empty, where the rest has none.
+/// [triangles of the build]; shorter or empty if the remaining ones have none.
 struct looks_3mf {
-    std::vector<face> colors{};   ///< of corners, in the palette
-    std::vector<face> texture{};  ///< of corners, in the texture coordinates of the model
+    std::vector<face> colors{};  ///< palette entries of corners
+    /// texture coordinates of corners, as numbers of those of the model
+    std::vector<face> texture{};
 };
 
-/// Appends those of an object whose triangles come from number `first_face` on. `turned` says that
-/// the second and the third corner of each have changed places.
+/// Appends the values of an object whose first triangle is `first_face`. `turned`: the second and
+/// third corner of each triangle were swapped.
 void append_looks(looks_3mf& to, std::size_t first_face, const object_3mf& object, bool turned);
 
-/// Gives the file its colors: to the faces when each has one; to the points when each point has
-/// one; else to the faces, that of their first corners, with a warning. Also the texture
+/// Sets the colors of the file: of faces if each has a single color; of points if each point has a
+/// single color; else of faces, by their first corners, with a warning. Also sets the texture
 /// coordinates of corners.
 void add_looks(const model_3mf& model, looks_3mf&& looks, mesh_file& file);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Polygons whose fans of triangles lie on each other.
+/// Counts concave polygons, whose fans of triangles overlap.
 
 #include <treeform/mesh/mesh_file.hpp>
 
@@ -8,10 +8,10 @@
 
 namespace treeform::detail::io {
 
-/// How many stored faces have a triangle that is turned against the face as a whole, as where a
-/// polygon is not convex. Ones that are so by less than rounding does are none.
+/// Number of stored faces with a triangle oriented against the whole face, as in a concave polygon.
+/// Deviations below rounding errors do not count.
 ///
-/// \cost O(F), nothing where all faces are triangles
+/// \cost O(F); O(1) if all faces are triangles
 [[nodiscard]] std::size_t count_concave_faces(const mesh_file& file);
 
 }  // namespace treeform::detail::io

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Normals and texture coordinates of corners as values of points.
+/// Converts normals and texture coordinates of corners to columns of points.
 
 #include <treeform/mesh/mesh_file.hpp>
 
@@ -8,8 +8,8 @@
 
 namespace treeform::detail::io {
 
-/// Columns nx, ny, nz of points whose corners all have one normal, and s, t likewise; none where
-/// some point has several. Points without any have zeros.
+/// Columns nx, ny, nz (or s, t) of points if all corners at each point have the same value; empty
+/// if some point has several. Points without a value have zeros.
 [[nodiscard]] std::vector<column> normals_of_points(const mesh_file& file);
 [[nodiscard]] std::vector<column> texture_of_points(const mesh_file& file);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which format an input has: by its content, then by its name.
+/// Detects the format of an input, by its content, then by its name.
 
 #include <libmesh/io/reading.hpp>
 #include <libmesh/io/source.hpp>
@@ -20,7 +20,7 @@ enum class file_kind : std::uint8_t {
     pcd,
     las,  ///< or LAZ
     xyz,
-    pts,  ///< as xyz, with the number of points first
+    pts,  ///< like xyz, but begins with the number of points
     csv,
     package_3mf,
     gltf,  ///< or GLB
@@ -29,17 +29,17 @@ enum class file_kind : std::uint8_t {
 
 struct detected {
     file_kind kind = file_kind::scene;
-    std::string extension{};  ///< in lower case, without its dot; what `read_scene` goes by
+    std::string extension{};  ///< in lower case, without its dot; for `read_scene`
 };
 
-/// `format` is what the caller asks for and `extension` that of the name; both in lower case
-/// without a dot, both may be empty.
+/// `format` is the one requested, `extension` that of the name; both in lower case without a dot,
+/// or empty.
 ///
-/// \throws io_error when the content cannot be of any format that is read
+/// \throws io_error if the content has no supported format
 [[nodiscard]] detected detect(const source& in, std::string_view format,
                               std::string_view extension);
 
-/// \throws io_error for columns chosen of what is no table of text
+/// \throws io_error if columns are chosen, but the file is not a text table
 void check_chosen_columns(const source& in, const reading& how, file_kind kind);
 
 }  // namespace treeform::detail::io

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Primitives of a glTF that KHR_draco_mesh_compression packs.
+/// Unpacks primitives of a glTF with KHR_draco_mesh_compression.
 
 #include <libmesh/io/bytes_gltf.hpp>
 #include <libmesh/io/model_gltf.hpp>
@@ -12,12 +12,12 @@ namespace treeform::detail::io {
 /// Whether treeform was built with draco.
 [[nodiscard]] bool reads_draco();
 
-/// Unpacks the attributes that are read and the indices, and gives them to the buffers as the
-/// values of their accessors.
+/// Unpacks the indices and the supported attributes, and sets them as the values of their
+/// accessors.
 ///
 /// \pre    `primitive.draco`
-/// \throws io_error for bytes that are damaged or announce more than they can hold, for another
-///         number of values than that of the accessors, and without draco
+/// \throws io_error for damaged data, for data that claims more values than it can hold, if the
+///         number of values differs from that of the accessors, and without draco
 void unpack_draco(buffers_gltf& buffers, const model_gltf& model, std::size_t mesh,
                   const primitive_gltf& primitive);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Extensions as they are compared.
+/// Normalizes file extensions for comparison.
 
 #include <libmesh/io/number.hpp>
 

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Materials and colors of triangles as entries of lists, for formats that refer to them by number.
+/// Materials and colors of triangles as indices into lists, for formats that refer to them by
+/// number.
 
 #include <libmesh/io/writers.hpp>
 #include <treeform/mesh/mesh_file.hpp>
@@ -13,19 +14,19 @@
 
 namespace treeform::detail::io {
 
-/// Which list the corners of a triangle refer to.
+/// The list to which the corners of a triangle refer.
 enum class look_list : std::uint8_t { none, materials, colors };
 
 struct face_look {
     look_list list = look_list::none;
-    face entries{};  ///< of the corners
+    face entries{};  ///< entry of each corner
 
     friend bool operator==(const face_look&, const face_look&) = default;
 };
 
 /// The materials of parts with the colors of their faces; else the colors of faces; else the colors
-/// of points, a corner each. Where only some faces have a look, the others are white. Colors are
-/// 0xRRGGBBAA.
+/// of points, one for each corner. If only some faces have a color, the others are white. Colors
+/// are 0xRRGGBBAA.
 class face_looks {
   public:
     explicit face_looks(const write_job& job);
@@ -33,14 +34,14 @@ class face_looks {
     [[nodiscard]] const face_look& of(std::uint32_t triangle) const {
         return looks_.empty() ? none_ : looks_[triangle];
     }
-    /// Names and colors, in the order in which triangles first have them.
+    /// Names and colors of materials, in the order of first use.
     [[nodiscard]] const auto& materials() const { return materials_; }
     [[nodiscard]] const std::vector<std::uint32_t>& colors() const { return colors_; }
-    /// Whether points have colors that are not among these.
+    /// Whether points have colors that are not used.
     [[nodiscard]] bool leaves_out_points() const { return leaves_out_points_; }
-    /// Whether some color is none of 8 bits a channel.
+    /// Whether some color is not representable with 8 bits a channel.
     [[nodiscard]] bool rounds_colors() const { return rounds_colors_; }
-    /// Whether the colors of materials are in files of which nothing is known here.
+    /// Whether the colors of materials are in files that were not read.
     [[nodiscard]] bool lacks_colors() const { return lacks_colors_; }
 
   private:

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Takes the corners of stored faces and cuts polygons into fans.
+/// Receives the corners of stored faces, and cuts polygons into fans.
 
 #include <treeform/mesh/mesh_file.hpp>
 
@@ -12,7 +12,7 @@
 
 namespace treeform::detail::io {
 
-/// Says how many faces had fewer than three corners, if any.
+/// Adds a warning with the number of faces with fewer than three corners, if there are any.
 inline void remark_on_short_faces(std::uint64_t count, std::vector<io_warning>& warnings) {
     if (count > 0)
         warnings.push_back(
@@ -40,7 +40,8 @@ class face_sink {
         finish();
     }
 
-    /// Ends the face. With fewer than three corners it is none, and gets no number: false.
+    /// Ends the face. A face with fewer than three corners is dropped and gets no number; then
+    /// returns false.
     bool finish() {
         if (corners_ < 3) {
             ++short_faces_;

@@ -1,12 +1,12 @@
 #pragma once
 /// \file
-/// Which part of a file one of many reads.
+/// The part of a file that one of several processes reads.
 
 #include <cstdint>
 
 namespace treeform::detail::io {
 
-/// Of `size` parts that have about as many of whatever is counted.
+/// Part `rank` of `size` parts of nearly equal counts.
 struct file_part {
     std::uint64_t rank = 0;
     std::uint64_t size = 1;
@@ -20,8 +20,8 @@ struct file_part {
     [[nodiscard]] bool is_last() const { return rank + 1 == size; }
 };
 
-/// A row behind the points, counted from the first of all elements there, and the byte of the file
-/// where it begins.
+/// A row after the points, counted over all elements there, and the byte of the file at which it
+/// begins.
 struct row_place {
     std::uint64_t row = 0;
     std::uint64_t byte = 0;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Rows of bytes in which each value has its place: binary PLY without lists, binary PCD.
+/// Binary rows of fixed size: PLY without lists, PCD.
 
 #include <libmesh/io/file_part.hpp>
 #include <treeform/mesh/attributes.hpp>
@@ -14,29 +14,29 @@
 
 namespace treeform::detail::io {
 
-/// Where the value of a column stands in the first row, and how far it is to the next row's.
+/// The position of a column's value in the first row, and the distance to that in the next row.
 struct value_place {
     const char* first = nullptr;
     std::size_t stride = 0;
 };
 
 /// Appends `rows` points and their rows to `points` and to the columns of `vertices`; `places` has
-/// one entry a column. A column at a time, a few rows at a time: loops of one type each, on what
-/// the first cache holds.
+/// one entry for each column. Works column by column on blocks of rows that fit into the L1 cache,
+/// so that each loop has a single type.
 void append_fixed_rows(element& vertices, std::vector<point3>& points, std::size_t rows,
                        std::span<const value_place> places, std::endian order);
 
-/// Bytes of a row; zero when a list has none of its own.
+/// Size of a row in bytes; zero if there is a list.
 [[nodiscard]] std::size_t fixed_row_size(const element& e);
 
-/// Rows of one size.
+/// Rows of equal size.
 struct alike_rows {
     std::uint64_t count = 0;
     std::uint64_t size = 0;
 };
 
-/// Where `count` parts of rows begin that have about as many bytes each, and where the last one
-/// ends; the first row is at byte `begin`.
+/// Divides rows, of which the first is at byte `begin`, into `count` parts of about equal size in
+/// bytes. Returns the begin of each part and the end of the last.
 [[nodiscard]] std::vector<row_place> parts_of_rows(std::uint64_t begin,
                                                    std::span<const alike_rows> rows,
                                                    std::size_t count);

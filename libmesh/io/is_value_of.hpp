@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What an integer type can hold.
+/// Whether a double is a value of an integer type.
 
 #include <cmath>
 #include <limits>
@@ -8,7 +8,8 @@
 
 namespace treeform::detail::io {
 
-/// True when x is a value of the integer type T. The limits are powers of two, which doubles hold.
+/// Whether x is a value of the integer type T. The limits are powers of two, which are exact in
+/// double.
 template <class T>
 requires std::is_integral_v<T>
 [[nodiscard]] bool is_value_of(double x) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A look at JSON before a parser gets it.
+/// Checks the nesting depth of JSON before it is parsed.
 
 #include <libmesh/io/source.hpp>
 
@@ -8,8 +8,8 @@
 
 namespace treeform::detail::io {
 
-/// Refuses JSON, a part of `in`, that nests so deeply that no honest file does. JSON that is wrong
-/// otherwise is left to the parser.
+/// Refuses JSON, a part of `in`, that nests deeper than any legitimate file. Other errors are left
+/// to the parser.
 ///
 /// \throws io_error naming the byte
 void refuse_deep_json(const source& in, std::string_view json);

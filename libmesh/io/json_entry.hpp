@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// A value of a JSON text and where it stands, for messages: "a.gltf: nodes[3].mesh is no whole
-/// number". Nothing is made of a value of another type.
+/// A JSON value with its path for messages: "a.gltf: nodes[3].mesh is not an integer of 0 or more".
+/// Values are not converted between types.
 
 #include <libmesh/io/source.hpp>
 
@@ -26,7 +26,7 @@ class json_entry {
     json_entry(const source& in, const json& value, std::string place = {})
         : in_(&in), value_(&value), place_(std::move(place)) {}
 
-    /// Of an object: the member; none when it is missing.
+    /// The member of an object; none if it is missing.
     [[nodiscard]] std::optional<json_entry> find(const char* key) const {
         if (!value_->is_object()) fail("is not a JSON object");
         const auto at = value_->find(key);
@@ -38,7 +38,7 @@ class json_entry {
         if (!found) fail(std::string("has no '") + key + "'");
         return *std::move(found);
     }
-    /// Of an object whose member is an object: the member of that.
+    /// The member `inner` of the object that is the member `key`.
     [[nodiscard]] std::optional<json_entry> find(const char* key, const char* inner) const {
         const auto found = find(key);
         return found ? found->find(inner) : std::nullopt;
@@ -51,12 +51,12 @@ class json_entry {
         for (std::size_t i = 0; i < value_->size(); ++i)
             f(json_entry(*in_, (*value_)[i], place_ + '[' + std::to_string(i) + ']'));
     }
-    /// The same for the array that is the member `key`; a missing one has no items.
+    /// The same for the array that is the member `key`; a missing array has no items.
     template <class F>
     void for_each(const char* key, F&& f) const {
         if (const auto list = find(key)) list->for_each(f);
     }
-    /// Items of the array that is the member `key`.
+    /// Number of items of the array that is the member `key`.
     [[nodiscard]] std::size_t count(const char* key) const {
         const auto list = find(key);
         return list ? list->value_->size() : 0;
@@ -69,7 +69,7 @@ class json_entry {
             f(key, json_entry(*in_, value, place_ + '.' + key));
     }
 
-    /// A whole number from 0 on, also one that is written as 2.0.
+    /// A nonnegative integer, also if it is written as 2.0.
     [[nodiscard]] std::uint64_t whole() const {
         if (value_->is_number_unsigned()) return value_->get<std::uint64_t>();
         const double number = value_->is_number_float() ? value_->get<double>() : -1.0;
@@ -77,7 +77,7 @@ class json_entry {
             fail("is not a non-negative integer");
         return static_cast<std::uint64_t>(number);
     }
-    /// The number of one of `count` things.
+    /// An index below `count`.
     [[nodiscard]] std::size_t number_of(std::size_t count, const char* things) const {
         const std::uint64_t number = whole();
         if (number >= count)

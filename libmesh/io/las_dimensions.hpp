@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where each value stands in a LAS point record.
+/// The layout of LAS point records.
 ///
 /// \source LAS Specification 1.4 R15, ASPRS (2019), "Point Data Record Formats"
 
@@ -16,11 +16,11 @@
 
 namespace treeform::detail::io {
 
-/// How the stored numbers of extra bytes stand for values.
+/// The conversion of stored numbers of extra bytes to values.
 struct las_scaling {
     double scale = 1.0;
     double offset = 0.0;
-    std::optional<double> no_data{};  ///< the stored number of those that have no value
+    std::optional<double> no_data{};  ///< the stored number that means "no data"
 
     friend bool operator==(const las_scaling&, const las_scaling&) = default;
 };
@@ -28,10 +28,10 @@ struct las_scaling {
 struct las_dimension {
     std::string name{};
     scalar_type type = scalar_type::uint8;
-    std::size_t byte = 0;  ///< where it begins in the record
-    unsigned shift = 0;    ///< of values that share a byte
-    unsigned bits = 0;     ///< of these; 0: the whole of `type`
-    /// Of extra bytes with a scale or an offset. Their columns hold the values, as doubles.
+    std::size_t byte = 0;  ///< position in the record
+    unsigned shift = 0;    ///< for values that share a byte
+    unsigned bits = 0;     ///< the number of bits of these; 0: all of `type`
+    /// For extra bytes with a scale or an offset, whose columns have the scaled values as doubles.
     std::optional<las_scaling> scaling{};
 
     [[nodiscard]] scalar_type column_type() const { return scaling ? scalar_type::float64 : type; }
@@ -39,7 +39,7 @@ struct las_dimension {
     friend bool operator==(const las_dimension&, const las_dimension&) = default;
 };
 
-/// What of a point there can be besides what all formats have.
+/// Optional data of points, which not all formats have.
 struct las_features {
     bool gps_time = false;
     bool color = false;
@@ -48,31 +48,31 @@ struct las_features {
     bool extended = false;  ///< more than 7 returns, classes above 31, scanner channels, ...
 };
 
-/// The smallest format with all of these.
+/// The smallest point format with all of these.
 [[nodiscard]] unsigned las_format_of(const las_features& features);
 [[nodiscard]] las_features features_of(unsigned format);
 
-/// Bytes of a record without extra ones.
+/// Size of a record in bytes, without extra bytes.
 [[nodiscard]] std::size_t las_record_size(unsigned format);
 
-/// What the records of a format have behind X, Y and Z, in the order of the record.
+/// The dimensions of a format after X, Y and Z, in the order of the record.
 [[nodiscard]] std::vector<las_dimension> las_dimensions(unsigned format);
 
-/// Extra bytes as their record ("LASF_Spec", 4) describes them, in 192 bytes each; those that it
-/// does not describe come last. Names are unique, and have underscores for blanks.
+/// The extra bytes, as described by their record ("LASF_Spec", 4) in 192 bytes each; those without
+/// a description come last. Names are unique, with underscores for blanks.
 [[nodiscard]] std::vector<las_dimension> extra_dimensions(std::span<const std::byte> descriptions,
                                                           std::size_t first, std::size_t bytes);
 
-/// The name of the column of an extra byte that is not described.
+/// The column name of an extra byte without a description.
 [[nodiscard]] std::string undescribed_name(std::size_t i);
 
-/// Dimensions that one description stands for: a number, or several of one type.
+/// The dimensions of one description: one number, or several of one type.
 struct extra_group {
     std::vector<std::byte> description{};  ///< 192 bytes
     std::vector<las_dimension> values{};
 };
 
-/// What of `bytes` extra bytes their record describes.
+/// The descriptions of `bytes` extra bytes, with their dimensions.
 [[nodiscard]] std::vector<extra_group> extra_groups(std::span<const std::byte> descriptions,
                                                     std::size_t first, std::size_t bytes);
 

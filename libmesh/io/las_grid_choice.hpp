@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Scale and offset of a LAS file for points that come by runs, more than once.
+/// Chooses scale and offset of a LAS file from points in blocks, in several passes.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
@@ -12,45 +12,46 @@
 
 namespace treeform::detail::io {
 
-/// What of scale and offset somebody has asked for.
+/// Requested scale and offset.
 struct las_grid_wish {
     std::optional<std::array<double, 3>> scale{};
     std::optional<std::array<double, 3>> offset{};
 
-    /// In a header that a file had.
+    /// Sets them in the header of a file.
     void put(las_header& header) const {
         if (scale) header.scale = *scale;
         if (offset) header.offset = *offset;
     }
 };
 
-/// The scale is the coarsest power of ten that gives each coordinate back within two units in the
-/// last place of the largest one, else the finest of which 32 bits hold all. The steps are counted
-/// from 0, or from the middle where that takes more than 32 bits.
+/// The scale is the coarsest power of ten that reproduces each coordinate within two units in the
+/// last place of the largest one, else the finest one for which 32 bits suffice. The offset is 0,
+/// or the middle of the range if 32 bits do not suffice with 0.
 ///
-/// Give all points to `look`, then all to `try_on`, and these again as long as `must_try_again`.
+/// Pass all points to `look`, then all to `try_on`; repeat the latter as long as `must_try_again`.
 class las_grid_choice {
   public:
     struct range {
         double low = std::numeric_limits<double>::infinity();
         double high = -std::numeric_limits<double>::infinity();
     };
-    using digits = std::array<int, 3>;  ///< of each axis: the scale is a tenth to the power of it
+    /// for each axis: the scale is 10 to the power of minus this
+    using digits = std::array<int, 3>;
 
     void look(std::span<const point3> points);
     [[nodiscard]] const std::array<range, 3>& ranges() const { return ranges_; }
-    /// All that others have looked at.
+    /// Adds the range of points that others have passed to `look`.
     void add(std::size_t axis, const range& seen);
 
     void try_on(std::span<const point3> points);
-    /// Whether a finer scale than at the start of the round has been tried.
+    /// Whether the scale became finer in this round.
     [[nodiscard]] bool must_try_again() const { return moved_ && tried_; }
     [[nodiscard]] const digits& tried() const { return digits_; }
-    /// The next round; with scales that are at least as fine as these.
+    /// Begins the next round, with scales at least as fine as `least`.
     void start_round(const digits& least);
 
     void put(las_header& header) const;
-    /// With what is wished for in its place; the rest goes with that.
+    /// Sets the requested values, and chooses the others to match.
     void put(las_header& header, const las_grid_wish& wish) const;
 
   private:
@@ -62,7 +63,7 @@ class las_grid_choice {
 
     std::array<range, 3> ranges_{};
     digits digits_{};
-    bool tried_ = false;  ///< points, with the scales of the start
+    bool tried_ = false;  ///< whether points were tried with the scales of the start of the round
     bool moved_ = false;
 };
 

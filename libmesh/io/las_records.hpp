@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// LAS point records from columns, and what a header says of all of them.
+/// Makes LAS point records from columns, and collects bounds and counts for the header.
 
 #include <libmesh/io/las_plan.hpp>
 #include <treeform/mesh/attributes.hpp>
@@ -22,15 +22,16 @@ class las_tally {
   public:
     explicit las_tally(const las_plan& plan);
 
-    /// Records that follow one another.
+    /// Adds consecutive records.
     void add(const std::uint8_t* records, std::size_t count);
     void moved(double by) {
         if (by > max_displacement_) max_displacement_ = by;
     }
-    /// The furthest that a coordinate is from the one that was to be written.
+    /// The largest change of a coordinate.
     [[nodiscard]] double max_displacement() const { return max_displacement_; }
 
-    /// A value of extra bytes with a scale that is no step of it, and how far it is from one.
+    /// A column of scaled extra bytes, and the largest change of its values by rounding to the
+    /// scale.
     struct rounded_value {
         std::string column{};
         double by = 0.0;
@@ -38,7 +39,7 @@ class las_tally {
     void rounded(const rounded_value& value) {
         if (value.by > rounded_.by) rounded_ = value;
     }
-    /// Whole numbers that the numbers with a point in the file do not hold, and of which columns.
+    /// Number of integers that the file's floating-point types cannot represent, and their columns.
     struct rounded_wholes {
         std::uint64_t count = 0;
         std::vector<std::string> columns{};
@@ -51,10 +52,10 @@ class las_tally {
     };
     void rounded(const rounded_wholes& values) { wholes_.add(values); }
     void without_value(std::uint64_t count) { without_value_ += count; }
-    /// What of values is other than it was to be, in words.
+    /// Adds warnings about changed values.
     void remark(std::vector<io_warning>& warnings) const;
 
-    /// Puts bounds and counts into a header. `count` is the number of points.
+    /// Writes bounds and counts into a header block. `count` is the number of points.
     void put(std::vector<std::byte>& block, const las_grid& grid, std::uint64_t count,
              unsigned version_minor, unsigned format) const;
 
@@ -71,16 +72,16 @@ class las_tally {
     std::array<std::uint64_t, 16> by_return_{};
 };
 
-/// Some points and their columns.
+/// Points and their columns, as LAS records.
 class las_source {
   public:
     las_source(std::span<const point3> points, const element* vertices, const las_plan& plan);
 
-    /// The records of `count` points from `first` on; in parallel. `number` is that of the first in
-    /// the file, in errors.
+    /// Writes the records of `count` points from `first` on, in parallel. `number` is that of the
+    /// first point in the file, for errors.
     ///
-    /// \throws las_fault naming the lowest point whose coordinates or values the format does not
-    ///         hold
+    /// \throws las_fault naming the lowest point whose coordinates or values the format cannot
+    ///         store
     void put(std::size_t first, std::size_t count, std::uint64_t number, std::uint8_t* records,
              las_tally& tally) const;
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// LAS point records to columns and back.
+/// Converts LAS point records to columns.
 
 #include <libmesh/io/las_dimensions.hpp>
 #include <treeform/mesh/attributes.hpp>
@@ -15,12 +15,12 @@
 
 namespace treeform::detail::io {
 
-/// How whole numbers stand for coordinates.
+/// The conversion of stored integers to coordinates.
 struct las_grid {
     std::array<double, 3> scale{};
     std::array<double, 3> offset{};
 
-    /// The product is rounded, then the sum: this is compiled without contraction.
+    /// The product is rounded, then the sum; compiled without floating-point contraction.
     [[nodiscard]] double coordinate(std::size_t axis, std::int32_t x) const {
         const double product = static_cast<double>(x) * scale[axis];
         return product + offset[axis];
@@ -30,7 +30,7 @@ struct las_grid {
 /// The columns of the element "vertex": the axes, then the dimensions.
 [[nodiscard]] element las_columns(std::span<const las_dimension> dimensions);
 
-/// Appends `rows` records that follow one another from `first` on; in parallel.
+/// Appends `rows` consecutive records from `first` on, in parallel.
 void append_las_rows(element& vertices, std::vector<point3>& points, std::size_t rows,
                      const char* first, std::size_t record_size, const las_grid& grid,
                      std::span<const las_dimension> dimensions);

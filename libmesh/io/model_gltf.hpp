@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// What the JSON of a glTF says, before it becomes one mesh. All numbers that name something are in
-/// range; counts and offsets in bytes are as the file has them.
+/// The parsed JSON of a glTF. All indices are in range; counts and byte offsets are as in the file,
+/// unchecked.
 
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -25,11 +25,11 @@ struct view_gltf {
     std::size_t buffer = 0;
     std::uint64_t offset = 0;
     std::uint64_t size = 0;
-    std::uint64_t stride = 0;   ///< 0: elements follow each other
-    std::string compression{};  ///< the extension that its bytes need, if any
+    std::uint64_t stride = 0;   ///< 0: elements are contiguous
+    std::string compression{};  ///< name of the extension that compresses its bytes, if any
 };
 
-/// Where the values of a sparse accessor differ from those below.
+/// The replaced values of a sparse accessor.
 struct sparse_gltf {
     std::uint64_t count = 0;
     std::size_t index_view = 0;
@@ -56,14 +56,14 @@ struct texture_transform_gltf {
     std::array<double, 2> scale{1, 1};
 };
 
-/// What of a material matters here: its color, and which texture coordinates that takes, and how.
+/// The used data of a material: its color, and the texture coordinates of its base color.
 struct material_gltf {
     std::optional<std::array<double, 4>> color{};  ///< linear
     std::size_t texture_set = 0;
     std::optional<texture_transform_gltf> transform{};
 };
 
-/// A view of packed values, and the numbers that attributes have there.
+/// A view of compressed values, and the ids of attributes in it.
 struct draco_gltf {
     std::size_t view = 0;
     std::map<std::string, std::uint32_t> attributes{};
@@ -75,8 +75,8 @@ struct primitive_gltf {
     std::optional<std::size_t> material{};
     unsigned mode = 4;
     bool morphs = false;
-    std::set<std::string> face_properties{};  ///< names in `extras`, as treeform writes them
-    std::optional<draco_gltf> draco{};        ///< where KHR_draco_mesh_compression has its values
+    std::set<std::string> face_properties{};  ///< names in `extras`, as written by treeform
+    std::optional<draco_gltf> draco{};        ///< compressed values (KHR_draco_mesh_compression)
 };
 
 struct mesh_gltf {
@@ -84,7 +84,7 @@ struct mesh_gltf {
     std::vector<primitive_gltf> primitives{};
 };
 
-/// A place in the scene, row by row.
+/// An affine transform, row by row.
 struct transform_gltf {
     std::array<std::array<double, 4>, 3> m{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
@@ -97,12 +97,12 @@ struct transform_gltf {
 [[nodiscard]] point3 moved(const transform_gltf& t, const point3& p);
 /// Whether it turns a surface inside out.
 [[nodiscard]] bool mirrors(const transform_gltf& t);
-/// A normal as the transform's surface has it: of length 1, or 0.
+/// The transformed normal, of length 1; or 0.
 [[nodiscard]] point3 turned(const transform_gltf& t, const point3& normal);
-/// Whether it has a length to divide by.
+/// Whether the quaternion can be normalized.
 [[nodiscard]] bool is_rotation(const std::array<double, 4>& quaternion);
-/// First the scale, then the rotation by a quaternion x, y, z, w of any length, then the
-/// translation.
+/// The transform that applies the scale, then the rotation by a quaternion x, y, z, w of any
+/// length, then the translation.
 ///
 /// \pre is_rotation(rotation)
 [[nodiscard]] transform_gltf transform_of(const point3& translation,
@@ -132,10 +132,10 @@ struct model_gltf {
     std::vector<material_gltf> materials{};
     std::vector<mesh_gltf> meshes{};
     std::vector<node_gltf> nodes{};
-    std::vector<std::size_t> roots{};  ///< nodes of the scene
+    std::vector<std::size_t> roots{};  ///< root nodes of the scene
     std::size_t scenes = 0;
-    bool has_textures = false;  ///< of materials
-    bool is_version_1 = false;  ///< glTF 1.0, of which nothing was parsed
+    bool has_textures = false;  ///< whether materials have textures
+    bool is_version_1 = false;  ///< glTF 1.0, which was not parsed
 };
 
 }  // namespace treeform::detail::io

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Names of parts that differ.
+/// Makes names of parts unique.
 
 #include <cstddef>
 #include <string>
@@ -9,7 +9,8 @@
 
 namespace treeform::detail::io {
 
-/// Makes names differ: parts with one name would be one part. The second "gear" is "gear (2)".
+/// Makes names unique, since parts with the same name would be one part. The second "gear" becomes
+/// "gear (2)".
 class name_giver {
   public:
     [[nodiscard]] std::string name(const std::string& wanted) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Text to doubles and integers, with no locale and no allocation.
+/// Parses doubles and integers, without locale and allocation.
 
 #include <charconv>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace treeform::detail::io {
 
-/// A number and the first byte after it; `end` is null when no number starts there.
+/// A number, and the first byte after it; `end` is null if no number starts there.
 template <class T>
 struct parsed {
     T value{};
@@ -28,7 +28,7 @@ struct parsed {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-/// True when the text at `at` starts with `word`, which is in lower case, in any case.
+/// Whether the text at `at` starts with `word`, ignoring case. \pre `word` is in lower case
 [[nodiscard]] constexpr bool starts_with_word(const char* at, const char* end,
                                               std::string_view word) {
     if (static_cast<std::size_t>(end - at) < word.size()) return false;
@@ -37,7 +37,7 @@ struct parsed {
     return true;
 }
 
-/// The powers of ten that a double holds exactly.
+/// The powers of ten that are exact in double.
 inline constexpr double exact_power_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                                 1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                                 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
@@ -51,7 +51,7 @@ template <class T>
     return {};
 }
 
-/// "0x1.8p1", which is 3, without a sign. One beyond the range of T is no number.
+/// "0x1.8p1", which is 3, without a sign. A value beyond the range of T is not a number.
 template <class T>
 [[nodiscard]] parsed<T> parse_hexadecimal(const char* at, const char* end) {
     const auto starts_digits = [](char c) {
@@ -67,10 +67,10 @@ template <class T>
 
 /// Digits, point and exponent of an unsigned decimal number.
 struct decimal {
-    std::uint64_t digits = 0;   ///< all digits as one integer, when there are at most 19
-    std::int64_t count = 0;     ///< how many digits, leading zeros included
+    std::uint64_t digits = 0;   ///< all digits as one integer, if there are at most 19
+    std::int64_t count = 0;     ///< number of digits, leading zeros included
     std::int64_t exponent = 0;  ///< value = digits * 10^exponent
-    const char* end = nullptr;  ///< null when there is no digit
+    const char* end = nullptr;  ///< null if there is no digit
 };
 
 [[nodiscard]] inline decimal scan_decimal(const char* at, const char* end) {
@@ -102,8 +102,8 @@ struct decimal {
     return d;
 }
 
-/// The value of text that std::from_chars finds out of range: zero or infinity, whichever is
-/// nearest. Only the position of the first digit that is not zero has to be known.
+/// The value of text that std::from_chars finds out of range: zero or infinity, by the position of
+/// the first nonzero digit.
 template <class T>
 [[nodiscard]] T out_of_range_value(const char* at, const char* end, const decimal& d) {
     std::int64_t leading_zeros = 0;
@@ -112,14 +112,14 @@ template <class T>
 }
 
 /// The number that starts at `at`, rounded once to the nearest T (ties to even): [+-] digits with
-/// an optional point and exponent, or nan, inf, infinity in any case, or hexadecimal digits behind
-/// 0x, as strtod takes them. Beyond the range decimal text is infinity or zero. What follows the
-/// number is the caller's affair.
+/// an optional point and exponent, or nan, inf, infinity in any case, or hexadecimal digits after
+/// 0x, as for strtod. Decimal numbers out of range become infinity or zero. Text after the number
+/// is left to the caller.
 ///
-/// Exact short cut for doubles: with at most 19 digits the integer is exact in 64 bits; when it is
-/// at most 2^53 and the power of ten at most 10^22, both are doubles and one correctly rounded
-/// multiplication or division gives the nearest double (Clinger, How to read floating point numbers
-/// accurately, PLDI 1990). It needs the rounding mode to be to-nearest, which is the default.
+/// Exact shortcut for doubles: with at most 19 digits the integer is exact in 64 bits; if it is at
+/// most 2^53 and the power of ten at most 10^22, both are exact doubles, and one multiplication or
+/// division gives the nearest double (Clinger, How to read floating point numbers accurately, PLDI
+/// 1990). It requires the rounding mode to-nearest, which is the default.
 template <class T = double>
 [[nodiscard]] parsed<T> parse_number(const char* at, const char* end) {
     const bool negative = at < end && *at == '-';
@@ -144,8 +144,8 @@ template <class T = double>
     return result;
 }
 
-/// An integer with an optional sign; values beyond 2^40 come back as some value beyond 2^40, since
-/// no index or count is that large.
+/// An integer with an optional sign. Values beyond 2^40 are returned as some value beyond 2^40,
+/// since no index or count is that large.
 [[nodiscard]] inline parsed<std::int64_t> parse_integer(const char* at, const char* end) {
     constexpr std::int64_t huge = std::int64_t{1} << 40;
     const bool negative = at < end && *at == '-';

@@ -1,7 +1,6 @@
 #pragma once
 /// \file
-/// Texture coordinates and normals of an OBJ: their lines, and the numbers by which corners of
-/// faces name them.
+/// Texture coordinates and normals of an OBJ: their lines, and the references of corners to them.
 
 #include <libmesh/io/text.hpp>
 #include <treeform/mesh/attributes.hpp>
@@ -16,7 +15,7 @@
 
 namespace treeform::detail::io {
 
-/// Skips blanks and continued line ends; true at the end of the statement.
+/// Skips blanks and line continuations; true at the end of the statement.
 [[nodiscard]] inline bool statement_done(text& t) {
     for (;;) {
         if (t.line_done()) return true;
@@ -26,7 +25,7 @@ namespace treeform::detail::io {
     }
 }
 
-/// How many rows of each kind there are; faces may name only those.
+/// Number of rows of each kind, the limits of references.
 struct obj_row_counts {
     static constexpr std::uint64_t any = std::numeric_limits<std::uint32_t>::max();
     std::uint64_t vertices = any;
@@ -34,26 +33,26 @@ struct obj_row_counts {
     std::uint64_t normals = any;
 };
 
-/// The numbers by which corners name rows of one kind.
+/// Parses references of corners to rows of one kind.
 class obj_numbers {
   public:
     /// \pre `kind`, as in "texture", outlives this; `limit` is at most 2^32 - 1
     obj_numbers(const char* kind, std::uint64_t limit) : kind_(kind), limit_(limit) {}
 
-    /// The row that is named at this place, where `count` rows have been so far; moves behind it.
-    /// Negative numbers count from the last row back, others from 1.
+    /// Parses a reference, and returns its row; `count` rows were read so far. Negative numbers
+    /// count back from the last row, others from 1.
     [[nodiscard]] std::uint32_t read(text& t, std::size_t count) {
         const parsed<std::int64_t> index = parse_integer(t.at, t.end);
         const std::int64_t row =
             index.value > 0 ? index.value - 1 : static_cast<std::int64_t>(count) + index.value;
-        // One that is not there has the value 0.
+        // A missing number has the value 0.
         if (index.value == 0 || static_cast<std::uint64_t>(row) >= limit_) refuse(t, index);
         needed_ = std::max(needed_, static_cast<std::uint64_t>(row) + 1);
         t.at = index.end;
         return static_cast<std::uint32_t>(row);
     }
 
-    /// How many rows there must be for all that was read.
+    /// The number of rows that all references require.
     [[nodiscard]] std::uint64_t needed() const { return needed_; }
 
   private:
@@ -64,13 +63,14 @@ class obj_numbers {
     std::uint64_t needed_ = 0;
 };
 
-/// The numbers of corners, cut into fans as their faces are; takes no memory before the first one.
+/// The references of corners, cut into fans like their faces. Uses no memory before the first
+/// reference.
 class corner_fans {
   public:
     [[nodiscard]] bool used() const { return used_; }
 
-    /// Of corner `corner` of a face, ahead of which there were `triangles`, those of the face
-    /// included; `expected` is a hint at how many there will be.
+    /// Adds the reference of corner `corner` of a face. `triangles` is the number of triangles so
+    /// far, including those of the face; `expected` is a hint for the final number.
     void add(std::uint32_t number, std::size_t corner, std::size_t triangles, std::size_t expected,
              std::vector<face>& fans) {
         if (!used_ && number == corner_values::none) return;
@@ -93,27 +93,28 @@ class obj_corners {
     explicit obj_corners(const obj_row_counts& limits)
         : textures_("texture", limits.textures), normals_("normal", limits.normals) {}
 
-    /// Room for as many rows, and for the corners of as many triangles once one has a number.
+    /// Reserves memory for rows, and for the corners of triangles once one has a reference.
     void reserve(std::size_t textures, std::size_t normals, std::size_t triangles);
 
-    /// The statement `vt` or `vn` at this place, up to its end.
+    /// Parse the rest of a statement `vt` or `vn`.
     void texture(text& t);
     void normal(text& t);
 
-    /// What follows the number of a vertex, "/vt", "//vn", "/vt/vn" or nothing; the rest as in
-    /// `corner_fans::add`. What cannot be read is left to the caller.
+    /// Parses the text after the number of a vertex: "/vt", "//vn", "/vt/vn" or nothing; other
+    /// arguments as in `corner_fans::add`. Text that cannot be parsed is left to the caller.
     void add(text& t, std::size_t corner, std::size_t triangles) {
         if ((t.at < t.end && *t.at == '/') || texture_fans_.used() || normal_fans_.used())
             add_numbers(t, corner, triangles);
     }
 
-    /// What is named but of which the file has none at all counts as left out.
+    /// Whether all references are in range. References to a kind without any rows in the file are
+    /// dropped, and do not count.
     [[nodiscard]] bool in_range() const {
         return (lacks_textures() || textures_.needed() <= values_.texture.size()) &&
                (lacks_normals() || normals_.needed() <= values_.normals.size());
     }
     [[nodiscard]] const corner_values& values() const { return values_; }
-    /// Says what is named and not there.
+    /// Returns the values, and adds warnings about dropped references.
     [[nodiscard]] corner_values take(std::vector<io_warning>& warnings);
 
   private:

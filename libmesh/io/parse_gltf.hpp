@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The JSON of a glTF.
+/// Parses the JSON of a glTF.
 
 #include <libmesh/io/model_gltf.hpp>
 #include <libmesh/io/source.hpp>
@@ -9,13 +9,12 @@
 
 namespace treeform::detail::io {
 
-/// Reads what matters of the JSON of glTF 2.0. Materials count only for the texture coordinates
-/// that they use; cameras, lights, images, animations and what `extras` hold are not looked at.
+/// Parses the relevant JSON of glTF 2.0. Of materials, only the color and the texture coordinates
+/// are used; cameras, lights, images, animations and most `extras` are ignored.
 ///
 /// \throws io_error naming the byte, or the entry, as "accessors[3].count"; for values of a wrong
-///         type, numbers of things that are not there, other versions than 1 and 2; and for
-///         extensions that the file requires, except for those that are read and those that only
-///         change how it looks
+///         type, indices out of range, versions other than 1 and 2, and required extensions, except
+///         for supported ones and those that only change how a surface looks
 [[nodiscard]] model_gltf parse_gltf(const source& in, std::string_view json);
 
 }  // namespace treeform::detail::io

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// A mesh cut up as GLB has it: nodes by name, primitives by color, vertices that have one value of
-/// each attribute.
+/// Divides a mesh for GLB: nodes by name, primitives by color, vertices with one value of each
+/// attribute.
 
 #include <libmesh/io/writers.hpp>
 
@@ -21,7 +21,7 @@ struct primitive_glb {
     std::vector<std::uint32_t> triangles{};
 };
 
-/// A point and rows of `corner_values`; `corner_values::none` where there is none.
+/// A point, and rows of `corner_values`, or `corner_values::none`.
 struct vertex_glb {
     std::uint32_t point = 0;
     std::uint32_t texture = corner_values::none;
@@ -34,46 +34,47 @@ struct vertex_glb {
 struct part_glb {
     std::string name{};
     std::vector<primitive_glb> primitives{};
-    std::vector<vertex_glb> vertices{};  ///< by points, ascending
-    std::vector<face> faces{};           ///< numbers in `vertices`; primitive after primitive
+    std::vector<vertex_glb> vertices{};  ///< ascending by point
+    std::vector<face> faces{};           ///< by numbers in `vertices`; primitive after primitive
 };
 
 struct layout_glb {
-    std::vector<color_glb> materials{};  ///< by first appearance
-    bool has_colors = false;             ///< else there is one material, without a color
+    std::vector<color_glb> materials{};  ///< in the order of first use
+    bool has_colors = false;             ///< if false, there is one material, without a color
     std::vector<part_glb> parts{};
 };
 
-/// One part with all points where faces have no names; else parts with the points that they use.
-/// Says so when colors or points are left out.
+/// If faces have no names, one part with all points; else parts with the points that they use. Adds
+/// warnings if colors or points are omitted.
 [[nodiscard]] layout_glb lay_out(const write_job& job);
 
-/// Values that vertices have besides positions.
+/// The attributes of vertices besides positions.
 class attributes_glb {
   public:
     explicit attributes_glb(const write_job& job);
 
-    /// Whether vertices of the part have these.
+    /// Whether vertices of the part have the attribute.
     [[nodiscard]] bool has_normals(const part_glb& part) const;
     [[nodiscard]] bool has_texture(const part_glb& part) const;
     [[nodiscard]] bool has_colors() const { return !colors_.empty(); }
 
-    /// Whether some vertex has a normal, but none of a length.
+    /// Whether some vertex of the part has no valid normal (texture coordinates), although the part
+    /// has some.
     [[nodiscard]] bool lacks_normals(const part_glb& part) const;
     [[nodiscard]] bool lacks_texture(const part_glb& part) const;
 
-    /// Of length 1.
+    /// The normal, scaled to length 1.
     [[nodiscard]] std::array<float, 3> normal(const vertex_glb& v) const;
-    /// v counts from the upper edge. 0 0 where there is none.
+    /// The texture coordinates, with v from the upper edge; 0 0 if there are none.
     [[nodiscard]] std::array<float, 2> texture(const vertex_glb& v) const;
 
     [[nodiscard]] const std::vector<const column*>& colors() const { return colors_; }
-    /// uint8 and uint16 where all columns are that, else float32.
+    /// uint8 or uint16 if all columns have this type, else float32.
     [[nodiscard]] scalar_type color_type() const { return color_type_; }
-    /// From 0 to 1.
+    /// The value of a color column, from 0 to 1.
     [[nodiscard]] static double color_share(const column& c, std::size_t row);
 
-    /// Names of columns of points that GLB has no place for.
+    /// Names of columns of points that GLB cannot store.
     [[nodiscard]] std::vector<std::string> left_out() const;
 
   private:

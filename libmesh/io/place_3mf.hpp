@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The build of a 3MF package as one mesh.
+/// Converts the build of a 3MF package to one mesh.
 
 #include <libmesh/io/model_3mf.hpp>
 #include <libmesh/io/source.hpp>
@@ -8,11 +8,11 @@
 
 namespace treeform::detail::io {
 
-/// The objects of all items, where their transforms put them, each a part of its own. What they
-/// amount to is counted before anything is built.
+/// The objects of all items, transformed, each as a part of its own. Sizes are counted before
+/// anything is built.
 ///
-/// \throws io_error for an object that is its own component, and for more objects, points or faces
-///         than a mesh may have
+/// \throws io_error for an object that is its own component, and for too many objects, points or
+///         faces
 [[nodiscard]] mesh_file place_3mf(const source& in, const model_3mf& model);
 
 }  // namespace treeform::detail::io

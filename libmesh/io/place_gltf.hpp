@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Puts the meshes of a glTF where its scene has them.
+/// Converts the scene of a glTF to one mesh.
 
 #include <libmesh/io/bytes_gltf.hpp>
 #include <libmesh/io/model_gltf.hpp>
@@ -9,11 +9,12 @@
 
 namespace treeform::detail::io {
 
-/// One mesh of all that the nodes of the scene show, each as a part with a name of its own: that of
-/// the node, else of the mesh. Points that a transform has moved are doubles; others are as they
-/// are stored. Where a transform mirrors, faces are turned over.
+/// The meshes of all nodes of the scene, transformed, each as a part with a unique name: that of
+/// the node, else of the mesh. Transformed points are doubles; others are as stored. Faces of
+/// mirrored parts are flipped.
 ///
-/// \throws io_error for nodes that are no tree or too deep, and for what does not fit
+/// \throws io_error if nodes do not form a tree or are nested too deeply, and if there are too many
+///         elements
 [[nodiscard]] mesh_file place_gltf(const source& in, const model_gltf& model,
                                    buffers_gltf& buffers);
 

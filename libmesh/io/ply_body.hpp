@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What readers of a whole PLY and of its runs have in common.
+/// Common code of the readers of whole PLY files and of blocks.
 
 #include <libmesh/io/ply_header.hpp>
 #include <libmesh/io/row_values.hpp>
@@ -20,7 +20,7 @@ namespace treeform::detail::io {
 
 inline constexpr std::uint32_t most_numbers = std::numeric_limits<std::uint32_t>::max();
 
-/// The element of points; there must be one with all coordinates.
+/// The element "vertex", which must exist and have all coordinates.
 [[nodiscard]] inline element& vertices_of(const source& in, std::vector<element>& elements) {
     const auto at = std::find_if(elements.begin(), elements.end(),
                                  [](const element& e) { return e.name == "vertex"; });
@@ -50,14 +50,14 @@ void look_behind(Values& values, std::vector<io_warning>& warnings) {
     values.remark(warnings);
 }
 
-/// Whether rows may be passed over by the bytes that they take.
+/// Whether rows can be skipped by their size in bytes.
 template <class Values>
 inline constexpr bool has_bytes = requires(Values v) {
     v.take_bytes(0);
 };
 
-/// Bytes of the next row of `e`, and of all if they are like it: no list but that of corners, the
-/// number of which is given. Zero where they cannot be.
+/// Size in bytes of the next row of `e`, and of all rows if they are alike; sets `corners` to its
+/// number of corners. Zero if there is a list other than the corners, or the row does not fit.
 template <class Values>
 std::size_t alike_row_size(Values values, const element& e, std::optional<std::size_t>& corners) {
     const std::size_t before = values.bytes_left();
@@ -71,7 +71,7 @@ std::size_t alike_row_size(Values values, const element& e, std::optional<std::s
     return before - values.bytes_left();
 }
 
-/// Calls f with the values of the body, and with the name of their format.
+/// Calls f with the name of the format and the reader of values.
 template <class F>
 void with_reader(const source& in, const ply_header& header, F&& f) {
     switch (header.encoding) {

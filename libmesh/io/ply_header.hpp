@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The text ahead of a PLY file's data.
+/// The header of a PLY file.
 
 #include <libmesh/io/source.hpp>
 #include <treeform/mesh/attributes.hpp>
@@ -17,16 +17,16 @@ enum class ply_encoding : std::uint8_t { ascii, little_endian, big_endian };
 [[nodiscard]] std::string_view name_of(ply_encoding encoding);  ///< as in the file
 [[nodiscard]] std::string_view name_of(scalar_type type);       ///< as in the file: "uchar"
 
-/// Behind "comment": the name of a texture file follows.
+/// After "comment": the name of a texture file follows.
 constexpr std::string_view texture_file_keyword = "TextureFile";
 
 struct ply_header {
     ply_encoding encoding = ply_encoding::ascii;
-    /// With rows and columns as declared, and no values yet. The columns of points and of corners
-    /// have their roles.
+    /// The declared elements, with rows and columns, without values. The columns of coordinates and
+    /// corners have their roles.
     std::vector<element> elements{};
     std::vector<std::string> texture_files{};
-    std::vector<std::string> comments{};  ///< except for the lines that name these
+    std::vector<std::string> comments{};  ///< except for lines of texture files
     std::vector<std::string> obj_info{};
     const char* body = nullptr;  ///< first byte after the header
 };

@@ -12,34 +12,34 @@
 
 namespace treeform::detail::io {
 
-/// A resource whose entries triangles refer to by number.
+/// A resource to whose entries triangles refer by number.
 struct property_group_3mf {
     std::uint32_t count = 0;
-    std::optional<std::uint32_t> first_color{};     ///< in the palette of the model
-    std::optional<std::uint32_t> first_material{};  ///< in its materials
-    std::optional<std::uint32_t> first_texture{};   ///< in its texture coordinates
+    std::optional<std::uint32_t> first_color{};     ///< number in the palette of the model
+    std::optional<std::uint32_t> first_material{};  ///< number in its materials
+    std::optional<std::uint32_t> first_texture{};   ///< number in its texture coordinates
 };
 
-/// By their numbers in the part.
+/// Groups by id in the part.
 using property_groups_3mf = std::map<std::uint32_t, property_group_3mf>;
 
-/// Base materials, a group of colors or of texture coordinates, whose entries are appended to those
-/// of the model. Mixtures of these are known by name only: they have no count. None for a resource
-/// that is no group.
+/// Reads base materials, or a group of colors or texture coordinates, and appends its entries to
+/// those of the model. Mixtures have no entries: their count is 0. None if the resource is not a
+/// group.
 ///
 /// \throws io_error
 [[nodiscard]] std::optional<property_group_3mf> read_property_group(const xml_part& part,
                                                                     pugi::xml_node resource,
                                                                     model_3mf& model);
 
-/// Gives the triangles of an object what they refer to.
+/// Sets the properties to which the triangles of an object refer.
 class triangle_properties {
   public:
-    /// \throws io_error when the object refers to what is not there
+    /// \throws io_error if the object refers to a missing group
     triangle_properties(const xml_part& part, const property_groups_3mf& groups,
                         pugi::xml_node object, object_3mf& to, unread_3mf& unread);
 
-    /// For the triangle that was appended last.
+    /// Adds the properties of the triangle that was appended last.
     void add(pugi::xml_node triangle);
 
   private:

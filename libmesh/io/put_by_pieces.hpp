@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Rows of a file as bytes, by many threads.
+/// Serializes rows of a file in parallel.
 
 #include <libmesh/io/sink.hpp>
 #include <libmesh/io/writers.hpp>
@@ -14,11 +14,11 @@
 
 namespace treeform::detail::io {
 
-/// Puts rows 0 to `rows` into the sink of `job`, in their order: `put(piece, first, last)` puts
-/// some into that of `piece`, which is `job` except for its sink. While some pieces are made, those
-/// before them are written.
+/// Writes rows 0 to `rows` to the sink of `job`, in order. `put(piece, first, last)` writes some
+/// rows to the sink of `piece`, which is `job` with another sink. Pieces are written while the next
+/// ones are serialized.
 ///
-/// \pre  `put` changes nothing but the sink, so that it can be called on many threads
+/// \pre  `put` only changes the sink, since it is called from several threads
 /// \same on any number of threads
 template <class Put>
 void put_by_pieces(const write_job& job, std::size_t rows, const Put& put) {

@@ -22,17 +22,16 @@ namespace treeform::detail::io {
 /// LAS and LAZ.
 [[nodiscard]] mesh_file read_las(const source& in);
 [[nodiscard]] mesh_file read_3mf(const source& in);
-/// glTF 2.0 and GLB. `path` is empty for bytes that have none; then files that it names cannot be
-/// found.
+/// glTF 2.0 and GLB. `path` is empty for bytes in memory, which cannot refer to files.
 [[nodiscard]] mesh_file read_gltf(const source& in, const std::filesystem::path& path);
-/// `format` is "xyz" or "csv", which are read alike, or "pts", where a count may come first.
+/// `format` is "xyz" or "csv", which are read the same way, or "pts", which may begin with a count.
 [[nodiscard]] mesh_file read_xyz(const source& in, std::string_view format,
                                  std::span<const std::pair<std::string, std::string>> columns = {});
 
-/// True when the library behind `read_scene` knows files of this extension (no dot).
+/// Whether assimp can read files with this extension (without a dot).
 [[nodiscard]] bool scene_format(std::string_view extension);
-/// A scene through assimp, glTF 1.0 too. `path` is empty for bytes that have none; then files that
-/// a scene refers to cannot be found.
+/// Reads a scene by assimp, also glTF 1.0. `path` is empty for bytes in memory, which cannot refer
+/// to files.
 [[nodiscard]] mesh_file read_scene(const source& in, const std::filesystem::path& path,
                                    std::string_view extension);
 

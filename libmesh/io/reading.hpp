@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How a file is to be read.
+/// The format and options of reading a file.
 
 #include <treeform/mesh/mesh_file.hpp>
 
@@ -9,7 +9,7 @@
 
 namespace treeform::detail::io {
 
-/// With the format: an extension without its dot, or nothing.
+/// `format` is an extension without its dot, or empty.
 struct reading {
     std::string format{};
     read_options options{};

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// What is known of the records of a file whose places can only be read, once all have been looked
-/// at, be it by many: how many there are, and where some of them begin.
+/// An index of the records of a file whose positions are only known after reading: their number,
+/// and the positions of some. Several processes may build it.
 
 #include <libmesh/io/file_part.hpp>
 #include <libmesh/io/text.hpp>
@@ -16,12 +16,12 @@ namespace treeform::detail::io {
 
 inline constexpr std::size_t most_marks = 1024;
 
-/// What the cells of a column of text are.
+/// Properties of the cells of a text column.
 struct text_column {
-    bool whole = true;           ///< whole numbers, without point and exponent
-    bool beyond = false;         ///< one of them is beyond 2^53
-    bool unsigned_only = false;  ///< and one beyond 2^63
-    std::uint64_t gaps = 0;      ///< empty cells, and words
+    bool whole = true;           ///< all are integers, without point and exponent
+    bool beyond = false;         ///< one is beyond 2^53
+    bool unsigned_only = false;  ///< one is beyond 2^63
+    std::uint64_t gaps = 0;      ///< number of empty cells, and cells with text
     double least = 0.0;
     double greatest = 0.0;
 
@@ -35,25 +35,25 @@ struct text_column {
     }
 };
 
-/// A record is a line with the values of a point, or in a PLY of a row; in binary a point with
-/// lists, where the last mark is the end of all points.
+/// A record is a line with the values of a point, or for PLY of any row; in binary files, a point
+/// with lists, and the last mark is the end of all points.
 struct record_index {
     struct mark {
         std::uint64_t record = 0;
-        std::uint64_t byte = 0;  ///< of the file, where it begins
+        std::uint64_t byte = 0;  ///< byte of the file at which it begins
     };
     std::uint64_t records = 0;
-    std::vector<mark> marks{};           ///< ascending; the first record has one
-    bool even = true;                    ///< of XYZ: all lines have as many values as the first one
-    bool hexadecimal = false;            ///< a number is
-    std::vector<text_column> columns{};  ///< of XYZ: those behind x, y and z
+    std::vector<mark> marks{};  ///< ascending; includes the first record
+    bool even = true;           ///< for XYZ: all lines have as many values as the first one
+    bool hexadecimal = false;   ///< whether a number is hexadecimal
+    std::vector<text_column> columns{};  ///< for XYZ: the columns after x, y and z
 
-    /// The last mark that is not behind the record.
+    /// The last mark at or before the record.
     [[nodiscard]] mark before(std::uint64_t record) const {
         const auto behind = std::ranges::upper_bound(marks, record, {}, &mark::record);
         return behind == marks.begin() ? mark{} : behind[-1];
     }
-    /// Adds what was found in the next part.
+    /// Appends the index of the next part.
     void add(const record_index& next) {
         for (const mark& m : next.marks) marks.push_back({records + m.record, m.byte});
         records += next.records;
@@ -64,13 +64,13 @@ struct record_index {
     }
 };
 
-/// Marks of records, evenly spread, as these come.
+/// Collects evenly spread marks of a sequence of records.
 class spread_marks {
   public:
-    /// At most so many, at least two.
+    /// `most`: largest number of marks, at least 2.
     explicit spread_marks(std::size_t most) : most_(most) {}
 
-    /// Of each record, or each some-th one. \pre it is behind those before
+    /// Call it for each record, in order. \pre the record is after those before
     void add(std::uint64_t record, std::uint64_t byte) {
         if (record % spacing_ != 0) return;
         while (record % spacing_ == 0 && marks_.size() == most_) thin_out();
@@ -79,7 +79,7 @@ class spread_marks {
     [[nodiscard]] std::vector<record_index::mark> all() && { return std::move(marks_); }
 
   private:
-    /// Leaves every other one.
+    /// Keeps every other mark.
     void thin_out() {
         spacing_ *= 2;
         std::erase_if(marks_, [&](const auto& m) { return m.record % spacing_ != 0; });
@@ -90,10 +90,10 @@ class spread_marks {
     std::vector<record_index::mark> marks_{};
 };
 
-/// Counts the records whose lines begin in one part of a text, and marks some, evenly spread.
+/// Counts the records whose lines begin in a part of a text, and sets evenly spread marks.
 class text_scan {
   public:
-    /// Of what is left of the text; at most `most` marks, at least two.
+    /// For the rest of the text; with at most `most` marks, at least 2.
     text_scan(text& of, const file_part& part, std::size_t most)
         : text_(of), body_(of.at), marks_(most) {
         const auto size = static_cast<std::uint64_t>(text_.end - body_);
@@ -108,7 +108,7 @@ class text_scan {
         while (line != body_ && is_blank(line[-1])) --line;
         return line < last_;
     }
-    /// The text is at the next record.
+    /// Adds the record at the present position of the text.
     void add() {
         marks_.add(found_.records, static_cast<std::uint64_t>(text_.at - text_.file.begin()));
         ++found_.records;
@@ -126,7 +126,7 @@ class text_scan {
     record_index found_{};
 };
 
-/// Of rows that are lines which are not blank, from `body` on.
+/// The index of rows that are non-blank lines, from `body` on.
 [[nodiscard]] record_index scan_rows(const source& in, const char* body, const file_part& part,
                                      std::size_t most);
 

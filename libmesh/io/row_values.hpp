@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Values of rows, one at a time, from text and from bytes. Both readers have the same calls:
+/// Reads values of rows one by one, from text or bytes. Both readers have the same functions:
 /// begin_row, length, scalar, end_row, remark.
 
 #include <libmesh/base/byte_order.hpp>
@@ -22,7 +22,7 @@ void append(std::vector<std::byte>& values, T value) {
     std::memcpy(values.data() + size, &value, sizeof value);
 }
 
-/// A row a line, as the format says.
+/// One row in each line.
 class text_values {
   public:
     text_values(const source& in, const char* body) : text_(in) { text_.at = body; }
@@ -30,17 +30,17 @@ class text_values {
     [[nodiscard]] std::size_t bytes_left() const {
         return static_cast<std::size_t>(text_.end - text_.at);
     }
-    /// The least that a row of this many values can take: a digit and a separator each; the last
-    /// one of the file needs no separator.
+    /// Whether `rows` rows fit into the bytes: each value needs at least a digit and a separator,
+    /// except for the last separator of the file.
     [[nodiscard]] static bool can_hold(std::size_t bytes, std::size_t rows, const element& e) {
         return e.columns.empty() || rows <= (bytes + 1) / (2 * e.columns.size());
     }
 
-    /// What is known of all of the text: of rows that others read, it counts as read here.
+    /// Takes over known properties of the whole text, for rows that other processes read.
     void expect(const record_index& all) { text_.hexadecimal = all.hexadecimal; }
-    /// Goes on from a row that begins there.
+    /// Continues at a row.
     void go_to(const char* row) { text_.at = row; }
-    /// Passes over a row without a look at its values.
+    /// Skips a row without parsing its values.
     void pass_row() {
         text_.skip_spaces();
         text_.skip_line();
@@ -50,7 +50,7 @@ class text_values {
     void begin_row() { text_.skip_spaces(); }
     [[nodiscard]] const char* at() const { return text_.at; }
 
-    /// Length of a list; never more than the file can hold.
+    /// The length of a list; an error if it exceeds the rest of the file.
     [[nodiscard]] std::size_t length(const column&) {
         text_.skip_blanks();
         const char* const start = text_.at;
@@ -109,7 +109,7 @@ class text_values {
                 if (error == std::errc{} && (stop == text_.end || is_space(*stop)))
                     return {value, stop};
             }
-            // Some files write whole numbers with a point: 255.0.
+            // Some files write integers with a point: 255.0.
             const parsed<double> n = parse_number(text_.at, text_.end);
             if (n.end == nullptr || !is_value_of<T>(n.value)) return {};
             return {static_cast<T>(n.value), n.end, n.hexadecimal};
@@ -164,7 +164,7 @@ class byte_values {
 
     void end_row() { file_.release_before(at_); }
 
-    /// The next `bytes` bytes, which must be there, to be read by the caller.
+    /// Skips the next `bytes` bytes, which must exist, and returns their address.
     [[nodiscard]] const char* take_bytes(std::size_t bytes) {
         const char* const first = at_;
         at_ += bytes;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Bytes for the time of an operation: in memory, or in a file without a name.
+/// Temporary bytes: in memory, or in an unnamed file.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,10 +11,10 @@ namespace treeform::detail::io {
 
 enum class scratch_place : std::uint8_t { memory, file };
 
-/// `size` bytes, zero at first. Those of a file take memory only while they are used.
+/// `size` bytes, initially zero. In a file, they use memory only while they are accessed.
 class scratch {
   public:
-    /// `name` stands for the file that they are needed for, in errors. `folder` as for
+    /// `name` is the file for which they are needed, in errors. `folder` as for
     /// `open_nameless_file`.
     ///
     /// \throws io_error, std::bad_alloc
@@ -26,7 +26,7 @@ class scratch {
 
     [[nodiscard]] char* data() const { return data_; }
     [[nodiscard]] std::size_t size() const { return size_; }
-    /// Gives the memory of bytes that are in a file back; they can still be read.
+    /// Releases the memory of bytes in a file; they can still be read.
     void give_back() const;
 
   private:
@@ -35,8 +35,8 @@ class scratch {
     scratch_place place_;
 };
 
-/// A file that nobody else sees and that goes with its descriptor: in `folder`, or else where there
-/// is room for large ones. \throws io_error
+/// Opens an unnamed file, which is removed when its descriptor is closed: in `folder`, or if empty,
+/// in a folder for large temporary files. \throws io_error
 [[nodiscard]] int open_nameless_file(std::string_view name,
                                      const std::filesystem::path& folder = {});
 

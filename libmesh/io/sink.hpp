@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where written bytes go, and numbers as text.
+/// Buffered output of bytes, and of numbers as text.
 
 #include <libmesh/base/byte_order.hpp>
 
@@ -16,15 +16,15 @@
 
 namespace treeform::detail::io {
 
-/// Thrown where a sink is asked to stop.
+/// Thrown if `goes_on` returned false.
 class writing_stopped {};
 
-/// A buffer in front of a file descriptor, or of a string that grows.
+/// A buffer for a file descriptor, or for a string.
 class sink {
   public:
     explicit sink(std::string& memory) : memory_(&memory) {}
-    /// `name` stands for the file in errors. Where `goes_on` returns false, nothing more is
-    /// written: `writing_stopped` is thrown.
+    /// `name` is the file in errors. If `goes_on` returns false, `writing_stopped` is thrown and
+    /// nothing more is written.
     sink(int fd, std::string name, std::function<bool()> goes_on = {})
         : fd_(fd), name_(std::move(name)), goes_on_(std::move(goes_on)) {}
     sink(const sink&) = delete;
@@ -44,7 +44,7 @@ class sink {
     }
     void put(char c) { put(std::string_view(&c, 1)); }
 
-    /// Shortest text that reads back as the same value.
+    /// Writes the shortest text that reads back as the same value.
     template <class T>
     requires std::is_arithmetic_v<T>
     void number(T value) {
@@ -64,25 +64,25 @@ class sink {
     /// \throws io_error, writing_stopped
     void flush();
 
-    /// For what takes long before anything is put. \throws writing_stopped
+    /// Checks for cancellation during long work without output. \throws writing_stopped
     void go_on() const {
         if (goes_on_ && !goes_on_()) throw writing_stopped();
     }
 
-    /// Leaves a hole of so many bytes in the file. \pre a regular file. \throws io_error
+    /// Skips this many bytes in the file. \pre it is a regular file \throws io_error
     void skip(std::uint64_t bytes);
 
-    /// Bytes that were put.
+    /// Number of bytes put so far.
     [[nodiscard]] std::uint64_t size() const { return flushed_ + used_; }
 
-    /// The file, for errors.
+    /// The name of the file, for errors.
     [[nodiscard]] std::string_view name() const {
         return memory_ != nullptr ? std::string_view("memory") : std::string_view(name_);
     }
 
-    /// Whether bytes that were put can be replaced: false for pipes and terminals.
+    /// Whether written bytes can be replaced; false for pipes and terminals.
     [[nodiscard]] bool can_replace() const;
-    /// Replaces bytes from `at` on, counted from the first that was put.
+    /// Replaces written bytes from position `at` on.
     ///
     /// \pre    `can_replace`, and these bytes were put
     /// \throws io_error
@@ -98,9 +98,9 @@ class sink {
     std::function<bool()> goes_on_{};
 };
 
-/// A file that appears at its path only when it is whole: written beside it, renamed by `commit`,
-/// removed without it. What is no regular file (a device, a pipe) is written in place; "-" is
-/// standard output.
+/// An output file that appears at its path only when it is complete: it is written to a temporary
+/// file beside it, renamed by `commit`, and removed without `commit`. A path that is not a regular
+/// file (a device, a pipe) is written in place; "-" is standard output.
 class output_file {
   public:
     /// \throws io_error

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The bytes of an input: a mapped file, what came through a pipe, or the caller's memory.
+/// The bytes of an input: a mapped file, the content of a pipe, or the caller's memory.
 
 #include <libmesh/io/scratch.hpp>
 
@@ -15,8 +15,8 @@ namespace treeform::detail::io {
 
 class source {
   public:
-    /// The file at `path`, mapped when it is a regular file, else read to its end, into memory or
-    /// into a file without a name that is mapped; "-" is standard input.
+    /// Opens the file at `path`; "-" is standard input. A regular file is mapped; other input is
+    /// read to its end, into memory or into an unnamed mapped file.
     ///
     /// \throws io_error
     [[nodiscard]] static source open(const std::filesystem::path& path,
@@ -34,22 +34,21 @@ class source {
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] std::string_view name() const { return name_; }
 
-    /// Says that the bytes before `at` are not needed for now: a mapped file gives their memory
-    /// back. They can still be read.
+    /// Releases the memory of the bytes before `at` of a mapped file. They can still be read.
     void release_before(const char* at) const {
         if (at > release_at_) release(at);
     }
 
-    /// Starts `release_before` anew, for another pass.
+    /// Resets `release_before`, for another pass.
     void rewind() const;
 
-    /// How many line feeds there are; a pass of its own, several times as fast as parsing.
+    /// Number of line feeds; a separate pass, several times as fast as parsing.
     [[nodiscard]] std::size_t count_newlines() const;
 
-    /// Number of the line that holds `at`, from 1, which is counted only now.
+    /// Number of the line that contains `at`, from 1; counts the lines before.
     [[nodiscard]] std::size_t line_of(const char* at) const;
 
-    /// Throws io_error "name:line: reason" for the line that holds `at`.
+    /// Throws io_error "name:line: reason" for the line that contains `at`.
     [[noreturn]] void fail_line(const char* at, std::string_view reason) const;
     /// Throws io_error "name: byte N: reason".
     [[noreturn]] void fail_byte(const char* at, std::string_view reason) const;
@@ -68,8 +67,9 @@ class source {
     std::size_t size_ = 0;
     std::string name_{};
     owner owner_ = owner::caller;
-    mutable const char* released_ = nullptr;    ///< up to here; a multiple of the page size
-    mutable const char* release_at_ = nullptr;  ///< next place worth a system call
+    /// end of the released bytes; a multiple of the page size
+    mutable const char* released_ = nullptr;
+    mutable const char* release_at_ = nullptr;  ///< next position worth a system call
 };
 
 }  // namespace treeform::detail::io

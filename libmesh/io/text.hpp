@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A place in the text of an input, and the steps that all text formats share.
+/// A position in the text of an input, with parsing steps common to all text formats.
 
 #include <libmesh/io/number.hpp>
 #include <libmesh/io/source.hpp>
@@ -14,7 +14,7 @@
 
 namespace treeform::detail::io {
 
-/// The start of what stands at `at`, fit for an error message: one word, printable, short.
+/// The beginning of the text at `at` for an error message: one word, printable, short.
 [[nodiscard]] inline std::string quoted(const char* at, const char* end) {
     constexpr std::size_t longest = 24;
     std::string word = "'";
@@ -27,7 +27,7 @@ struct text {
     const source& file;
     const char* at;
     const char* end;
-    bool hexadecimal = false;  ///< a number was
+    bool hexadecimal = false;  ///< whether a number was hexadecimal
 
     explicit text(const source& s) : file(s), at(s.begin()), end(s.end()) {
         if (starts_with("\xef\xbb\xbf")) at += 3;  // byte order mark of UTF-8
@@ -62,13 +62,13 @@ struct text {
         }
     }
 
-    /// The bytes up to the next blank or newline; moves behind them.
+    /// Reads the bytes up to the next blank or newline.
     [[nodiscard]] std::string_view word() {
         const char* const first = at;
         while (at < end && !is_space(*at)) ++at;
         return {first, static_cast<std::size_t>(at - first)};
     }
-    /// The rest of the line without blanks around it; moves to its end.
+    /// Reads the rest of the line, without blanks around it.
     [[nodiscard]] std::string_view rest_of_line() {
         skip_blanks();
         const char* const first = at;
@@ -78,14 +78,14 @@ struct text {
         return {first, static_cast<std::size_t>(last - first)};
     }
 
-    /// The number at this place, which must end where a blank, newline or comment begins: "1.#IND"
-    /// is no number.
+    /// Reads a number, which must be followed by a blank, newline or comment: "1.#IND" is not a
+    /// number.
     [[nodiscard]] double number(std::string_view what) {
         const parsed<double> n = parse_number(at, end);
         if (n.end == nullptr || !delimited(n.end)) fail_number(what, n.end);
         return take(n);
     }
-    /// The value of what was parsed at this place; moves behind it.
+    /// Advances past a parsed number, and returns its value.
     template <class T>
     T take(const parsed<T>& n) {
         at = n.end;
@@ -99,7 +99,7 @@ struct text {
         return n.value;
     }
 
-    /// What is unusual about the numbers read so far.
+    /// Adds warnings about the numbers read so far.
     void remark(std::vector<io_warning>& warnings) const {
         if (hexadecimal)
             warnings.push_back(

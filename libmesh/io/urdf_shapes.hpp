@@ -8,15 +8,14 @@
 
 namespace treeform::detail::io {
 
-/// Twelve faces; exact where halves of the sizes are.
+/// Twelve faces; exact if half of each size is exact.
 [[nodiscard]] mesh box_shape(const std::array<double, 3>& size);
 
-/// A prism of 96 sides around the cylinder about z, from -length / 2 to length / 2. No point of the
-/// cylinder's side is outside it; its corners are up to 0.054 % of the radius further out.
+/// A prism of 96 sides that contains the cylinder about z, from -length / 2 to length / 2. Its
+/// corners are up to 0.054 % of the radius outside of the cylinder.
 [[nodiscard]] mesh cylinder_shape(double radius, double length);
 
-/// 5,120 faces around the sphere: none comes closer to its center than `radius`, none is further
-/// out than 0.13 % of that.
+/// 5,120 faces that contain the sphere; no point is further outside than 0.13 % of the radius.
 [[nodiscard]] mesh sphere_shape(double radius);
 
 }  // namespace treeform::detail::io

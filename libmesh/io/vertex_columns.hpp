@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The columns of the element "vertex": which of them are coordinates, how they start out empty.
+/// Helpers for the columns of the element "vertex": roles of coordinates, empty columns.
 
 #include <treeform/mesh/attributes.hpp>
 
@@ -31,7 +31,7 @@ namespace treeform::detail::io {
     return at == e.columns.end() ? nullptr : &*at;
 }
 
-/// True when float32 holds every value of the types of the coordinates.
+/// Whether float32 can represent every value of the types of the coordinate columns.
 [[nodiscard]] inline bool has_single_axes(const element& vertices) {
     return std::all_of(vertices.columns.begin(), vertices.columns.end(), [](const column& c) {
         return c.role == column_role::data || c.type == scalar_type::float32 || size_of(c.type) < 4;
@@ -43,7 +43,7 @@ namespace treeform::detail::io {
     return {.name = c.name, .type = c.type, .list_length = c.list_length, .role = c.role};
 }
 
-/// Makes of `e` an element without rows that has the columns of `declared`; their memory stays.
+/// Resets `e` to an element without rows, with the columns of `declared`; keeps its memory.
 inline void restart(element& e, const element& declared) {
     e.name = declared.name;
     e.rows = 0;
@@ -61,7 +61,7 @@ inline void restart(element& e, const element& declared) {
     }
 }
 
-/// Room for the values of `rows` rows; lists start at their first value.
+/// Reserves memory for the values of `rows` rows, and begins empty lists.
 inline void start_columns(element& e, std::size_t rows) {
     for (column& c : e.columns) {
         if (c.role != column_role::data) continue;
@@ -72,7 +72,7 @@ inline void start_columns(element& e, std::size_t rows) {
     }
 }
 
-/// Takes back the values of the last row.
+/// Removes the values of the last row.
 inline void drop_last_row(element& e) {
     for (column& c : e.columns) {
         if (c.role != column_role::data) continue;
@@ -82,7 +82,7 @@ inline void drop_last_row(element& e) {
     }
 }
 
-/// Rows of zeros, to be filled in. \pre no lists
+/// Sets the number of rows, with values of zero to be filled in. \pre there are no lists
 inline void resize_columns(element& e, std::size_t rows) {
     e.rows = rows;
     for (column& c : e.columns)

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The writer of each format, and what they share.
+/// The writer of each format, and their common helpers.
 
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/io/number.hpp>
@@ -23,21 +23,24 @@
 
 namespace treeform::detail::io {
 
-/// What a writer works on. The checks of `write` have been made.
+/// The arguments of a writer, already checked by `write`.
 struct write_job {
     const mesh_file& file;
     const write_options& options;
     write_result& result;
     sink& out;
-    std::size_t most_corners = 0;  ///< of faces that come by runs
-    /// The element "vertex" in the words of the format, or null; of points by runs without values.
+    /// largest number of corners of faces that are written in blocks
+    std::size_t most_corners = 0;
+    /// The element "vertex" with the column names of the format, or null; without values for points
+    /// in blocks.
     const element* vertices = nullptr;
 
     [[nodiscard]] bool single() const { return result.written_as == precision::float32; }
     /// A coordinate in the precision of the job.
     [[nodiscard]] double rounded(double x) const { return single() ? base::nearest_float(x) : x; }
-    /// As text: always the digits of the double. The shortest text of a float32 would be another
-    /// number to a reader of doubles, so the file would not hold what was computed and checked.
+    /// Writes a coordinate as text, with the digits of the double: the shortest text of a float32
+    /// is another number for readers of doubles, so the file would not have the coordinates that
+    /// were computed and checked.
     void coordinate(double x) const { out.number(rounded(x)); }
     void point(const point3& p) const {
         coordinate(p.x);
@@ -48,26 +51,29 @@ struct write_job {
     }
 };
 
-/// Writes runs of points behind a head that has been written. What the job names must outlive it.
+/// Writes blocks of points after a header that was already written. The references in the job must
+/// outlive it.
 struct point_sink {
-    /// The rows that belong to the points; null when the head has no element "vertex".
+    /// Writes points and their rows, which are null if the header has no element "vertex".
     std::function<void(std::span<const point3> points, const element* vertices)> rows{};
     std::function<void(const row_block& block)>
-        behind{};                    ///< rows of other elements, if any can come
-    std::function<void()> finish{};  ///< none: nothing is left to do
-    /// Finishes a file that has only some of the points; returns the number of bytes behind them.
-    /// `summaries` is what `part_summary` gave for each part.
+        behind{};                    ///< writes rows of other elements, if the format has any
+    std::function<void()> finish{};  ///< not set: there is nothing to do
+    /// Finishes the file of a part; returns the number of bytes after its points. `summaries` are
+    /// the results of `part_summary` of all parts.
     std::function<std::uint64_t(const std::vector<std::string>& summaries)> finish_part{};
-    std::function<std::string()> part_summary{};  ///< none: nothing
-    /// Of values that do not stand point by point: they are put there from now on. None: others do.
+    std::function<std::string()> part_summary{};  ///< not set: an empty summary
+    /// Sets the shared storage for formats that do not store values point by point. Not set for
+    /// other formats.
     std::function<void(const detail::io::shared_values& place)> share_values{};
-    std::uint64_t together = 1;  ///< parts but the last have a multiple of so many points
+    /// the number of points of all parts but the last must be a multiple of this
+    std::uint64_t together = 1;
 };
 
-/// The head of a LAS file from those of files with some of its points each, none without any.
+/// The header of a LAS file, from the headers of its parts, each of which has points.
 [[nodiscard]] std::string join_las_heads(const std::vector<std::string>& heads);
 
-/// Whether it is that of a part of a compressed PCD; and the head of the whole.
+/// Whether a header is that of a part of a compressed PCD; and the header of the whole file.
 [[nodiscard]] bool is_packed_pcd_head(std::string_view head);
 [[nodiscard]] std::string join_packed_pcd_heads(const std::vector<std::string>& heads);
 
@@ -84,7 +90,7 @@ void write_pcd(const write_job& job);
 void write_las(const write_job& job);
 void write_laz(const write_job& job);
 
-/// Start a file of `count` points; the points of the job's file are not looked at.
+/// Begin a file of `count` points; the points of the job's file are ignored.
 [[nodiscard]] point_sink start_ply_points(const write_job& job, std::uint64_t count);
 [[nodiscard]] point_sink start_obj_points(const write_job& job, std::uint64_t count);
 [[nodiscard]] point_sink start_xyz_points(const write_job& job, std::uint64_t count);
@@ -93,13 +99,14 @@ void write_laz(const write_job& job);
 [[nodiscard]] point_sink start_las_points(const write_job& job, std::uint64_t count);
 [[nodiscard]] point_sink start_laz_points(const write_job& job, std::uint64_t count);
 
-/// \throws std::invalid_argument for a column that is not as long as the element, or whose name
-///         no format can hold
+/// \throws std::invalid_argument for a column of another length than the element, or with a name
+///         that no format can store
 void check_columns(const element& e);
 
-/// Largest change by rounding to float32. `first` is the number of the first point, in errors.
+/// The largest change of a coordinate by rounding to float32. `first` is the number of the first
+/// point, for errors.
 ///
-/// \throws io_error when a finite coordinate becomes infinite
+/// \throws io_error if a finite coordinate becomes infinite
 [[nodiscard]] double largest_move(std::span<const point3> points, std::size_t first,
                                   const std::string& name);
 
@@ -120,30 +127,30 @@ void for_each_stored_face(const mesh_file& file, F&& f) {
     }
 }
 
-/// A name or remark as it can stand in one line: with blanks for newlines, which names in a scene
-/// may have, and which would make the rest of it a statement.
+/// A name or remark in a single line: newlines, which names in scenes may contain, are replaced by
+/// blanks, since the rest would become a statement of its own.
 [[nodiscard]] inline std::string one_line(std::string text) {
     std::replace_if(text.begin(), text.end(), is_newline, ' ');
     return text;
 }
 
-/// Where corner `corner` of a polygon is in its fan: which triangle, which of its corners.
+/// The position of corner `corner` of a polygon in its fan: the triangle, and the corner of that.
 [[nodiscard]] constexpr std::pair<std::size_t, std::size_t> place_in_fan(std::size_t corner) {
     return corner < 2 ? std::pair(std::size_t{0}, corner) : std::pair(corner - 2, std::size_t{2});
 }
 
-/// Faces as stored.
+/// Number of stored faces.
 [[nodiscard]] inline std::size_t stored_face_count(const mesh_file& file) {
     return file.stored_face.empty() ? file.mesh.faces.size()
                                     : file.stored_face.back() + std::size_t{1};
 }
 
-/// Row of the element "face" that a triangle belongs to.
+/// The row of a triangle in the element "face".
 [[nodiscard]] inline std::size_t face_row(const mesh_file& file, std::size_t triangle) {
     return file.stored_face.empty() ? triangle : file.stored_face[triangle];
 }
 
-/// Value `i` of a column as text.
+/// Writes value `i` of a column as text.
 void put_number(sink& out, const column& c, std::size_t i);
 
 template <std::endian order, class T>
@@ -153,8 +160,8 @@ void put_bits_as(sink& out, const column& c, std::size_t i) {
     out.raw<order>(bits);
 }
 
-/// Value `i` of a column as it stands, bit for bit: numbers on their way through another type would
-/// lose some of NaN.
+/// Writes value `i` of a column bit for bit, since conversion to another type would change NaN
+/// payloads.
 template <std::endian order>
 void put_bits(sink& out, const column& c, std::size_t i) {
     const std::size_t size = size_of(c.type);
@@ -164,22 +171,21 @@ void put_bits(sink& out, const column& c, std::size_t i) {
     put_bits_as<order, std::uint64_t>(out, c, i);
 }
 
-/// The columns of these names, all of them with one value a row; empty when one is missing. The
-/// element may be null.
+/// The columns with these names, if all exist and have one value a row; else empty. The element may
+/// be null.
 [[nodiscard]] std::vector<const column*> scalar_columns(const element* e,
                                                         std::span<const std::string_view> names);
 [[nodiscard]] std::vector<const column*> scalar_columns(const mesh_file& file,
                                                         std::string_view element,
                                                         std::span<const std::string_view> names);
 
-/// Columns red, green, blue, and alpha where there is one, by these names or others that mean the
-/// same.
+/// The columns red, green, blue and, if it exists, alpha, by these names or their synonyms.
 [[nodiscard]] std::vector<const column*> color_columns(const element* e);
 [[nodiscard]] std::vector<const column*> color_columns(const mesh_file& file,
                                                        std::string_view element);
 
-/// A color as a number from 0 to 1: whole numbers count 255ths, those of 16 bits 65535ths; others
-/// are taken as they are.
+/// A color value from 0 to 1: integers are divided by 255, those of 16 bits by 65535; floats are
+/// unchanged.
 [[nodiscard]] inline double color_value(const column& c, std::size_t row) {
     const double value = c.number(row);
     if (c.type == scalar_type::uint16) return value / 65535.0;

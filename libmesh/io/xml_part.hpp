@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A part of a package that is XML: its elements, and errors that name the part and the byte.
+/// An XML part of a package: its elements, and errors that name the part and the byte.
 
 #include <libmesh/io/source.hpp>
 
@@ -15,10 +15,11 @@ namespace treeform::detail::io {
 
 class xml_part {
   public:
-    /// `name` is that of the part in its archive, `text` what it holds. `in` must outlive the part.
+    /// `name` is the name of the part in its archive, `text` its content. `in` must outlive the
+    /// part.
     ///
-    /// \throws io_error for text that is no XML or that has a document type: with entities of its
-    ///         own, little text can stand for much
+    /// \throws io_error for text that is not XML, or that has a document type, whose entities can
+    ///         expand without limit
     xml_part(const source& in, std::string_view name, std::string text);
     xml_part(const xml_part&) = delete;
     xml_part& operator=(const xml_part&) = delete;
@@ -27,11 +28,11 @@ class xml_part {
     [[nodiscard]] pugi::xml_node root() const { return document_.document_element(); }
     [[nodiscard]] const std::string& name() const { return name_; }
 
-    /// The value of an attribute. \throws io_error when it is missing
+    /// The value of an attribute. \throws io_error if it is missing
     [[nodiscard]] const char* required(pugi::xml_node element, const char* attribute) const;
     /// A finite number, rounded once to the nearest double. \throws io_error
     [[nodiscard]] double number(pugi::xml_node element, const char* attribute) const;
-    /// A whole number from 0 on, less than 2^31 as in the format. \throws io_error
+    /// A nonnegative integer below 2^31, the limit of the format. \throws io_error
     [[nodiscard]] std::uint32_t integer(pugi::xml_node element, const char* attribute) const;
     /// The same for an attribute that may be missing.
     [[nodiscard]] std::optional<std::uint32_t> optional_integer(pugi::xml_node element,
@@ -45,7 +46,7 @@ class xml_part {
   private:
     const source& in_;
     std::string name_;
-    std::string text_;  ///< changed by the parser, whose strings lie in it
+    std::string text_;  ///< modified by the parser, whose strings point into it
     pugi::xml_document document_{};
 };
 
@@ -55,8 +56,8 @@ class xml_part {
 /// "m:" of "m:color"; empty for a name without a prefix.
 [[nodiscard]] std::string_view prefix_of(std::string_view name);
 
-/// The namespace that names with `prefix`, which has its colon or is empty, have in `element`;
-/// empty when it has none. Declarations stand among the first hundred attributes of their element.
+/// The namespace of `prefix`, which includes its colon or is empty, in `element`; empty if there is
+/// none. Only the first hundred attributes of an element are searched for declarations.
 [[nodiscard]] std::string_view namespace_of(pugi::xml_node element, std::string_view prefix);
 
 }  // namespace treeform::detail::io

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The members of a ZIP archive.
+/// Reads the members of a ZIP archive.
 
 #include <libmesh/io/source.hpp>
 
@@ -12,34 +12,34 @@
 
 namespace treeform::detail::io {
 
-/// What an archive holds, as its directory says; each member is checked when it is read. Sizes may
-/// have 64 bits (ZIP64) and may stand behind the bytes of a member, as where it was streamed: the
-/// directory has them all.
+/// The members listed in the directory of an archive; each is checked when it is read. Supports
+/// 64-bit sizes (ZIP64), and sizes stored after the bytes of a member (streamed archives), since
+/// the directory has all sizes.
 ///
-/// Names are those of a package (OPC): without a leading slash, and alike in capitals and small
-/// letters. Places count from where the archive begins, which may be behind other bytes: the
-/// directory ends where its last record is.
+/// Names are those of a package (OPC): without a leading slash, ignoring case. Positions count from
+/// the beginning of the archive, which may follow other bytes; it is computed from the end of the
+/// directory.
 class zip_archive {
   public:
     /// `in` must outlive the archive.
     ///
-    /// \throws io_error unless `in` is an archive whose names are relative, lead nowhere but down
-    ///         and differ from each other
+    /// \throws io_error unless `in` is an archive whose names are relative, do not leave the
+    ///         archive, and are unique
     explicit zip_archive(const source& in);
 
     [[nodiscard]] bool holds(std::string_view name) const;
     [[nodiscard]] std::uint64_t bytes_ahead() const { return ahead_; }
 
-    /// The bytes of a member. Memory grows with what arrives, not with what the archive announces.
+    /// The bytes of a member. Memory grows with the unpacked bytes, not with the announced size.
     ///
-    /// \throws io_error when there is no such member, when it is encrypted or packed by another
-    ///         method than deflate, when the archive announces more than deflate can make of its
-    ///         bytes, and when other bytes arrive than were announced
+    /// \throws io_error if there is no such member, if it is encrypted or compressed by a method
+    ///         other than deflate, if the announced size is impossible for deflate, and if size or
+    ///         checksum differ from those announced
     [[nodiscard]] std::string read(std::string_view name);
 
   private:
     struct member {
-        std::uint64_t at = 0;  ///< of its own header
+        std::uint64_t at = 0;  ///< position of its header
         std::uint64_t packed = 0;
         std::uint64_t size = 0;
         std::uint32_t checksum = 0;
@@ -50,7 +50,7 @@ class zip_archive {
         std::uint64_t at = 0;
         std::uint64_t size = 0;
         std::uint64_t count = 0;
-        std::uint64_t ahead = 0;  ///< bytes, where `at` is counted from
+        std::uint64_t ahead = 0;  ///< bytes before the archive
     };
 
     [[nodiscard]] directory find_directory() const;
@@ -64,8 +64,8 @@ class zip_archive {
 
     const source& in_;
     std::uint64_t ahead_ = 0;
-    std::uint64_t directory_at_ = 0;           ///< behind these
-    std::map<std::string, member> members_{};  ///< by their names in small letters
+    std::uint64_t directory_at_ = 0;           ///< members end before it
+    std::map<std::string, member> members_{};  ///< by their names in lower case
     std::uint64_t packed_read_ = 0;
 };
 
