@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The lengths that an alignment computes in, and both of its sides in them.
+/// The internal coordinates of an alignment, and both of its sides in them.
 
 #include <libmesh/place/align_starts.hpp>
 #include <libmesh/place/align_target.hpp>
@@ -13,14 +13,14 @@ namespace treeform::detail::place {
 
 inline point3 to_point(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-/// Both sides about their centers, in lengths of a power of two near the fixed diagonal, so that
-/// nothing depends on the unit or on how far the origin is. The linear part of the start is applied
-/// to the moving points; what remains of the start is `offset`.
+/// Centers both sides and scales them by a power of two, to a fixed diagonal near 1, so that
+/// results depend neither on the unit nor on the distance to the origin. The linear part of the
+/// initial transform is applied to the moving points; `offset` is the rest of it.
 struct align_frame {
     double by = 1.0;
-    double diagonal = 0.0;  ///< of the fixed box, in these lengths
-    point3 center{};        ///< of the fixed box
-    point3 pivot{};         ///< of the moving box
+    double diagonal = 0.0;  ///< diagonal of the fixed box, scaled
+    point3 center{};        ///< center of the fixed box
+    point3 pivot{};         ///< center of the moving box
     Matrix3d linear = Matrix3d::Identity();
     Vector3d offset = Vector3d::Zero();
 
@@ -37,22 +37,24 @@ struct align_frame {
 [[nodiscard]] transform<3> matrix_of(const align_frame& f, const similarity& map,
                                      const point3& pivot_moved);
 
-/// All moving points in an order of space; with `once`, of those that follow each other there and
-/// are equal only the first: a scanner puts what it does not see at the origin.
+/// All moving points in Morton order. With `once`, only the first of consecutive equal points is
+/// kept: scanners put rays without a return at the origin.
 [[nodiscard]] moving_points in_order(const align_frame& f, points_view moving, bool once);
 
 /// Fits planes to all of the points.
 void find_planes(moving_points& moving);
 
-/// At most so many, spread evenly; 0 is all.
+/// At most `most` points, evenly spaced in the order of `all`; with 0, all points.
 [[nodiscard]] moving_points some_of(const moving_points& all, std::size_t most);
 
-/// All but the judges. Where there are few points all are fitted, and the judges are among them.
+/// All points except the judges (`is_judge`). If there are few points, all are fitted, including
+/// the judges.
 [[nodiscard]] moving_points fitted_of(const moving_points& all);
 
 [[nodiscard]] align_target target_in(const align_frame& f, mesh_view fixed);
 
-/// Where the fixed side is and how it lies: by area, of a cloud by points.
+/// The center and principal axes of the fixed side: of a mesh weighted by area, of a cloud by
+/// points.
 [[nodiscard]] inertia inertia_in(const align_frame& f, mesh_view fixed);
 
 }  // namespace treeform::detail::place

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The steps of an alignment from one start, and where they end.
+/// The iterations of an alignment from one start.
 
 #include <libmesh/place/align_steps.hpp>
 #include <libmesh/place/align_target.hpp>
@@ -11,7 +11,7 @@
 
 namespace treeform::detail::place {
 
-/// What a search is for, in the frame of the alignment.
+/// Target and parameters of a search, in the frame of the alignment.
 struct search_task {
     const align_target& fixed;
     double max_distance = endless;
@@ -19,7 +19,7 @@ struct search_task {
     bool planes = true;
     bool welsch = false;
     bool scale = false;
-    double least_scale = 0.0, most_scale = endless;  ///< of the places, also of the start
+    double least_scale = 0.0, most_scale = endless;  ///< bounds of the scale, also for the start
     bool accelerate = true;
     unsigned max_iterations = 100;
     double tolerance = 1e-6;
@@ -28,23 +28,24 @@ struct search_task {
 struct search_result {
     similarity map;
     bool converged = false;
-    bool at_bound = false;  ///< the scale is as small or large as it may be
+    bool at_bound = false;  ///< the scale is at one of its bounds
     unsigned iterations = 0;
-    double width = endless;  ///< of Welsch's function at the end
-    quality at{};            ///< of `map`, by that width
+    double width = endless;  ///< final width of Welsch's function
+    quality at{};            ///< quality of `map` at that width
 };
 
-/// The place with its scale brought into the bounds; the point `center` goes where it went.
+/// `map` with its scale clamped to the bounds; the image of the point `center` is kept.
 [[nodiscard]] similarity within_bounds(const search_task& task, similarity map,
                                        const Vector3d& center);
 
-/// Steps from `start` on, and of the places on the way the best. `samples` are in an order of
-/// space; `go_on` is asked before each step. `last` holds nothing, or partners of the same samples.
+/// Iterates from `start` and returns the best transform found. `samples` are in a spatial order.
+/// `go_on` is called before each step; false stops the search. `last` is empty or has the partners
+/// of the same samples.
 [[nodiscard]] search_result search(const search_task& task, const moving_points& samples,
                                    const similarity& start, matching& last,
                                    function_ref<bool(unsigned)> go_on);
 
-/// The partners of the samples at `map`, with their weights, and how good they are.
+/// Finds the partners of the samples at `map`, sets their weights, and returns the quality.
 [[nodiscard]] quality quality_at(const search_task& task, const moving_points& samples,
                                  const similarity& map, double width, matching& last);
 

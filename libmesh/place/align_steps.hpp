@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The least squares of an alignment: from partners to the step that brings them together.
+/// The least-squares steps of an alignment, computed from pairs of partners.
 
 #include <libmesh/place/solvers.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -11,12 +11,13 @@
 
 namespace treeform::detail::place {
 
-/// Sums are of blocks of this many points, added up in order: the same on any number of threads.
+/// Sums are computed in blocks of this many points and added in order, so that they are the same on
+/// any number of threads.
 constexpr std::size_t block = 4096;
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-/// What is looked for: y = scale rotation x + shift.
+/// The unknown of the alignment, y = scale rotation x + shift.
 struct similarity {
     double scale = 1.0;
     Matrix3d rotation = Matrix3d::Identity();
@@ -28,19 +29,19 @@ struct similarity {
     [[nodiscard]] bool finite() const { return shift.allFinite() && rotation.allFinite(); }
 };
 
-/// A moved point, its nearest fixed point, and the normal of the plane it is to come to: of the
-/// face there, or from an edge or corner that is nearest the direction between the two, on the side
-/// of the face's normal.
+/// A moved point, its nearest fixed point, and the normal of its target plane: the normal of the
+/// face there; at an edge or corner the direction between the two points, oriented as the face's
+/// normal.
 struct partner {
     Vector3d from = Vector3d::Zero(), to = Vector3d::Zero(), normal = Vector3d::Zero();
-    double distance = endless;  ///< of none
-    double weight = 0.0;        ///< 0: does not count
-    double hold = 1.0;          ///< how much the squared distance along the normal counts
-    double slack = 0.0;         ///< and that across it
-    double noise = 0.0;         ///< how thick both sides are here
+    double distance = endless;  ///< infinite: no partner
+    double weight = 0.0;        ///< 0: ignored
+    double hold = 1.0;          ///< weight of the squared distance along the normal
+    double slack = 0.0;         ///< weight of the squared distance across it
+    double noise = 0.0;         ///< thickness of both sides here
 };
 
-/// The sum of `of(partner)` over all that count.
+/// The sum of `of(partner)` over all partners with a positive weight.
 template <class Sum, class Of>
 [[nodiscard]] Sum sum_over(const std::vector<partner>& partners, Sum zero, const Of& of) {
     std::vector<Sum> sums(chunk_count(partners.size(), block), zero);
@@ -52,41 +53,44 @@ template <class Sum, class Of>
     return zero;
 }
 
-/// By x = (turn, shift), a point at `arm` from the center of the turn moves by this times x.
+/// The 3x6 matrix J: the motion x = (turn, shift) moves a point at `arm` from the center of the
+/// turn by J x.
 [[nodiscard]] Eigen::Matrix<double, 3, 6> moves_of(const Vector3d& arm);
 
-/// How many of `count` the share `overlap` is; at least 1.
+/// `overlap` times `count`, as a number of points; at least 1.
 [[nodiscard]] std::size_t share_of(double overlap, std::size_t count);
 
-/// Sets the weights: of the nearest `count` partners, of equals the first, 1, or by Welsch's
-/// function of this width, if it is finite; of all others 0.
+/// Sets the weights. The nearest `count` partners (ties: the first) get 1, or, if `width` is
+/// finite, the value of Welsch's function of that width; all others get 0.
 void weigh(std::vector<partner>& partners, std::size_t count, double width);
 
-/// The middle one of the distances that count; 0 if none do.
+/// The median distance of the partners with a positive weight; 0 if there are none.
 [[nodiscard]] double median_distance(const std::vector<partner>& partners);
 
-/// How good a place is.
+/// The quality of an alignment.
 struct quality {
-    /// Mean of the losses of the `count` nearest; those without a partner are at the largest
-    /// distance allowed. The loss is the square of a distance, or Welsch's, about as much near 0.
+    /// Mean loss of the `count` nearest points; points without a partner count with the maximum
+    /// distance. The loss is the squared distance, or Welsch's function, which is close to that
+    /// near 0.
     double cost = 0.0;
-    double rms = 0.0;      ///< of the distances that count, by weight
-    double overlap = 0.0;  ///< share of all that have a partner
+    double rms = 0.0;      ///< weighted root mean square distance
+    double overlap = 0.0;  ///< share of all points that have a partner
 };
 [[nodiscard]] quality quality_of(const std::vector<partner>& weighed, std::size_t count,
                                  double width, double max_distance);
 
-/// Least squares of the distances between partners. \source Umeyama (1991), equations 40 to 43
+/// The similarity that minimizes the squared distances between partners. \source Umeyama (1991),
+/// equations 40 to 43
 [[nodiscard]] similarity point_step(const std::vector<partner>& partners, bool scale);
 
-/// Least squares of the distances to the planes at the partners, of a motion taken as linear: a
-/// turn, a shift, and a growth if `scale`. Directions that change no distance stay as they are.
+/// The linearized motion (a turn, a shift, and a scaling if `scale`) that minimizes the squared
+/// distances to the planes at the partners. Motions that change no distance are 0.
 [[nodiscard]] similarity plane_step(const std::vector<partner>& partners, bool scale);
 
-/// First `map`, then `step`; the rotation is made one again, since roundings add up.
+/// First `map`, then `step`; the rotation is orthonormalized, since rounding errors accumulate.
 [[nodiscard]] similarity after(const similarity& step, const similarity& map);
 
-/// How far a step moves the points of a ball of radius 1, at most.
+/// The largest displacement of a point in a ball of radius 1 by a step.
 [[nodiscard]] double displacement(const similarity& step);
 
 }  // namespace treeform::detail::place

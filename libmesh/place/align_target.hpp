@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The fixed side of an alignment, which finds the partners of points that move a little each time.
+/// The fixed side of an alignment: finds the partners of points that move little between calls.
 
 #include <libmesh/nearness/closest_point_query.hpp>
 #include <libmesh/place/align_steps.hpp>
@@ -15,44 +15,45 @@
 
 namespace treeform::detail::place {
 
-/// Points to align, in an order of space, and the planes there if those count, too.
+/// Points to align, in a spatial order, and optionally the planes at them.
 struct moving_points {
     std::vector<Vector3d> points;
-    std::vector<surfel> surfels;  ///< [P], or none
+    std::vector<surfel> surfels;  ///< [P]; empty: no planes
     [[nodiscard]] std::size_t size() const { return points.size(); }
 };
 
-/// The partners of points at one place, and what of them helps to find those at the next.
+/// The partners of the points at one transform, and cached data that speeds up the next search.
 struct matching {
-    std::vector<partner> partners;        ///< [P]; their weights are not set
-    std::vector<point3> moved;            ///< [P]
-    std::vector<double> radii;            ///< [P] of a mesh: the last partner is no further
-    std::vector<std::uint32_t> searched;  ///< of a cloud, those looked for anew
-    /// Of a cloud, where each point was when it was looked for last, what was nearest to it then,
-    /// and how far away all others were, at least.
+    std::vector<partner> partners;  ///< [P]; their weights are not set
+    std::vector<point3> moved;      ///< [P]
+    /// [P] for a mesh: upper bounds on the distances to the last partners
+    std::vector<double> radii;
+    std::vector<std::uint32_t> searched;  ///< for a cloud: the points searched anew
+    /// For a cloud: the position of a point at its last search, its nearest fixed points then, and
+    /// a lower bound on the distance of all other fixed points.
     struct last_search {
         Vector3d at;
         std::array<std::uint32_t, 8> near;
-        std::uint32_t count = 0;  ///< of `near`; 0: never looked for, or there was nothing
+        std::uint32_t count = 0;  ///< used entries of `near`; 0: never searched, or nothing found
         double others = 0.0;
     };
     std::vector<last_search> last;
-    std::vector<near_point> near;  ///< [P] likewise, what is nearest
+    std::vector<near_point> near;  ///< [P] for a cloud: the nearest points
 };
 
-/// A mesh, or a cloud, in the frame of the alignment.
+/// The fixed mesh or cloud, in the frame of the alignment.
 class align_target {
   public:
-    /// A cloud if it has no faces.
+    /// Without faces, a cloud.
     align_target(std::vector<point3> points, std::vector<face> faces);
 
     [[nodiscard]] bool is_cloud() const { return faces_.empty(); }
-    /// Fits planes to the points of a cloud. There are none before.
+    /// Fits planes to the points of a cloud. Until it is called, a cloud has no planes.
     void find_planes();
 
-    /// The partners of `points`, in an order of space and at `map`, those that have one within
-    /// `radius`. What `last` holds is of the same points, or nothing.
-    /// \throws std::overflow_error when a point is not finite there
+    /// Finds the partners within `radius` of `points`, moved by `map`. `points` are in a spatial
+    /// order; `last` is empty or was filled for the same points.
+    /// \throws std::overflow_error when a moved point is not finite
     void match(const moving_points& points, const similarity& map, double radius,
                matching& last) const;
 
@@ -60,7 +61,7 @@ class align_target {
     void match_mesh(double radius, matching& last) const;
     void match_cloud(const moving_points& points, const similarity& map, double radius,
                      matching& last) const;
-    /// Makes the fixed point the partner of moving point i.
+    /// Sets `p`, the partner of moving point i, from its nearest fixed point.
     void meet(const moving_points& points, const similarity& map, std::size_t i,
               const near_point& nearest, partner& p) const;
     [[nodiscard]] Vector3d normal_of_face(std::uint32_t f) const;
@@ -69,7 +70,7 @@ class align_target {
     std::vector<face> faces_;
     nearness::closest_point_query on_faces_;
     searched_cloud cloud_;
-    std::vector<surfel> surfels_;  ///< [V] of a cloud, once there are planes
+    std::vector<surfel> surfels_;  ///< [V] for a cloud, after `find_planes`
 };
 
 }  // namespace treeform::detail::place

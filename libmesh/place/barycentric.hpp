@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Weights of corners.
+/// Barycentric coordinates of a point of a triangle.
 
 #include <treeform/mesh/mesh.hpp>
 
@@ -8,10 +8,10 @@
 
 namespace treeform::detail::place {
 
-/// The weights of the corners of `t` that give the point `p` of it, as in `surface_point`.
+/// The barycentric coordinates of `p` in the triangle `t`, as in `surface_point`.
 ///
-/// \pre coordinates are finite; `p` is on the triangle, except for rounding: otherwise the weights
-///      are those of some other point of it
+/// \pre coordinates are finite; `p` is on the triangle, up to rounding: otherwise the result is for
+///      some other point of the triangle
 [[nodiscard]] std::array<double, 3> barycentric_weights(const std::array<point3, 3>& t,
                                                         const point3& p);
 

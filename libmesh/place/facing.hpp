@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which way the faces of a closed mesh look: out of what is inside, or into it.
+/// Whether the faces of a closed mesh are oriented outward or inward.
 
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -10,17 +10,17 @@
 
 namespace treeform::detail::place {
 
-/// Whether what is in front of a face is inside its mesh, and what is behind it. Of a face that
-/// looks outward only what is behind it is; where a mesh winds twice, both may be.
+/// Whether the space in front of a face, and that behind it, is inside the mesh. For an outward
+/// face only the space behind it is inside; where the mesh winds twice, both may be.
 struct inside_sides {
     bool front = false;
     bool behind = true;
 };
 
-/// What is inside is where the winding number is not 0, as in `locate` and `boolean`. It is the
-/// same beside all faces of a component, which edges link, that does not pass through itself or
-/// others: there its own winding number is 0 on one side and 1 or -1 on the other, by the sign of
-/// its volume, and that of the other components is the same everywhere.
+/// A point is inside where the winding number is not 0, as in `locate` and `boolean`. For an
+/// edge-connected component that intersects neither itself nor others, the sides are the same at
+/// all of its faces: its own winding number is 0 on one side and 1 or -1 on the other, by the sign
+/// of its volume, and that of the other components is constant.
 class facing {
   public:
     /// \pre the mesh is closed, with corners of equal coordinates joined
@@ -29,27 +29,27 @@ class facing {
     [[nodiscard]] inside_sides of(std::uint32_t face) const {
         return sides_[component_of_face_[face]];
     }
-    /// Components with a negative volume that are in no other one.
+    /// Number of components with a negative volume that are inside no other component.
     [[nodiscard]] std::uint64_t inside_out() const { return inside_out_; }
 
   private:
     std::vector<std::uint32_t> component_of_face_{};
-    std::vector<inside_sides> sides_{};  ///< of each component
+    std::vector<inside_sides> sides_{};  ///< by component
     std::uint64_t inside_out_ = 0;
 };
 
-/// The same, which the mesh keeps.
+/// The `facing` of `mesh`, which `mesh` caches.
 ///
 /// \pre  as `facing`
-/// \cost once, O(F log d), and a ray for each component where there are several
+/// \cost once, O(F log d), and a ray for each component if there are several
 /// \same on any number of threads
 [[nodiscard]] const facing& facing_of(const prepared_mesh& mesh);
 
-/// Of a face of the mesh where it is: a mirror exchanges the sides. \pre it is closed
+/// The sides of a face of the placed mesh; a mirrored placement exchanges them. \pre it is closed
 [[nodiscard]] inside_sides sides_beside(const shape& of, std::uint32_t face);
 
-/// Whether what is in front of a face is inside, and what is behind it is not; false for an open
-/// mesh and for a cloud, which have no inside.
+/// Whether the space in front of the face is inside and the space behind it is not. False for open
+/// meshes and clouds, which have no inside.
 [[nodiscard]] bool looks_inward(const shape& of, std::uint32_t face);
 
 }  // namespace treeform::detail::place

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// One try to put parts on plates, in some order.
+/// One attempt to put parts on plates, in a given order.
 
 #include <libmesh/place/pack_shapes.hpp>
 #include <libmesh/place/plate.hpp>
@@ -16,11 +16,11 @@
 
 namespace treeform::detail::place {
 
-/// In what a try differs from others, beside the order.
+/// The parameters of an attempt, other than the order.
 struct filling_style {
-    bool square = false;   ///< spacing along the axes, as rows of boxes have it
-    bool compact = false;  ///< of the turns the one that the box around all grows least by
-    /// [P] The one turn to use, as a random number; empty, or 0: all.
+    bool square = false;   ///< measure the spacing along the axes, which suits rows of boxes
+    bool compact = false;  ///< prefer the turn that enlarges the bounding box of all parts least
+    /// [P] Random numbers r: only the turn r modulo the number of turns is used; 0, or empty: all.
     std::vector<std::uint32_t> only_turn{};
 };
 
@@ -30,21 +30,24 @@ class plate_filling {
     plate_filling(const pack_shapes& shapes, const pack_options& options,
                   const filling_style& style);
 
-    /// At the first free places of all its turns, and of these where it reaches least far.
+    /// Puts the part at the first free position of one of its turns: the one that extends least
+    /// far. Returns whether there is any.
     bool put(std::uint32_t part);
 
     [[nodiscard]] plate& result() { return plate_; }
 
   private:
-    /// The free places of a part in one of its turns, one after the other.
+    /// Enumerates the free positions of a part in one of its turns.
     struct search {
         const candidate* what;
-        std::size_t number;  ///< of the candidate
-        cell_place inside;   ///< the last place on the plate
-        cell_place last;     ///< the last that the gaps of the raster may let it be moved from
+        std::size_t number;  ///< number of the candidate
+        cell_place inside;   ///< the last position on the plate
+        cell_place last;     ///< the last position from which it may still move onto the plate
         cell_place from;
-        std::uint64_t skip = 1;         ///< rows not to look beyond `inside` after the next failure
-        std::uint64_t beyond_from = 0;  ///< row, counted through all layers
+        /// rows that are not searched beyond `inside` after the next failure
+        std::uint64_t skip = 1;
+        /// row to search beyond `inside` from, counted through all layers
+        std::uint64_t beyond_from = 0;
         std::optional<cell_place> found{};
 
         [[nodiscard]] bool beyond() const {
@@ -70,22 +73,22 @@ class plate_filling {
     const filling_style& style_;
     double cell_;
     plate plate_;
-    std::vector<cell_place> searched_;  ///< by kind: nothing before is free
+    std::vector<cell_place> searched_;  ///< by kind: no earlier position is free
 };
 
-/// Plates that are filled part by part, and what has found no place.
+/// Plates that are filled part by part, and the parts that fit on none.
 class filling {
   public:
     filling(const pack_shapes& shapes, const pack_options& options, const filling_style& style);
 
-    /// On the first plate that takes it.
+    /// Puts the part on the first plate with a free position.
     void put(std::uint32_t part);
 
     [[nodiscard]] const std::vector<std::uint32_t>& left() const { return left_; }
     [[nodiscard]] double room_left() const { return room_left_; }
     [[nodiscard]] unsigned plates_used() const { return static_cast<unsigned>(plates_.size()); }
     [[nodiscard]] std::uint64_t pairs_measured();
-    /// All parts, where they are. What was built is gone then.
+    /// Moves out all parts with their positions; the plates are consumed.
     [[nodiscard]] std::vector<packed_part> take_parts();
 
   private:

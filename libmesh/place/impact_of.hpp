@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// When a mesh in motion meets another, or comes near it, with the trees of both.
+/// The time at which a moving mesh meets another mesh or comes within a distance of it, with
+/// prebuilt trees of both.
 
 #include <libmesh/base/effort.hpp>
 #include <libmesh/geometry/contact_order.hpp>
@@ -15,8 +16,8 @@ namespace treeform::detail::place {
 /// \pre `contact` was returned by `time_of_impact` for `motion`
 [[nodiscard]] double time_not_beyond(const sweep_contact& contact, const point3& motion);
 
-/// As `time_of_impact`; `cancelled`, too, where the effort does not suffice. `exact` is the exact
-/// time, that of the first contact.
+/// Like `time_of_impact`; also `cancelled` when the effort is exhausted. `exact` receives the first
+/// contact, which has the exact time.
 ///
 /// \pre the trees are those of the meshes
 [[nodiscard]] TREEFORM_API impact impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
@@ -25,7 +26,8 @@ namespace treeform::detail::place {
                                             base::effort* effort = nullptr,
                                             sweep_contact* exact = nullptr);
 
-/// As `time_to_distance`, with an effort likewise, which looking where it starts does not spend.
+/// Like `time_to_distance`, with the same limit on effort; the check of the start position does not
+/// count toward it.
 ///
 /// \pre the trees are those of the meshes
 [[nodiscard]] TREEFORM_API impact approach_of(mesh_view a, const tree<3>& tree_a, mesh_view b,

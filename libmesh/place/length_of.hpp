@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The length of a vector, which neither overflows nor vanishes on the way.
+/// The length of a vector, without overflow or underflow in intermediate results.
 
 #include <treeform/mesh/mesh.hpp>
 

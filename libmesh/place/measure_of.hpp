@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How two meshes lie to each other at the places where they are, or may come to be.
+/// The relation and distance of two placed meshes.
 
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/measure.hpp>
@@ -11,7 +11,7 @@
 
 namespace treeform::detail::place {
 
-/// As `measure`, which has checked the operands.
+/// `measure`, without the checks of the operands.
 [[nodiscard]] std::optional<mesh_measure> measure_of(
     const shape& a, const shape& b, double radius = std::numeric_limits<double>::infinity(),
     const progress_callback& progress = {});

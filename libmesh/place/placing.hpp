@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// One placement of one mesh among others: what `slide`, `drop`, `mate` and `separate` share.
+/// One placement of one mesh among others: the common part of `slide`, `drop`, `mate` and
+/// `separate`.
 
 #include <libmesh/base/effort.hpp>
 #include <libmesh/base/work_progress.hpp>
@@ -18,18 +19,18 @@
 
 namespace treeform::detail::place {
 
-/// What the options of all of them come to.
+/// The union of the options of these functions.
 struct placing_options {
-    const char* function = "";  ///< that was called, for what is refused
+    const char* function = "";  ///< name of the function, for error messages
     double clearance = 0.0;
     std::optional<double> max_travel{};
     treeform::precision precision = treeform::precision::float64;
     std::optional<double> bed{};
     bool close_in = false;
-    bool along_direction = false;  ///< what is met on the way matters, and nothing else
+    bool along_direction = false;  ///< only meshes on the way along the direction matter
     std::size_t normals = 24;
     std::size_t face_pairs = 64;
-    std::uint64_t effort = 0;  ///< of `separate`
+    std::uint64_t effort = 0;  ///< for `separate`
     std::size_t limit = 1000;
     vertex_identity vertices = vertex_identity::by_coordinates;
     progress_callback progress{};
@@ -37,11 +38,11 @@ struct placing_options {
 
 class placing {
   public:
-    /// \throws std::invalid_argument for options or operands that cannot be meant
+    /// \throws std::invalid_argument for invalid options or operands
     placing(const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
             const placing_options& options);
 
-    /// Looks where the mesh is, finds its place by `find`, and looks at that.
+    /// Measures the start position, finds the final one by `find`, and measures that.
     template <class Find>
     [[nodiscard]] placement run(const Find& find) {
         try {
@@ -59,7 +60,7 @@ class placing {
     void slide(const point3& direction);
     void mate();
     void separate();
-    /// The place is where the mesh is, if that can be written.
+    /// Keeps the mesh at its position, if that is representable in the output precision.
     void stay();
     void measure() { result_.end = placement_end::unchanged; }
 
@@ -92,7 +93,7 @@ class placing {
     base::work_progress work_;
     std::optional<box3> box_;
     double longest_ = std::numeric_limits<double>::infinity();
-    std::size_t faces_ = 0;  ///< of all
+    std::size_t faces_ = 0;  ///< total number of faces
     placement result_{};
 };
 

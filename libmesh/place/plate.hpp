@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A plate with parts on it, each checked against those that were there before.
+/// A plate with parts, each checked against the parts placed before it.
 
 #include <libmesh/place/plate_raster.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -16,16 +16,17 @@
 
 namespace treeform::detail::place {
 
-/// A part turned about the vertical and moved to the origin: the least coordinates are exactly 0.
+/// A part rotated about the vertical and moved so that its least coordinates are exactly 0.
 class turned_part {
   public:
-    /// By `turn` times 15 degrees. \pre it has faces
+    /// Rotates by `turn` times 15 degrees. \pre the part has faces
     turned_part(mesh_view part, unsigned turn);
 
     [[nodiscard]] unsigned turn() const { return turn_; }
     [[nodiscard]] mesh_view mesh() const { return {points_, faces_}; }
-    [[nodiscard]] const point3& size() const { return size_; }  ///< rounded; NaN if too large
-    /// The map that the points of the part have gone through, then moved by `by`.
+    /// of its box, rounded; NaN on overflow
+    [[nodiscard]] const point3& size() const { return size_; }
+    /// The transform from the original part to this one moved by `by`.
     [[nodiscard]] transform<3> matrix(const point3& by) const;
 
   private:
@@ -33,8 +34,8 @@ class turned_part {
     std::span<const face> faces_;
     std::vector<point3> points_;
     std::array<double, 2> axis_{};  ///< cosine and sine
-    point3 center_;                 ///< of the turn
-    point3 lowest_;                 ///< after it, taken off
+    point3 center_;                 ///< center of the turn
+    point3 lowest_;                 ///< least coordinates after the turn, which are subtracted
     point3 size_;
 };
 
@@ -53,14 +54,15 @@ class plate {
 
     [[nodiscard]] const plate_raster& raster() const { return raster_; }
     [[nodiscard]] std::uint64_t pairs_measured() const { return measured_; }
-    /// The height and the area that its parts reach to, from its corner.
+    /// The extent of its parts along each axis, from its corner.
     [[nodiscard]] const point3& reached() const { return reached_; }
 
-    /// Puts the part at a place of the raster, or near it toward the corner of the plate. False,
-    /// and nothing is changed, when it would stick out or come too near to another part.
+    /// Puts the part at a position of the raster, or near it, closer to the corner of the plate.
+    /// Returns false, and changes nothing, when the part would stick out or be too near to another
+    /// part.
     bool put(std::uint32_t number, const prepared_mesh& whose, const turned& part, cell_place at);
 
-    /// Moves its parts to where they belong in `result`; the plate is no more.
+    /// Moves its parts into `result`, by part number; the plate is consumed.
     void take_parts(std::vector<packed_part>& result);
 
   private:
@@ -88,9 +90,9 @@ class plate {
 
     pack_options options_;
     bool single_;     ///< whether float32 is written
-    point3 corner_;   ///< z of it is the bed, as written
+    point3 corner_;   ///< its z is the bed, as written
     cell_grid grid_;  ///< from that corner
-    double unit_;     ///< of the last place of coordinates on the plate
+    double unit_;     ///< unit in the last place of coordinates on the plate
     plate_raster raster_;
     std::vector<resident> residents_;
     std::uint64_t measured_ = 0;

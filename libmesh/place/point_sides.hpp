@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// On which side of a closed surface points are that are given in an order of space.
+/// Classifies points as inside or outside of a closed surface.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/tree.hpp>
@@ -14,15 +14,15 @@ namespace treeform::detail::place {
 
 struct point_sides {
     std::vector<std::int8_t> side{};    ///< [Q] -1 inside, 0 on the surface, 1 outside
-    std::uint64_t winding_numbers = 0;  ///< that were counted along a whole ray
+    std::uint64_t winding_numbers = 0;  ///< number of winding numbers counted along a whole ray
 };
 
-/// The side of each query, as `locate` tells, which decides where nothing cheaper does: the winding
-/// number of a point is that of the one before it when no face lies between them, and where faces
-/// do, they are counted.
+/// The side of each query, as by `locate`; queries are in a spatial order, which makes it cheap. A
+/// point has the winding number of the previous point if no face lies between them; otherwise the
+/// crossed faces are counted. `locate` decides the rest.
 ///
-/// \pre  `mesh` is closed and `tree` that of its faces; queries are finite, `distance[i]` is that
-///       of `queries[i]` from the surface, no more than `error` above the true one
+/// \pre  `mesh` is closed and `tree` is its face tree; queries are finite; `distance[i]` is the
+///       distance of `queries[i]` from the surface, at most `error` above the true one
 /// \same on any number of threads
 [[nodiscard]] point_sides sides_in_order(mesh_view mesh, const tree<3>& tree,
                                          std::span<const point3> queries,
@@ -30,7 +30,7 @@ struct point_sides {
 
 /// [Q] The side of each query, given in any order: -1 inside, 0 on the surface, 1 outside.
 ///
-/// \pre  `mesh` is closed and `tree` that of its faces; queries are finite
+/// \pre  `mesh` is closed and `tree` is its face tree; queries are finite
 /// \same   on any number of threads
 [[nodiscard]] std::vector<std::int8_t> sides_of(mesh_view mesh, const tree<3>& tree,
                                                 std::span<const point3> queries);

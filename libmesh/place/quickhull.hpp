@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The convex hull of points that span space, point by point from the highest on.
+/// Convex hull of points that span space, by Quickhull: the highest point above a facet is added
+/// next.
 
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/work_progress.hpp>
@@ -14,8 +15,8 @@
 
 namespace treeform::detail::place {
 
-/// Points times a power of two that brings the largest coordinate to the size of 1, so that
-/// products of three differences do not overflow.
+/// Points scaled by a power of two to coordinates of about 1 at most, so that products of three
+/// differences do not overflow.
 class scaled_points {
   public:
     explicit scaled_points(points_view points);
@@ -32,18 +33,18 @@ class scaled_points {
     double extent_ = 0.0;
 };
 
-/// Facets are triangles; each knows its neighbors and the points above it that are not yet part
-/// of the hull, of which each is kept by one facet that it is above of.
+/// Facets are triangles with their neighbors. Each point outside of the hull so far is listed at
+/// one facet that it is above.
 class quickhull {
   public:
-    /// From the tetrahedron of four points, the last of which is below the plane of the others.
+    /// Starts from the tetrahedron of four points; the last one is below the plane of the others.
     quickhull(points_view points, const scaled_points& scaled,
               const std::array<std::uint32_t, 4>& first);
 
-    /// False when it was asked to stop, with nothing done.
+    /// Returns false when cancelled; the hull is then incomplete.
     bool run(base::work_progress& work);
 
-    /// The facets, those in one plane together.
+    /// The facets, grouped by plane.
     [[nodiscard]] std::vector<std::vector<face>> sides() const;
 
   private:
@@ -53,12 +54,12 @@ class quickhull {
         face corner{};
         std::array<std::uint32_t, 3> beyond{};  ///< facets across the edges corner[i], corner[i+1]
         point3 normal{};                        ///< scaled, rounded
-        double error = 0.0;                     ///< of a height
+        double error = 0.0;                     ///< error bound of a height
         std::uint32_t first_above = none;       ///< list through `next_`
         std::uint32_t highest = none;
-        double height = 0.0;  ///< of the highest
+        double height = 0.0;  ///< height of the highest point
         bool used = false;
-        bool seen = false;  ///< from the point being added
+        bool seen = false;  ///< visible from the point being added
     };
     struct rim_edge {
         std::uint32_t from, to, outside;
@@ -75,10 +76,11 @@ class quickhull {
     points_view points_;
     const scaled_points& scaled_;
     std::vector<facet> facets_;
-    std::vector<std::uint32_t> free_;     ///< facets that may be used again
-    std::queue<std::uint32_t> waiting_;   ///< facets that may have points above
-    std::vector<std::uint32_t> next_;     ///< [V]
-    std::vector<std::uint32_t> cone_at_;  ///< [V] new facet of the rim's edge that starts there
+    std::vector<std::uint32_t> free_;    ///< facets for reuse
+    std::queue<std::uint32_t> waiting_;  ///< facets that may have points above
+    std::vector<std::uint32_t> next_;    ///< [V]
+    /// [V] new facet at the rim edge that starts at the point
+    std::vector<std::uint32_t> cone_at_;
     std::vector<std::uint32_t> seen_;
     std::vector<rim_edge> rim_;
     std::vector<std::uint32_t> cone_;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The relation of two meshes at the places where they are, or may come to be.
+/// The relation of two placed meshes.
 
 #include <libmesh/base/effort.hpp>
 #include <libmesh/place/shape.hpp>
@@ -9,8 +9,8 @@
 
 namespace treeform::detail::place {
 
-/// As `relation`, which has checked the operands; `cancelled`, too, where the effort does not
-/// suffice for one of its searches for pairs of faces.
+/// `relation`, without the checks of the operands. Also `cancelled` when the effort is exhausted in
+/// one of its searches for pairs of faces.
 [[nodiscard]] mesh_measure relation_of(const shape& a, const shape& b,
                                        const progress_callback& progress = {},
                                        base::effort* effort = nullptr);

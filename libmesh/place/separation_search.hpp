@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Short translations that take a mesh out of others, or away from them.
+/// Short translations that separate a mesh from others.
 
 #include <libmesh/base/effort.hpp>
 #include <libmesh/place/shape.hpp>
@@ -14,39 +14,40 @@
 namespace treeform::detail::place {
 
 struct apart_options {
-    double clearance = 0.0;          ///< the least distance wanted; 0: not to penetrate
-    std::size_t normals = 24;        ///< normals of faces that are tried as directions, at most
-    std::size_t face_pairs = 64;     ///< pairs of faces whose normals are looked at, for each part
-    base::effort* effort = nullptr;  ///< that it may spend, if there is a bound
+    double clearance = 0.0;          ///< minimum distance; 0: no penetration
+    std::size_t normals = 24;        ///< maximum number of face normals tried as directions
+    std::size_t face_pairs = 64;     ///< pairs of faces whose normals are considered, for each part
+    base::effort* effort = nullptr;  ///< limit on the effort; null: none
     progress_callback progress{};
 };
 
 /// A translation by `time` times `direction`.
 struct separation {
-    point3 direction{};  ///< of length 1, rounded
-    double time = 0.0;   ///< its length
+    point3 direction{};  ///< unit vector, rounded
+    double time = 0.0;   ///< length of the translation
 };
 
 struct separations {
-    std::vector<separation> moves{};                 ///< the shortest first
+    std::vector<separation> moves{};                 ///< by ascending length
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: `moves` is empty
 };
 
-/// Translations of `a` to places where it penetrates none of `parts` and keeps the clearance;
-/// none when it does so where it is.
+/// Translations of `a` to positions where it penetrates none of `parts` and keeps the clearance;
+/// empty when its present position is such a one.
 ///
-/// The directions tried are the six of the axes, those of the line between the nearest points, the
-/// normals of faces that meet, their sum, and the way of a walk that steps out of the reach of the
-/// nearest part until none is; then others around the best, ever closer to it. In each, some places
-/// from near to far are looked at; from the first free one the mesh slides back, as `sweep_among`
-/// does, until contact or to the clearance. That need not be the least translation in a direction,
-/// nor the best of all directions, which is a boundary point of a set with O(n^2 m^2) faces. At
-/// least one is given: along an axis, past all boxes. A place of which it takes too much effort to
-/// say that it is free is passed over, a way back of which it does is not gone. With an
-/// effort, the ways along the axes past all boxes are always among those given.
+/// The directions tried are the six axis directions, both directions of the line between the
+/// nearest points, the normals of faces that meet, their sum, and the total of a walk that steps
+/// away from the nearest part until none is in reach; then directions around the best one, ever
+/// closer to it. In each direction some positions from near to far are tested; from the first free
+/// one the mesh slides back, as by `sweep_among`, until contact or to the clearance. The result
+/// need not be the least translation in a direction, nor the best of all directions: that is a
+/// boundary point of a set with O(n^2 m^2) faces. At least one translation is returned: along an
+/// axis, past all boxes. A position whose test exceeds the effort is skipped; a way back whose
+/// sweep exceeds it is not taken. With an effort, the translations along the axes past all boxes
+/// are always included.
 ///
-/// The places are those of exact translations except for rounding: `snap_to_representable`, backing
-/// off `forward`, decides in the coordinates that are written.
+/// The positions are those of exact translations, up to rounding; `snap_to_representable` with
+/// `forward` decides in the written coordinates.
 ///
 /// \throws std::invalid_argument when the clearance is negative or not finite
 /// \cost   for each of some 50 directions up to a dozen `intersects` or `distance`, a

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A mesh at some place, as the queries of this room take it.
+/// A placed mesh, the operand of the queries in this folder.
 
 #include <libmesh/base/build_face_tree.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -13,15 +13,15 @@
 
 namespace treeform::detail::place {
 
-/// A handle: a mesh where it is, or the same mesh with its points elsewhere. What depends on how
-/// its faces hang together is found once, of the mesh where it is.
+/// A handle of a mesh at its own position or with moved points. Owns nothing. Data that depends on
+/// connectivity only is computed once, for the mesh at its own position.
 class shape {
   public:
     explicit shape(const prepared_mesh& mesh,
                    vertex_identity vertices = vertex_identity::by_coordinates)
         : prepared_(&mesh), points_(mesh.view().points), vertices_(vertices) {}
-    /// `mesh` with its points `there`, moved or, if so, mirrored.
-    /// \pre `faces` is `build_face_tree` of that
+    /// `mesh` with the moved points `there`; `mirrored` if the motion is a reflection.
+    /// \pre `faces` is `build_face_tree` of the moved mesh
     shape(const prepared_mesh& mesh, points_view there, const tree<3>& faces,
           vertex_identity vertices = vertex_identity::by_coordinates, bool mirrored = false)
         : prepared_(&mesh),
@@ -34,9 +34,9 @@ class shape {
     [[nodiscard]] const tree<3>& faces() const {
         return faces_ ? *faces_ : build_face_tree(*prepared_);
     }
-    /// The mesh with corners that are one vertex by one number.
+    /// The mesh with one point number for the corners of each vertex.
     [[nodiscard]] mesh_view joined() const;
-    /// Whether each edge has as many faces one way as the other (`find_open_edge`).
+    /// Whether every edge has equally many faces in both directions (`find_open_edge`).
     [[nodiscard]] bool closed() const;
     [[nodiscard]] vertex_identity vertices() const { return vertices_; }
     [[nodiscard]] bool mirrored() const { return mirrored_; }
@@ -54,17 +54,17 @@ class shape {
 ///         not finite; `function` is "slide", the message "treeform::slide: fixed 3: face 5 ..."
 void check_operand(const std::string& function, const std::string& operand, mesh_view mesh);
 
-/// The same of a mesh whose tree is wanted: building that checks it, once.
+/// The same for a mesh whose face tree is needed; building the tree checks the mesh, once.
 void check_operand(const std::string& function, const std::string& operand,
                    const prepared_mesh& mesh);
 
 /// \throws std::invalid_argument for a motion that is zero or not finite
 void check_motion(const std::string& function, const point3& motion);
 
-/// The box of the points that faces use; none without faces.
+/// The box of the points that faces use; empty without faces.
 [[nodiscard]] std::optional<box3> box_of_faces(mesh_view mesh);
 
-/// The least value of that precision that is not below `x`; infinite where there is none.
+/// The least value of the precision `of` that is not below `x`; infinite if there is none.
 [[nodiscard]] double not_below(double x, precision of);
 
 /// Whether the boxes are within `distance` of each other along each axis.

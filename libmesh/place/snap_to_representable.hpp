@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A mesh moved among others in coordinates that can be written, so that it keeps off all of them.
+/// Moves a mesh among others to representable coordinates at which it penetrates none of them.
 
 #include <libmesh/base/effort.hpp>
 #include <libmesh/place/shape.hpp>
@@ -20,47 +20,47 @@ namespace treeform::detail::place {
 
 struct snap_options {
     treeform::precision precision = treeform::precision::float64;  ///< of the coordinates returned
-    double clearance = 0.0;  ///< the least distance to the parts, as `distance` computes it
-    /// Where given, a level that the mesh stays above. What would come to lie below it is put on
-    /// it, and so are, at the time asked for, its lowest points, when these come to lie within 4
-    /// units in the last place of the largest z, before or after: then the mesh rests on it
-    /// exactly.
+    double clearance = 0.0;  ///< minimum distance to the parts, as computed by `distance`
+    /// If set, the lowest z allowed. Points that would be below it are put on it. So are, at the
+    /// requested time, the lowest points if they are within 4 units in the last place (of the
+    /// largest z before or after the motion) of it: the mesh then rests on it exactly.
     std::optional<double> floor{};
-    bool forward = false;  ///< back off to later times, not to earlier ones
+    bool forward = false;  ///< back off to later times instead of earlier ones
     unsigned attempts = 40;
-    /// The time is that of a contact: where rounding leaves a gap, go on by units in the last
-    /// place, up to 4, until one more would penetrate, or the meshes touch. Without a clearance and
-    /// backing off to earlier times only.
+    /// The time is that of a contact. If rounding leaves a gap, advance by up to 4 units in the
+    /// last place, until the meshes touch or one more would penetrate. Only without a clearance and
+    /// without `forward`.
     bool close_in = false;
-    base::effort* effort = nullptr;  ///< a place of which it does not suffice to judge is not good
+    base::effort* effort = nullptr;  ///< a position whose test exceeds the effort is not good
     progress_callback progress{};
 };
 
 struct snapped {
-    std::vector<point3> points{};  ///< [V] of `a`, moved and rounded
-    double time = 0.0;             ///< the one that `points` belong to
-    unsigned backed_off = 0;       ///< steps taken
-    bool good = false;             ///< nothing is penetrated, all clearances are kept
-    /// Of what `points` holds to the parts, the closest: penetrating, else touching, else separate.
+    std::vector<point3> points{};  ///< [V] points of `a`, moved and rounded
+    double time = 0.0;             ///< time of `points`
+    unsigned backed_off = 0;       ///< number of steps back
+    bool good = false;             ///< nothing is penetrated and the clearance is kept
+    /// The closest relation of `points` to a part: penetrating, else touching, else separate.
     mesh_relation relation = mesh_relation::separate;
-    std::size_t part = 0;  ///< the lowest part of that relation, or one nearer than the clearance
-    treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest means nothing
+    std::size_t part = 0;  ///< lowest part with that relation, or a part nearer than the clearance
+    /// or `cancelled`: the other members are meaningless
+    treeform::status status = treeform::status::ok;
 };
 
-/// `a` moved by `time` times `motion`, with every coordinate rounded: first the product, then the
-/// sum, then to float32 if asked for.
+/// Moves `a` by `time` times `motion` and rounds every coordinate: first the product, then the sum,
+/// then to float32 if requested.
 ///
-/// Where the moved mesh penetrates a part, or is nearer than the clearance, as decided on the
-/// rounded coordinates, the time is stepped back (or on): by as little as moves some coordinate by
-/// a unit in the last place of the largest, then by twice that, and so on, and from the last bad
-/// step forward again by halves. So the mesh stops at most two such units, along the motion, from a
-/// place that is not good. Points of `a` that no face uses, and those not finite, move along and
-/// count for nothing.
+/// If the moved mesh, with rounded coordinates, penetrates a part or is nearer than the clearance,
+/// the time is stepped back (with `forward`, ahead). The first step moves some coordinate by one
+/// unit in the last place of the largest one; each further step is twice as long; then the interval
+/// to the last bad position is bisected. So the mesh stops at most two such units, along the
+/// motion, from a position that is not good. Points of `a` that no face uses, and points that are
+/// not finite, are moved but otherwise ignored.
 ///
 /// \pre    time >= 0
 /// \throws std::invalid_argument for a motion or time that is not finite, or a clearance that is
 ///         negative or NaN
-/// \throws std::overflow_error for coordinates that are not finite at the place
+/// \throws std::overflow_error for moved coordinates that are not finite
 /// \cost   a `build_face_tree` of `a` for each attempt, with `relation` and `distance` for the
 ///         parts whose boxes are within the clearance of its box
 /// \same   on any number of threads

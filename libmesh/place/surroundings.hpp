@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The fixed meshes: those that matter for a motion are indexed, no others.
+/// The fixed meshes; only those that matter for a motion are indexed.
 
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -16,13 +16,13 @@
 
 namespace treeform::detail::place {
 
-/// A few of the fixed meshes, with their numbers among all.
+/// A selection of the fixed meshes, with their numbers.
 struct chosen_parts {
     std::vector<shape> parts{};
     std::vector<std::size_t> number{};
 };
 
-/// How a mesh lies to one of the fixed meshes.
+/// The relation of a mesh to one of the fixed meshes.
 struct measured_part {
     std::size_t number = 0;
     mesh_measure how{};
@@ -30,28 +30,28 @@ struct measured_part {
 
 class surroundings {
   public:
-    /// Meshes without faces are passed over.
+    /// Meshes without faces are ignored.
     surroundings(std::span<const prepared_mesh> all, vertex_identity vertices);
 
     [[nodiscard]] bool empty() const { return number_.empty(); }
     [[nodiscard]] std::size_t size() const { return number_.size(); }
     [[nodiscard]] std::span<const prepared_mesh> all() const { return all_; }
-    /// Those whose boxes come within `reach` of `box` when it is moved by up to `latest` times
-    /// `motion`; a little more is allowed for rounding.
+    /// The meshes whose boxes come within `reach` of `box`, plus a margin for rounding, when `box`
+    /// is moved by up to `latest` times `motion`.
     [[nodiscard]] chosen_parts on_the_way(const box3& box, const point3& motion, double latest,
                                           double reach) const;
-    /// Those whose boxes come within `reach` of `box`, and a little more.
+    /// The meshes whose boxes are within `reach` of `box`, plus a margin for rounding.
     [[nodiscard]] chosen_parts around(const box3& box, double reach) const;
-    /// Whether there are such beside those of `known`; none is indexed for this.
+    /// Whether `around` would return meshes that are not in `known`; indexes none.
     [[nodiscard]] bool others_around(const box3& box, double reach,
                                      const chosen_parts& known) const;
-    /// The mesh that `a` penetrates, else one that it touches, else the nearest one; of several the
-    /// lowest. None when there is no mesh within `radius`; those whose boxes are further away are
-    /// not indexed for this.
+    /// The mesh that `a` penetrates, else one that it touches, else the nearest one; ties: the
+    /// lowest number. Empty when no mesh is within `radius`. Meshes whose boxes are farther away
+    /// are not indexed.
     [[nodiscard]] std::optional<measured_part> nearest(const shape& a, const box3& box,
                                                        double radius,
                                                        const progress_callback& progress) const;
-    /// Of mesh `number` among all; it has faces.
+    /// The box of mesh `number`; not empty, since the mesh has faces.
     [[nodiscard]] const std::optional<box3>& box_of(std::size_t number) const {
         return box_of_all_[number];
     }
@@ -67,8 +67,8 @@ class surroundings {
     std::span<const prepared_mesh> all_;
     vertex_identity vertices_;
     std::vector<std::optional<box3>> box_of_all_;
-    std::vector<std::uint32_t> number_;  ///< of those that have faces
-    tree<3> boxes_;                      ///< of these
+    std::vector<std::uint32_t> number_;  ///< numbers of the meshes with faces
+    tree<3> boxes_;                      ///< tree of their boxes
 };
 
 }  // namespace treeform::detail::place

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How far a mesh can be moved among several others.
+/// How far a mesh can move among several others.
 
 #include <libmesh/base/effort.hpp>
 #include <libmesh/place/shape.hpp>
@@ -18,38 +18,41 @@
 namespace treeform::detail::place {
 
 struct sweep_options {
-    double clearance = 0.0;  ///< the gap to leave; 0: until contact
+    double clearance = 0.0;  ///< distance to keep; 0: move until contact
     double latest = std::numeric_limits<double>::infinity();
-    std::size_t limit = 1000;        ///< contacts listed
-    base::effort* effort = nullptr;  ///< where it does not suffice, the sweep is `cancelled`
+    std::size_t limit = 1000;        ///< maximum number of contacts listed
+    base::effort* effort = nullptr;  ///< when exceeded, the sweep is `cancelled`
     progress_callback progress{};
 };
 
 struct sweep_meeting {
     std::size_t part = 0;
-    face_contact where{};  ///< face `a` of the mesh that moves, face `b` of the part
+    face_contact where{};  ///< face `a` of the moving mesh, face `b` of the part
 };
 
 struct sweep_result {
     placement_end end = placement_end::nothing_met;
-    double time = 0.0;     ///< not beyond the exact one, as `time_of_impact` says
-    std::size_t part = 0;  ///< the lowest one met, also at the start
-    /// By ascending parts, then faces; without a clearance of all parts met at the same exact time.
+    double time = 0.0;     ///< not beyond the exact time, as in `time_of_impact`
+    std::size_t part = 0;  ///< lowest part met, also at the start
+    /// By ascending parts, then faces. Without a clearance, includes all parts met at the same
+    /// exact time.
     std::vector<sweep_meeting> contacts{};
     std::uint64_t contact_count = 0;
     std::uint64_t pairs_tested = 0;
-    predicate_counters predicates{};                 ///< without a clearance: what these took
-    treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is known
+    predicate_counters predicates{};  ///< counts without a clearance
+    /// or `cancelled`: the other members are meaningless
+    treeform::status status = treeform::status::ok;
 };
 
-/// The time at which `a`, moved by t times `motion`, first meets one of `parts`, or first comes
-/// nearer than the clearance to one.
+/// The first time t at which `a`, moved by t times `motion`, meets one of `parts` or, with a
+/// clearance, comes nearer than that to one.
 ///
-/// Without a clearance exact, as `time_of_impact`; with one as `time_to_distance`. A part that is
-/// met, or nearer than the clearance, at the start ends it there.
+/// Exact without a clearance, as in `time_of_impact`; otherwise as in `time_to_distance`. If a part
+/// is met, or nearer than the clearance, at the start, the sweep ends there.
 ///
-/// \throws std::invalid_argument as these two, and for a clearance that is negative or NaN
-/// \cost   that of these two for each part; parts are asked for no more than the time so far
+/// \throws std::invalid_argument as for these functions, and for a clearance that is negative or
+///         NaN
+/// \cost   that of these functions for each part, each limited to the earliest time so far
 /// \same   on every machine
 [[nodiscard]] TREEFORM_API sweep_result sweep_among(const shape& a, std::span<const shape> parts,
                                                     const point3& motion,

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How far a mesh may turn about an axis before it meets others.
+/// How far a mesh can rotate about an axis before it meets others.
 
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -15,7 +15,7 @@
 
 namespace treeform::detail::place {
 
-/// A line, its direction of length 1.
+/// A line with a unit direction.
 struct unit_axis {
     point3 origin;
     point3 direction;
@@ -23,12 +23,13 @@ struct unit_axis {
     /// \pre both are finite, and `along` is not zero
     unit_axis(const point3& through, const point3& along);
 
-    [[nodiscard]] point3 across(const point3& p) const;    ///< from the nearest point of the line
-    [[nodiscard]] point3 velocity(const point3& p) const;  ///< a radian in a unit of time
+    /// vector from the nearest point of the line
+    [[nodiscard]] point3 across(const point3& p) const;
+    [[nodiscard]] point3 velocity(const point3& p) const;  ///< at one radian per unit of time
     [[nodiscard]] transform<3> by(double radians) const;
 };
 
-/// The box of all that `mesh` reaches in a full turn, and its largest distance from the axis.
+/// The bounding box of `mesh` in a full turn, and its largest distance from the axis.
 struct swept_ring {
     box3 box;
     double radius = 0.0;
@@ -39,7 +40,7 @@ struct swept_ring {
 struct turn_search_options {
     double clearance = 0.0;
     double tolerance = 0.0;
-    double radius = 0.0;  ///< of `ring_of`
+    double radius = 0.0;  ///< radius by `ring_of`
     double latest = 0.0;  ///< radians
     std::size_t max_steps = 0;
     std::size_t limit = 0;
@@ -48,13 +49,13 @@ struct turn_search_options {
 
 struct turn_search {
     enum class end_of { met, free, gave_up, cancelled } end = end_of::free;
-    double angle = 0.0;  ///< radians; up to there nothing is met
+    double angle = 0.0;  ///< radians; nothing is met up to this angle
     std::uint64_t steps = 0;
     std::uint64_t pairs = 0;
-    std::vector<placement_contact> contacts{};  ///< `fixed` is the number among `parts`
+    std::vector<placement_contact> contacts{};  ///< `fixed` is the number in `parts`
 };
 
-/// \pre at the start nothing is nearer than the clearance
+/// \pre nothing is nearer than the clearance at the start
 [[nodiscard]] turn_search search_turn(const shape& moving, std::span<const shape> parts,
                                       const unit_axis& axis, const turn_search_options& options);
 
