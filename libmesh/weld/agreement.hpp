@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Whether points that are near each other may become one: by values that each has.
+/// Conditions on the values of points that decide whether near points may be merged.
 
 #include <treeform/tree/detail/export.hpp>
 
@@ -11,29 +11,29 @@
 
 namespace treeform::detail::weld {
 
-/// What the values of two points must have in common. A value is the ascending key of a
-/// `vertex_values`; the values of a point are consecutive.
+/// The conditions that the values of two points must fulfill to be merged. A value is the ascending
+/// key of a `vertex_values`; the values of a point are contiguous.
 class TREEFORM_API agreement {
   public:
     struct condition {
-        bool whole = false;      ///< the key is of a whole number of 64 bits
+        bool whole = false;      ///< the key is that of a 64-bit integer
         double tolerance = 0.0;  ///< as in `weld_condition`
     };
     agreement() = default;
     explicit agreement(std::vector<condition> conditions);
 
-    /// Values that a point has.
+    /// Number of values of a point.
     [[nodiscard]] std::size_t size() const { return conditions_.size(); }
-    /// Whether points that agree with one point agree with each other.
+    /// Whether agreement is transitive: true if all tolerances are 0.
     [[nodiscard]] bool is_transitive() const { return transitive_; }
 
-    /// \pre `size()` values at both places
+    /// Whether the two points agree. \pre `a` and `b` point to `size()` values
     [[nodiscard]] bool holds(const std::uint64_t* a, const std::uint64_t* b) const;
     /// Whether all values are the same.
     [[nodiscard]] bool same(const std::uint64_t* a, const std::uint64_t* b) const;
-    /// Equal for points that agree, and mostly different for others.
+    /// A hash: equal for points that agree, and usually different for others.
     [[nodiscard]] std::uint64_t salt(const std::uint64_t* values) const;
-    /// Equal numbers for rows whose values that have to be equal are.
+    /// One label for each row of values; equal if all values with a tolerance of 0 are equal.
     [[nodiscard]] std::vector<std::uint32_t> labels(std::span<const std::uint64_t> rows) const;
 
   private:

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Attributes after points were merged and faces dropped.
+/// Transfers attributes to a mesh with merged points and removed faces.
 
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/weld.hpp>
@@ -11,15 +11,15 @@
 
 namespace treeform::detail::weld {
 
-/// \throws std::invalid_argument for rows of "vertex" that are not one a point, rows of "face" that
-///         are not one a face, columns that do not fit their rows, and corners likewise
+/// \throws std::invalid_argument when "vertex" has not one row for each point, "face" has not one
+///         row for each face, or the size of a column or of corner values does not match
 void check_rows(const attributes& properties, std::size_t point_count, std::size_t face_count);
 
-/// Whether other elements than "vertex" and "face" name points by it.
+/// Whether the column has point numbers, in elements other than "vertex" and "face".
 [[nodiscard]] bool numbers_points(const column& c);
 
-/// Replaces values `begin` to `end` of such a column by `new_of_old` of each; what is no number
-/// less than `points` stays.
+/// Replaces each value in [begin, end) of such a column by its `new_of_old`. Values that are not
+/// integers in [0, points) are kept.
 template <class NewOfOld>
 void renumber(column& c, std::size_t begin, std::size_t end, std::uint64_t points,
               const NewOfOld& new_of_old) {
@@ -36,7 +36,8 @@ void renumber(column& c, std::size_t begin, std::size_t end, std::uint64_t point
     });
 }
 
-/// What `weld` returns of `properties`, given the other parts of its result but means.
+/// The attributes that `weld` returns, except for means, from `properties` and the rest of its
+/// result.
 [[nodiscard]] attributes carry_rows(const attributes& properties, const weld_result& welded);
 
 }  // namespace treeform::detail::weld

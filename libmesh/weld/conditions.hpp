@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Conditions on vertex properties in the terms of `group_points`.
+/// Translates conditions on vertex properties into options of `group_points`.
 
 #include <libmesh/weld/vertex_values.hpp>
 #include <treeform/mesh/weld.hpp>
@@ -11,17 +11,19 @@
 
 namespace treeform::detail::weld {
 
-/// Conditions as labels, for those of tolerance 0, and as questions, for the others.
+/// Conditions with a tolerance of 0 become labels; the others become a predicate on pairs of
+/// points.
 class conditions {
   public:
-    /// `asked` are on single columns and stand for `same` of `options`, whose `label` must live as
-    /// long as this. `takes_part` is [V], 0 for points that stay alone, or empty.
+    /// `asked` replaces `options.same`, with one condition for each column. `options.label` must
+    /// outlive this object. `takes_part` is [V], 0 for points that are never merged; empty: all may
+    /// be.
     ///
     /// \throws std::invalid_argument as `weld`
     conditions(points_view points, const attributes& properties, const weld_options& options,
                std::span<const weld_condition> asked, std::span<const std::uint8_t> takes_part);
 
-    /// \pre this stays where it is while the options are used
+    /// \pre the object is not moved while the options are in use
     [[nodiscard]] weld_options options() const;
 
   private:
@@ -33,7 +35,7 @@ class conditions {
     [[nodiscard]] bool agree(std::uint32_t i, std::uint32_t j) const;
 
     weld_options given_;
-    std::vector<std::uint32_t> label_;  ///< [V], or empty when what was given is all there is
+    std::vector<std::uint32_t> label_;  ///< [V]; empty: use the given labels
     std::vector<question> questions_;
 };
 

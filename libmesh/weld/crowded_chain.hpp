@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// One tile with the rule chain in memory that depends on the space it fills, not on its points.
+/// Welds one tile by the rule `chain`, in memory proportional to the occupied space, not to the
+/// number of points.
 
 #include <libmesh/weld/tile_weld.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -10,15 +11,15 @@
 
 namespace treeform::detail::weld {
 
-/// What `tile_weld` says of a tile with the rule chain, for tiles whose points are too many to be
-/// held. It goes over them three times: `look`, `link`, `settle`, each with the same points in the
-/// same order, in pieces of any size.
+/// Produces the results of `tile_weld` with the rule `chain` for tiles with too many points for
+/// memory. Needs three passes, `look`, `link` and `settle`, each over the same points in the same
+/// order, in pieces of any size.
 ///
-/// Points of a cube whose diagonal is the tolerance are one. `look` finds the cubes and joins those
-/// whose first points are within the tolerance. Whether others are is up to their points, of which
-/// `link` keeps those that are as near as the tolerance to the box around the points of a cube that
-/// is not joined yet; equal ones once. Where points are crowded these are few, as the cubes of a
-/// crowd are soon one.
+/// All points in a cube whose diagonal is the tolerance are linked. `look` finds the cubes and
+/// joins those whose first points are within the tolerance. Other cubes may be joined by their
+/// other points: `link` keeps the points, without duplicates, that are within the tolerance of the
+/// bounding box of the points of a cube that is not joined yet. In dense regions these are few,
+/// since most cubes there are already joined.
 class TREEFORM_API crowded_chain {
   public:
     /// \throws std::invalid_argument for a tolerance that is negative or not finite
@@ -27,14 +28,14 @@ class TREEFORM_API crowded_chain {
     crowded_chain(crowded_chain&&) noexcept;
     crowded_chain& operator=(crowded_chain&&) noexcept;
 
-    /// First. \pre all coordinates are finite, and numbers ascend over all calls
+    /// First pass. \pre all coordinates are finite; point numbers ascend over all calls
     /// \throws std::invalid_argument for more than 2^32 - 2 cubes
-    /// \cost O(1) a point; some 130 bytes a cube
+    /// \cost O(1) a point; about 130 bytes a cube
     void look(std::span<const tile_point> points);
-    /// Second, after the last `look`.
-    /// \cost O(1) a point where cubes are crowded; some 60 bytes for each that is kept
+    /// Second pass, after the last `look`.
+    /// \cost O(1) a point where cubes are dense; about 60 bytes for each point kept
     void link(std::span<const tile_point> points);
-    /// Third, after the last `link`: appends what a `tile_weld` does.
+    /// Third pass, after the last `link`: appends to `out` what a `tile_weld` would.
     void settle(std::span<const tile_point> points, tile_result& out);
 
   private:

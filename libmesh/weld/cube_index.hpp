@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Cubes without limits: from denormals to the largest double, no box and no range of indices.
+/// Indices of cubes in space for any coordinates, from denormals to the largest double, without a
+/// bounding box or limit on indices.
 
 #include <array>
 #include <bit>
@@ -10,14 +11,14 @@
 
 namespace treeform::detail::weld {
 
-/// Where a coordinate lies among intervals of one width; those of points within the tolerance
-/// differ by little.
+/// The index of the interval, of a fixed width, that a coordinate is in. Indices of points within
+/// the tolerance differ by little.
 ///
-/// In units of the width a coordinate x is x / width below 2^46, and from there on grows 4096 times
-/// slower, so that its double is off by less than 2^-6 everywhere below 2^56; two such positions
-/// are at most as far apart as the coordinates are in widths, and 2^-5. Further off, doubles lie
-/// more than a width apart: unequal ones are beyond any tolerance up to the width, and 64 bits of
-/// the coordinate itself are its index.
+/// The position of a coordinate x is x / width up to 2^46, and grows 4096 times slower from there
+/// on, so that its rounding error is less than 2^-6 everywhere below x / width = 2^56. The
+/// difference of two positions is at most that of the coordinates in widths, plus 2^-5. Beyond,
+/// neighboring doubles are more than a width apart: unequal ones exceed any tolerance up to the
+/// width, and the index is the 64 bits of the coordinate itself.
 class cube_axis {
   public:
     struct range {
@@ -28,13 +29,13 @@ class cube_axis {
     /// \pre width > 0
     explicit cube_axis(double width) : width_(width) {}
 
-    /// The indices of intervals that hold whatever is within `reach` widths of x, reach <= 2.
+    /// The intervals that contain everything within `reach` widths of x. \pre reach <= 2
     [[nodiscard]] range around(double x, double reach) const {
         const double at = position(x);
         if (!(std::abs(at) < far)) return {bits_of(x), bits_of(x)};
         return {whole(at - reach - slack), whole(at + reach + slack)};
     }
-    /// The intervals up to `count` beyond that of x.
+    /// The intervals within `count` of that of x.
     [[nodiscard]] range neighbors(double x, std::int64_t count) const {
         const double at = position(x);
         if (!(std::abs(at) < far)) return {bits_of(x), bits_of(x)};

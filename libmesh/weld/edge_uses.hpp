@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The edges of faces, each with the faces that use it.
+/// The edges of a mesh, each with the faces that use it.
 
 #include <libmesh/base/fill_stars.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -13,13 +13,13 @@
 
 namespace treeform::detail::weld {
 
-/// Of an edge: its higher end, and a face.
+/// A use of an edge by a face; `high` is the higher end of the edge.
 struct edge_use {
     std::uint32_t high;
     std::uint32_t face;
 };
 
-/// An edge and what uses it, by ascending number of the face.
+/// An edge with its uses, by ascending face number.
 struct used_edge {
     std::uint32_t low;
     std::uint32_t high;
@@ -28,15 +28,15 @@ struct used_edge {
     [[nodiscard]] std::uint32_t face(std::size_t use) const { return uses[use].face; }
 };
 
-/// What becomes of faces that repeat a corner.
+/// How faces with a repeated corner are treated.
 enum class repeated_corners : std::uint8_t {
-    left_out,  ///< they have no edges
-    counted    ///< with two different corners they use the edge between these twice
+    left_out,  ///< they contribute no edges
+    counted    ///< if they have two different corners, they use the edge between these twice
 };
 
 /// \pre  every corner is less than `point_count`
-/// \cost O(V + F log d) time for at most d edges at a point, 24 bytes a face and 8 a point; 36 a
-///       face on the way
+/// \cost O(V + F log d) time for at most d edges at a point; 24 bytes a face and 8 a point, and
+///       temporarily 36 more a face
 /// \same on any number of threads
 class edge_uses {
   public:
@@ -67,14 +67,14 @@ class edge_uses {
         }
     }
 
-    base::faces_by_point<std::size_t, edge_use> at_;  ///< at lower ends, ascending
+    base::faces_by_point<std::size_t, edge_use> at_;  ///< by lower end, ascending
 };
 
-/// Edges of more than two faces, among the faces with three different corners.
+/// Number of edges of more than two faces, among the faces with three different corners.
 [[nodiscard]] std::uint64_t count_nonmanifold_edges(std::size_t point_count,
                                                     std::span<const face> faces);
 
-/// [V] 1 for the ends of edges of exactly one face, among the faces with three different corners.
+/// [V] 1 for the ends of edges with exactly one face, among the faces with three different corners.
 [[nodiscard]] buffer<std::uint8_t> border_points(std::size_t point_count,
                                                  std::span<const face> faces);
 

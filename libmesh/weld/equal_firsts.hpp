@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The first of equal points.
+/// The first point of each set of equal points.
 
 #include <treeform/mesh/mesh.hpp>
 
@@ -10,8 +10,8 @@
 
 namespace treeform::detail::weld {
 
-/// [V] The lowest-numbered point with the coordinates (-0 equals +0) and the label of each; a point
-/// with a NaN coordinate equals nothing. `label` is [V] or empty.
+/// [V] For each point, the lowest-numbered point with the same coordinates (-0 equals +0) and
+/// label. A point with a NaN coordinate equals only itself. `label` is [V] or empty.
 ///
 /// \cost as `find_equal_points`
 [[nodiscard]] std::vector<std::uint32_t> equal_firsts(points_view points,

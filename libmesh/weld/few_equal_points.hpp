@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Equal points among points that nearly all differ.
+/// Finds equal points in clouds with few of them.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/weld.hpp>
@@ -9,13 +9,13 @@
 
 namespace treeform::detail::weld {
 
-/// As `find_equal_points`; none where all points differ.
+/// The groups of `find_equal_points`; empty if all points differ.
 ///
-/// Only points that share the mark of their hash with another are compared, a tenth of those that
-/// differ.
+/// Only points whose hash has a mark in common with another point are compared: about a tenth of
+/// the different ones.
 ///
 /// \throws std::invalid_argument for more than 2^32 - 1 points
-/// \cost   as `find_equal_points` of a tenth of the points, and 4 bytes a point
+/// \cost   as `find_equal_points` for a tenth of the points, and 4 bytes a point
 /// \same   on any number of threads
 [[nodiscard]] std::optional<point_groups> few_equal_points(points_view points);
 

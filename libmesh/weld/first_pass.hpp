@@ -23,22 +23,23 @@ struct kept_point {
     std::uint64_t id = 0;
 };
 
-/// An open point. It stands for all open points within a fourth of the tolerance that come later.
+/// An open point. It represents all later open points within a fourth of the tolerance.
 struct open_point {
     point3 at{};
     std::uint64_t id = 0;
-    std::uint64_t stands_in = 0;  ///< bundles of those it stands for
-    /// Bundles with points of other slices that its fate may decide, or that of these.
+    std::uint64_t stands_in = 0;  ///< set of bundles of the points it represents
+    /// Set of bundles with points of other slices whose state may depend on this point or on those
+    /// that it represents.
     std::uint64_t asked_by = 0;
 
     [[nodiscard]] bool stands() const { return stands_in != 0; }
 };
 
-/// What a pass remembers of points with their values.
+/// Points that a pass keeps, with their values.
 template <class Point>
 struct remembered {
     near_cells<Point> cells;
-    std::vector<std::uint64_t> values{};  ///< in the order of the numbers in `cells`
+    std::vector<std::uint64_t> values{};  ///< in the order of the entries of `cells`
 
     void add(const Point& point, std::span<const std::uint64_t> its_values, std::uint64_t salt) {
         cells.add(point, salt);
@@ -118,9 +119,9 @@ class first_pass {
         is_news_.push_back(false);
     }
 
-    /// As `border_weld`. An open point within a fourth of the tolerance of `asked` may have one
-    /// that stands for it and is as near to it. What was received, others have handed over; it is
-    /// news that it stands for points of another bundle.
+    /// See `border_weld`. An open point within a fourth of the tolerance of `asked` may be
+    /// represented by another one within a fourth of the tolerance of it. Received points are not
+    /// handed over again, unless they have come to represent points of another bundle since.
     void hand_over(const asked_point& asked, std::span<const std::uint64_t> values,
                    std::vector<border_point>& known) {
         const std::uint64_t salt = agree_.salt(values.data());
@@ -163,7 +164,7 @@ class first_pass {
     }
 
   private:
-    /// Of an open point and those it stands for.
+    /// The bundles of an open point and of those it represents.
     [[nodiscard]] std::uint64_t bundles_of(const open_point& p) const {
         return p.stands_in | slices_.bit_of(p.id);
     }
@@ -187,8 +188,8 @@ class first_pass {
         const std::uint64_t* values;
         std::uint64_t salt;
         bool own = true;
-        bool shared = false;  ///< others have to know of it
-        bool unsure = false;  ///< some of its neighbors may be unknown here
+        bool shared = false;  ///< other tiles need it
+        bool unsure = false;  ///< this pass may not have all of its neighbors
         const border_point* provisional = nullptr;
     };
 
@@ -222,14 +223,15 @@ class first_pass {
 
     struct neighbors {
         nearest_kept kept;
-        nearest_kept open;       ///< of those that stand for themselves
-        double standing_square;  ///< of the distance of the nearest other one, rounded; or infinity
+        nearest_kept open;  ///< of the open points that represent only themselves
+        /// rounded squared distance of the nearest other open point; or infinity
+        double standing_square;
         bool some_open;
         std::optional<std::uint32_t> covering;  ///< number in `open_`
     };
 
-    /// What `q` stands for lies between it and the newest point. If these are of one slice, one run
-    /// has them all.
+    /// The numbers of the points that `q` represents lie between its number and that of the newest
+    /// point. If these two are in one slice, one run has all of them.
     void ask_for(open_point& q, const arrival& a) const {
         if (slices_.slice_of(q.id) != slices_.slice_of(a.id)) q.asked_by |= slices_.bit_of(a.id);
     }
@@ -281,7 +283,7 @@ class first_pass {
         for (const std::uint32_t number : met_open_) ask_for(open_.cells[number], a);
     }
 
-    /// What stands for others is nearer by a fourth of the tolerance, as far as is known.
+    /// A point that an open point represents may be nearer than it by a fourth of the tolerance.
     [[nodiscard]] bool open_may_precede(const point3& p, const neighbors& around) const {
         if (!around.some_open) return false;
         if (around.open.any() && around.kept.precedes(around.open.id(), around.open.at()))
@@ -312,10 +314,11 @@ class first_pass {
     reach within_half_;
     remembered<kept_point> kept_;
     remembered<open_point> open_;
-    std::vector<std::uint32_t> met_open_{};  ///< numbers in `open_` of what a dropped one has met
-    std::vector<std::uint32_t> asked_{};     ///< numbers in `open_` of those that are asked for
-    std::size_t received_ = 0;               ///< kept points that others have
-    std::vector<bool> is_news_{};            ///< of open points that others have
+    /// numbers in `open_` of the points met by the dropped one
+    std::vector<std::uint32_t> met_open_{};
+    std::vector<std::uint32_t> asked_{};  ///< numbers in `open_` of the points asked for
+    std::size_t received_ = 0;            ///< number of kept points received
+    std::vector<bool> is_news_{};         ///< for the open points received
     std::size_t bundle_asked_ = 0;
     std::size_t next_asked_ = 0;
 };

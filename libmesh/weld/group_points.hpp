@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which points become one, for any function that promises it.
+/// Grouping of points to be merged, shared by all functions that weld.
 
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -9,22 +9,22 @@
 
 namespace treeform::detail::weld {
 
-/// How neighbors are found. The groups are the same with each. Where a point has many others within
-/// the tolerance, all ways take a short cut: kept points are looked up by cube, and chains join
-/// whole cubes.
+/// How neighbors are found. The groups do not depend on it. If points have many others within the
+/// tolerance, every method switches to cubes: kept points are found by cube, and chains join whole
+/// cubes.
 enum class neighbor_search : std::uint8_t {
     automatic,  ///< chosen from a sample of the points
-    window,     ///< points sorted along a line in general position, and a window sliding over them
-    cells,      ///< points sorted by cubes as wide as the tolerance
+    window,     ///< points sorted along a line in general position, with a sliding window
+    cells,      ///< points sorted by cubes with edges of the tolerance
     tree        ///< self-search of a `treeform::tree`
 };
 
-/// As `group_points`, whose errors then name the function `called`.
+/// Like `group_points`, with errors that name the function `called`.
 [[nodiscard]] TREEFORM_API point_groups
 find_groups(const char* called, points_view points, const weld_options& options,
             neighbor_search search = neighbor_search::automatic);
 
-/// Groups of two points or more.
+/// The number of groups with at least two points.
 [[nodiscard]] std::uint64_t count_groups_of_several(const point_groups& groups);
 
 }  // namespace treeform::detail::weld

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Faces whose corners with equal coordinates are one.
+/// Faces in which vertices with equal coordinates are joined.
 
 #include <treeform/mesh/mesh.hpp>
 
@@ -8,12 +8,12 @@
 
 namespace treeform::detail::weld {
 
-/// The faces of a mesh with each corner replaced by the lowest vertex of equal coordinates.
+/// The faces of a mesh, with each corner replaced by the lowest vertex with equal coordinates.
 struct joined_faces {
-    bool changed = false;     ///< otherwise no two vertices are equal
-    std::vector<face> faces;  ///< [F], or empty where nothing has changed
+    bool changed = false;     ///< false: no two vertices are equal
+    std::vector<face> faces;  ///< [F]; empty if not changed
 
-    /// `mesh` with these faces. \pre these are of `mesh`
+    /// `mesh` with these faces. \pre they were computed for `mesh`
     [[nodiscard]] mesh_view of(mesh_view mesh) const {
         return {mesh.points, changed ? std::span<const face>(faces) : mesh.faces};
     }
@@ -21,11 +21,11 @@ struct joined_faces {
 
 /// \pre    every corner is a vertex
 /// \throws std::invalid_argument for more than 2^32 - 1 vertices
-/// \cost   as `few_equal_points`, and O(F) where some are equal
+/// \cost   as `few_equal_points`, and O(F) if some are equal
 /// \same   on any number of threads
 [[nodiscard]] joined_faces join_faces(mesh_view mesh);
 
-/// The same of a prepared mesh, which keeps them.
+/// The same, cached in the prepared mesh.
 [[nodiscard]] const joined_faces& join_faces(const prepared_mesh& mesh);
 
 }  // namespace treeform::detail::weld

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is kept of each group: a point, a place, a row of properties.
+/// The point, position and row of properties kept for each group.
 
 #include <treeform/mesh/weld.hpp>
 
@@ -11,9 +11,9 @@
 
 namespace treeform::detail::weld {
 
-/// [G] the point that gives its properties.
+/// [G] The point whose properties each group keeps.
 ///
-/// \throws std::invalid_argument when `options.keep_by` is asked for and no property
+/// \throws std::invalid_argument when `options.keep_by` is set but names no property
 [[nodiscard]] std::vector<std::uint32_t> kept_points(points_view points,
                                                      const attributes& properties,
                                                      const weld_options& options,
@@ -25,7 +25,7 @@ class group_members {
     explicit group_members(const point_groups& groups);
 
     [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
-    /// Ascending.
+    /// The points of a group, ascending.
     [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t group) const {
         return {members_.data() + begin_[group], members_.data() + begin_[group + 1]};
     }
@@ -35,11 +35,11 @@ class group_members {
     std::vector<std::uint32_t> members_;  ///< group by group
 };
 
-/// Puts the mean of each group of several in the place of what is there.
+/// Replaces the position of each group of several points by the mean of its points.
 void take_means(points_view points, const group_members& members, std::vector<point3>& places);
 
-/// The same for every column of floating-point numbers of `rows`, which are one a group; `vertices`
-/// is the element they come from.
+/// The same for every floating-point column of `rows`, which has one row for each group; `vertices`
+/// is the source element.
 void take_means(const element& vertices, const group_members& members, element& rows);
 
 }  // namespace treeform::detail::weld

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The box of some points cut into 2^30 steps a side: integers that say where a point is to one
-/// part in a thousand million, and so whether two are within a tolerance nearly always.
+/// A lattice of 2^30 steps a side over the bounding box of points. Its integer coordinates, precise
+/// to one part in 10^9, decide nearly always whether two points are within a tolerance.
 
 #include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -14,8 +14,8 @@
 
 namespace treeform::detail::weld {
 
-/// A point by three of the numbers x, y, z and s, all counted in steps and cut down to integers:
-/// s is where it lies along a line in general position, and stands for the z it leaves out.
+/// A point in steps, truncated to integers: x, y, and instead of z the position s along a line in
+/// general position.
 struct lattice_record {
     std::int32_t s;
     std::int32_t x;
@@ -23,7 +23,7 @@ struct lattice_record {
     std::uint32_t id;
 };
 
-/// The same by x, y and z.
+/// A point in steps by x, y and z, truncated to integers.
 struct place_record {
     std::int32_t x;
     std::int32_t y;
@@ -31,15 +31,15 @@ struct place_record {
     std::uint32_t id;
 };
 
-/// Steps of a power of two, so that X = (x - low) * scale has no error but that of the one rounded
-/// difference, 2^-53 of at most 2^30 steps.
+/// The step is a power of two, so that the only error of X = (x - low) * scale is that of the
+/// rounded difference: 2^-53 of at most 2^30 steps.
 class lattice {
   public:
     static constexpr int steps_bits = 30;
 
-    /// None where steps cannot be had: the tolerance is more than a fourth of the box, or the box
-    /// is smaller than doubles can divide. Points that are not finite are looked past. A few that
-    /// are far off the others are left outside the box.
+    /// Empty if there is no suitable step: the tolerance is more than a fourth of the box, or the
+    /// box is too small to be divided in doubles. Points that are not finite are ignored. A few
+    /// outliers far from the others may be outside of the box.
     static std::optional<lattice> over(points_view points, double tolerance);
 
     /// \pre `p` is finite and one of the points
@@ -65,15 +65,15 @@ class lattice {
 
     /// The tolerance in steps.
     [[nodiscard]] double tolerance() const { return tolerance_; }
-    /// Largest difference of the x (or y, or z) of two points within the tolerance, cut down.
+    /// Largest difference of the truncated x (or y, or z) of two points within the tolerance.
     [[nodiscard]] std::int32_t reach() const { return reach_; }
-    /// The same of s.
+    /// The same for s.
     [[nodiscard]] std::int32_t reach_along() const { return reach_along_; }
     /// Extent of the box in steps.
     [[nodiscard]] const std::array<double, 3>& extent() const { return extent_; }
 
     enum class verdict { within, beyond, unsure };
-    /// About the points of two records.
+    /// Whether the points of two records are within the tolerance.
     [[nodiscard]] verdict compare(const lattice_record& a, const lattice_record& b) const {
         const double x = b.x - a.x;
         const double y = b.y - a.y;
@@ -102,7 +102,7 @@ class lattice {
     double surely_beyond_ = 0.0;
     std::int32_t reach_ = 0;
     std::int32_t reach_along_ = 0;
-    bool cut_ = false;  ///< some points are outside the box
+    bool cut_ = false;  ///< some points are outside of the box and are clamped
 };
 
 }  // namespace treeform::detail::weld

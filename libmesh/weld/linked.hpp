@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Whether two sets of points come within the tolerance of each other.
+/// Whether two sets of points have points within the tolerance of each other.
 
 #include <libmesh/weld/reach.hpp>
 #include <treeform/mesh/weld.hpp>
@@ -10,10 +10,10 @@
 
 namespace treeform::detail::weld {
 
-/// Whether two points of one label may be joined.
+/// Predicate: whether two points have the same label, are within the tolerance and may be merged.
 class matcher {
   public:
-    /// \pre both outlive it
+    /// \pre both arguments outlive the object
     matcher(points_view points, const weld_options& options)
         : points_(points), options_(&options), within_(options.tolerance) {}
 
@@ -25,7 +25,7 @@ class matcher {
     }
     [[nodiscard]] bool near(const point3& a, const point3& b) const { return within_.holds(a, b); }
     [[nodiscard]] const point3& point(std::uint32_t i) const { return points_[i]; }
-    /// Whether all points of one label within the tolerance match.
+    /// Whether all points with the same label within the tolerance match.
     [[nodiscard]] bool by_distance() const { return !options_->may_merge; }
 
   private:
@@ -34,10 +34,10 @@ class matcher {
     reach within_;
 };
 
-/// Whether some point of `a` matches one of `b`, which is of the same label. Both are reordered.
+/// Whether some point of `a` matches one of `b`. Both have the same label, and both are reordered.
 ///
-/// \cost O(|a| + |b|) where the answer is plain from their boxes or from a few near points;
-///       halves of halves where two surfaces run along each other at the tolerance
+/// \cost O(|a| + |b|) if their boxes or a few near points decide; recursive bisection if two
+///       surfaces run along each other at a distance of about the tolerance
 [[nodiscard]] bool any_match(const matcher& match, std::span<std::uint32_t> a,
                              std::span<std::uint32_t> b);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Points that come one by one, and those among them near a place.
+/// Incremental search for points near a position.
 
 #include <treeform/mesh/mesh.hpp>
 
@@ -15,17 +15,18 @@
 
 namespace treeform::detail::weld {
 
-/// Cubes whose edge is a multiple of an eighth of a power of two, and at least 2.0833 times as wide
-/// as a reach. An interval of the reach to both sides, rounded outward, meets at most two cubes a
-/// side, those of its ends:
-/// - For |x| below 2^44 edges, positions in edges are found by multiplication. The interval is
-///   2 / 2.0833 edges wide, and 2^-6 for the slack, 2^-7 for the rounding of its ends, 2^-7 for
+/// Cubes with an edge that is a multiple of an eighth of a power of two, and at least 2.0833 times
+/// a reach. An interval of the reach to both sides, rounded outward, meets at most two cubes along
+/// an axis, those of its ends:
+/// - For |x| below 2^44 edges, positions in edges are computed by multiplication. The interval is 2
+///   / 2.0833 edges wide, plus 2^-6 for the slack, 2^-7 for the rounding of its ends, and 2^-7 for
 ///   that of the two positions: less than 1.
-/// - Beyond, a cube is so many neighboring doubles a side: 1024 at first, which are at least two
-///   edges, half as many with each further power of two, and 32 at last. There an edge is less
-///   than 16 doubles, and the interval less than an edge and 10.
-/// - Where these change, at multiples of 1024 doubles, whole cubes begin: no position below 2^44 is
-///   rounded up to it, and the lower cube is at least 1 - 2^-8 edges wide.
+/// - Beyond, the side of a cube is a fixed number of neighboring doubles: 1024 at first, which are
+///   at least two edges, half as many with each further power of two, and finally 32. There an edge
+///   is less than 16 doubles, and the interval less than an edge plus 10 doubles.
+/// - Where the two schemes or two of these numbers meet, at multiples of 1024 doubles, new cubes
+///   begin: no position below 2^44 is rounded up to it, and the lower cube is at least 1 - 2^-8
+///   edges wide.
 class cube_map {
   public:
     explicit cube_map(double reach)
@@ -39,9 +40,9 @@ class cube_map {
     void shrink() { set_edge(0.5 * edge_); }
 
     using cube = std::array<std::int64_t, 3>;
-    /// With reach 0 a cube is a point.
+    /// With a reach of 0, a cube is a single point.
     [[nodiscard]] cube of(const point3& p) const { return {index(p.x), index(p.y), index(p.z)}; }
-    /// The lowest and the highest cube of those near `p`.
+    /// The lowest and the highest cube within reach of `p`.
     [[nodiscard]] std::array<cube, 2> around(const point3& p) const {
         std::array<cube, 2> ends;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -53,7 +54,7 @@ class cube_map {
         return ends;
     }
 
-    /// Calls `meet(x, y, z)` for the cubes between these ends, each once.
+    /// Calls `meet(x, y, z)` for each cube between the two ends, once.
     template <class Meet>
     static void each(const std::array<cube, 2>& ends, const Meet& meet) {
         const auto& [low, high] = ends;
@@ -79,7 +80,7 @@ class cube_map {
   private:
     static constexpr double greatest = std::numeric_limits<double>::max();
 
-    /// Where edges are hardly to be had, all is one cube.
+    /// If the edge would be close to overflow, there is only one cube.
     [[nodiscard]] static double edge_over(double least) {
         if (!(least < 0x1p1000)) return std::numeric_limits<double>::infinity();
         int exponent = 0;
@@ -118,9 +119,10 @@ class cube_map {
     int limit_exponent_ = 0;
 };
 
-/// Points by cube. Cubes start wide, so that a look mostly meets one of them, and shrink when they
-/// are crowded. Those with different salts are mostly not met: they are as in other cubes.
-template <class Entry>  // has a point3 `at`
+/// Points by cube. Cubes start wide, so that a search mostly visits one of them, and shrink when
+/// they have many points. Points with a different salt are mostly skipped, as if they were in other
+/// cubes.
+template <class Entry>  // with a member `point3 at`
 class near_cells {
   public:
     explicit near_cells(double reach, bool salted = false)
@@ -132,7 +134,7 @@ class near_cells {
         heads_.assign(std::bit_ceil(2 * count), nobody);
         hang_all();
     }
-    /// Where few are to be expected: looks still meet a small table.
+    /// Reserves entries only, if few of them are expected; the hash table stays small.
     void reserve_entries(std::size_t count) {
         entries_.reserve(count);
         next_.reserve(count);
@@ -140,7 +142,7 @@ class near_cells {
     [[nodiscard]] std::size_t size() const { return entries_.size(); }
     [[nodiscard]] Entry& operator[](std::size_t number) { return entries_[number]; }
 
-    /// Entries are numbered as they come. \pre `salt` is 0 unless salted
+    /// Adds an entry; entries are numbered in this order. \pre `salt` is 0 unless salted
     void add(const Entry& entry, std::uint64_t salt = 0) {
         entries_.push_back(entry);
         if (salted_) salts_.push_back(salt);
@@ -153,8 +155,8 @@ class near_cells {
         }
     }
 
-    /// Calls `meet(entry, number)` for those within reach of `p` and others; for some more than
-    /// once.
+    /// Calls `meet(entry, number)` for all entries within reach of `p` and for some others; for
+    /// some repeatedly.
     template <class Meet>
     void visit(const point3& p, std::uint64_t salt, const Meet& meet) {
         std::size_t met = 0;
@@ -165,12 +167,12 @@ class near_cells {
         count(met);
     }
 
-    /// Asks memory for what `visit` reads first.
+    /// Prefetches what `visit` reads first.
     void prefetch(const point3& p, std::uint64_t salt = 0) const {
         const auto cube = cubes_.of(p);
         __builtin_prefetch(&heads_[slot(cube[0], cube[1], cube[2], salt)]);
     }
-    /// Later: for what it reads then.
+    /// Prefetches what `visit` reads next; call it later than `prefetch`.
     void prefetch_entry(const point3& p, std::uint64_t salt = 0) const {
         const auto cube = cubes_.of(p);
         const std::uint32_t i = head(cube[0], cube[1], cube[2], salt);

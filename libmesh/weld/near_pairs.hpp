@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Three ways to find all pairs of points within a tolerance, where these are few.
+/// Three methods to find all pairs of points within a tolerance, for clouds with few pairs.
 
 #include <libmesh/weld/lattice.hpp>
 #include <libmesh/weld/reach.hpp>
@@ -17,36 +17,37 @@
 
 namespace treeform::detail::weld {
 
-/// What is looked for, and who receives it; both are called from several threads at once. Points
-/// that are not finite are in no pair.
+/// Parameters and callbacks of a search. Both callbacks are called from several threads at once.
+/// Points that are not finite are in no pair.
 struct near_pairs_task {
     points_view points;
     double tolerance;
-    std::span<const std::uint32_t> label;  ///< [V] or empty: only pairs of a label
-    /// Equal points of a label may be named once and be in no pair from then on.
+    std::span<const std::uint32_t> label;  ///< [V] only pairs with equal labels; empty: all pairs
+    /// Equal points with the same label may be reported once, to `copies`, and then be in no pair.
     bool collapse;
     function_ref<void(std::uint32_t first, std::uint32_t copy)> copies;  ///< first < copy
-    /// Pairs within the tolerance, exactly, in any order; some of them twice. False stops it all.
+    /// Receives the pairs within the tolerance, decided exactly, in any order; some pairs twice.
+    /// Returns false to stop the search.
     function_ref<bool(std::span<const id_pair>)> pairs;
 };
 
-/// Each returns whether it came to its end: not when `pairs` stopped it, or when it saw that it
-/// would take long. What was named by then is right.
+/// Each returns whether the search is complete: false when `pairs` stopped it, or when it would
+/// take too long. Pairs and copies reported until then are correct.
 [[nodiscard]] bool pairs_by_window(const near_pairs_task& task, const lattice& steps);
 [[nodiscard]] bool pairs_by_cells(const near_pairs_task& task, const lattice& steps);
 [[nodiscard]] bool pairs_by_tree(const near_pairs_task& task);
 
-/// Points, of all, that a window meets on average, judged from a few thousand of them.
+/// Average number of points in a window, estimated from a sample of a few thousand.
 [[nodiscard]] double estimated_window(points_view points, const lattice& steps);
-/// A window as slow as cells are.
+/// Number of points in a window at which windows are as slow as cells.
 inline constexpr double wide_window = 384.0;
 
-/// Candidates of one thread on their way to the task.
+/// Collects and filters candidate pairs of one thread, and passes them on in blocks.
 class pair_collector {
   public:
     explicit pair_collector(const near_pairs_task& task) : task_(task), within_(task.tolerance) {}
 
-    /// Returns false when there is no more to do, here and in all other threads that ask.
+    /// Returns false when the search was stopped, in this and in all other threads.
     bool add(std::uint32_t a, std::uint32_t b, lattice::verdict known) {
         if (known == lattice::verdict::beyond) return true;
         if (!task_.label.empty() && task_.label[a] != task_.label[b]) return true;
@@ -73,9 +74,9 @@ class pair_collector {
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/// Takes out of `bucket` the points that equal an earlier one beside them, and returns how many are
-/// left. `together(a, b)` says whether two records are the same except for their point, and such
-/// stand in ascending order of their points.
+/// Removes from `bucket` the points that equal an earlier one next to them, and returns the number
+/// of points left. `together(a, b)` tells whether two records differ only in their point number;
+/// such records are in ascending order of it.
 template <class Record, class Together>
 std::size_t collapse_equal(const near_pairs_task& task, std::span<Record> bucket,
                            const Together& together) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which of the kept points within the tolerance a dropped one belongs to.
+/// Selects the kept point that represents a dropped one.
 
 #include <libmesh/weld/reach.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -9,8 +9,8 @@
 
 namespace treeform::detail::weld {
 
-/// The nearest of the points met, the lowest of equally near ones: how the rule `first` decides,
-/// wherever it does (over lists of pairs, over cubes, in tiles and along their borders).
+/// The nearest of the points considered; ties: the lowest number. Every implementation of the rule
+/// `first` uses it (lists of pairs, cubes, tiles and their borders).
 class nearest_kept {
   public:
     explicit nearest_kept(const point3& p) : p_(p) {}
@@ -25,7 +25,7 @@ class nearest_kept {
         id_ = id;
         at_ = at;
     }
-    /// Whether that point is nearer than the one found. \pre any()
+    /// Whether the given point is preferred to the current nearest one. \pre any()
     [[nodiscard]] bool precedes(std::uint64_t id, const point3& at) const {
         const int order = reach::compare(p_, at, at_);
         return order < 0 || (order == 0 && id < id_);

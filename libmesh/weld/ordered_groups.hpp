@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Groups of points that are gone through in the order of a property.
+/// Groups of points that are processed in the order of a property.
 
 #include <treeform/mesh/weld.hpp>
 
@@ -10,20 +10,20 @@
 
 namespace treeform::detail::weld {
 
-/// [V] the points in the order that `options` asks for, or empty for that of their numbers.
+/// [V] The points in the order requested by `options`; empty: by number.
 ///
 /// \throws std::invalid_argument as `weld`
 [[nodiscard]] std::vector<std::uint32_t> points_in_order(points_view points,
                                                          const attributes& properties,
                                                          const weld_options& options);
 
-/// As `find_groups` of the points in `order`, which is not empty unless they are; in terms of the
-/// points as they are numbered.
+/// Like `find_groups` with the points processed in `order`, which is empty only without points. The
+/// result refers to the original point numbers.
 [[nodiscard]] point_groups find_groups_in_order(const char* called, points_view points,
                                                 const weld_options& options,
                                                 std::span<const std::uint32_t> order);
 
-/// Makes the earliest point of each group in `order` its first.
+/// Makes the point of each group that is earliest in `order` its first point.
 void put_earliest_first(std::span<const std::uint32_t> order, point_groups& groups);
 
 }  // namespace treeform::detail::weld

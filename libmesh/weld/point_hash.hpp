@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Coordinates as bits, of which equal ones are equal.
+/// Hashes of coordinates, equal for equal coordinates.
 
 #include <treeform/mesh/mesh.hpp>
 
@@ -9,15 +9,15 @@
 
 namespace treeform::detail::weld {
 
-/// Equal coordinates have equal bits once -0 is made +0, on which no processor mode has a say: one
-/// that flushes denormals would take distinct ones for equal.
+/// The bits of x, with -0 as +0: equal if and only if the coordinates are. Independent of processor
+/// modes: a comparison that flushes denormals would take different ones for equal.
 [[nodiscard]] inline std::uint64_t bits_of(double x) {
     const auto bits = std::bit_cast<std::uint64_t>(x);
     return bits << 1 == 0 ? 0 : bits;
 }
 
-/// A product by an odd number carries low bits up, the shift carries high ones down: coordinates
-/// that were floats differ in their high bits only. Each step is a bijection of what came before.
+/// Multiplication by an odd number propagates low bits up, and the shift propagates high bits down:
+/// coordinates converted from floats differ in their high bits only. Each step is a bijection.
 [[nodiscard]] inline std::uint32_t hash_of(const point3& p, std::uint32_t label = 0) {
     std::uint64_t h = 0x243f6a8885a308d3 + label;
     for (const double x : {p.x, p.y, p.z}) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Names of vertex properties, as people say them, and the columns that they stand for.
+/// Resolves the names of vertex properties in options to columns.
 
 #include <treeform/mesh/weld_options.hpp>
 
@@ -8,8 +8,8 @@
 
 namespace treeform::detail::weld {
 
-/// The columns that `options.keep_by` and `options.order_by` stand for.
-/// \throws weld_property_error when it stands for none, for several, or for one of lists
+/// The columns that `options.keep_by` and `options.order_by` name.
+/// \throws weld_property_error when the name matches no column, several columns, or a list column
 [[nodiscard]] std::string column_to_keep_by(const attributes& properties,
                                             const weld_options& options);
 [[nodiscard]] std::string column_to_order_by(const attributes& properties,

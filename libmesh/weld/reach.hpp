@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Whether points are within one distance of each other, and which is nearer: exactly.
+/// Exact comparisons of distances between points.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
@@ -14,9 +14,10 @@ inline double rounded_squared_distance(const point3& a, const point3& b) {
     return x * x + y * y + z * z;
 }
 
-/// The sum of three rounded squares of rounded differences is off by a factor within
-/// (1 +- u)^5, u = 2^-53, so comparing two such numbers (or one with a rounded square) that differ
-/// by more than 1 part in 2^48 cannot err. Underflow and overflow leave the trusted range.
+/// The result of comparing two rounded squared distances. Their relative error is within (1 +- u)^5
+/// with u = 2^-53, so that the comparison of two such numbers (or of one with a rounded square)
+/// that differ by more than 1 part in 2^48 is correct. Values near underflow or overflow are
+/// `unsure`.
 enum class order { less, more, unsure };
 inline order compare_rounded(double a, double b) {
     constexpr double margin = 1.0 + 0x1p-48;
@@ -28,7 +29,7 @@ inline order compare_rounded(double a, double b) {
     return order::unsure;
 }
 
-/// The exact comparisons of one distance, finite and not negative.
+/// Exact comparisons with a fixed distance, which is finite and not negative.
 class reach {
   public:
     explicit reach(double distance) : distance_(distance), square_(distance * distance) {}

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The mean of values that come one by one.
+/// The mean of values added one by one.
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 
 namespace treeform::detail::weld {
 
-/// Rounded as the header of `weld` says; NaN when one of the values is not finite. Where a sum of
-/// differences is beyond the doubles it is taken of values scaled by 2^-64: 2^32 differences of
-/// less than 2^961 each. What this drops of small values is nothing beside such differences.
+/// Rounded as documented for `weld`; NaN if a value is not finite. If a sum of differences
+/// overflows, values scaled by 2^-64 are summed instead: 2^32 differences of less than 2^961 each.
+/// The loss of small values by scaling is negligible next to such differences.
 class running_mean {
   public:
     void add(double value) {
@@ -22,13 +22,13 @@ class running_mean {
         high_ = std::max(high_, value);
     }
 
-    /// \pre one value at least
+    /// \pre at least one value was added
     [[nodiscard]] double value() const {
         const auto count = static_cast<double>(count_);
         const double direct = first_ + sum_ / count;
         const double result =
             std::isfinite(direct) ? direct : (first_ * scale + scaled_sum_ / count) / scale;
-        // With an infinity among the values this is NaN, or infinite.
+        // NaN or infinite if one of the values is infinite.
         const bool finite = std::isfinite(low_) && std::isfinite(high_) && !std::isnan(result);
         return finite ? std::clamp(result, low_, high_) : std::numeric_limits<double>::quiet_NaN();
     }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a tile says of a point with the rule chain.
+/// The result of a tile for a point, with the rule `chain`.
 
 #include <libmesh/weld/tile_weld.hpp>
 
@@ -10,9 +10,9 @@ namespace treeform::detail::weld {
 
 /// The component of a point inside a tile.
 struct chain_component {
-    std::uint64_t lowest;  ///< its lowest number
-    point3 at;             ///< and where that point is
-    bool elsewhere;        ///< some of its points are in other tiles, too
+    std::uint64_t lowest;  ///< its lowest point number
+    point3 at;             ///< coordinates of that point
+    bool elsewhere;        ///< some of its points are also in other tiles
 };
 
 inline void settle_in_chain(const tile_point& p, const chain_component& c, tile_result& out) {

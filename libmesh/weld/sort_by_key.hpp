@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Parallel sort of small records by a number whose leading bits spread them evenly.
+/// Parallel bucket sort of small records by a key whose leading bits distribute them evenly.
 
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -14,9 +14,9 @@
 
 namespace treeform::detail::weld {
 
-/// Keys have `coarse` + `fine` bits. A bucket is what agrees in the coarse ones: some 2^12 records,
-/// which stay in the second cache while they are sorted. Keys have about as many values as there
-/// are records.
+/// Keys have `coarse` + `fine` bits. A bucket has the records with equal coarse bits: about 2^12,
+/// which fit into the L2 cache while they are sorted. There are about as many possible keys as
+/// records.
 struct key_bits {
     int coarse = 0;
     int fine = 0;
@@ -30,7 +30,7 @@ struct key_bits {
     [[nodiscard]] std::size_t buckets() const { return std::size_t{1} << coarse; }
 };
 
-/// Records by bucket; `size[b]` of them stand from `begin[b]` on.
+/// Records by bucket: bucket b has `size[b]` records from `begin[b]` on.
 template <class Record>
 struct sorted_records {
     buffer<Record> records;
@@ -45,8 +45,9 @@ struct sorted_records {
     }
 };
 
-/// Distributes the records that `make(i, record)` fills in, for i in [0, count) where it returns
-/// true, to their buckets. `make` is called twice, from several threads.
+/// Distributes records to their buckets. `make(i, record)`, for i in [0, count), fills in a record
+/// and returns true, or returns false for none. It is called twice for each i, from several
+/// threads.
 template <class Record, class Make, class KeyOf>
 [[nodiscard]] sorted_records<Record> distribute(std::size_t count, const key_bits& bits,
                                                 const Make& make, const KeyOf& key_of) {
@@ -86,8 +87,8 @@ template <class Record, class Make, class KeyOf>
     return sorted;
 }
 
-/// Sorts every bucket by key, and records of one key by `less`; then calls
-/// `finish(b, bucket) -> size` for each, which may shorten it.
+/// Sorts every bucket by key, and records with equal keys by `less`. Then calls `finish(b, bucket)`
+/// for each bucket, which returns its new size, at most the old one.
 template <class Record, class KeyOf, class Less, class Finish>
 void sort_buckets(sorted_records<Record>& sorted, const key_bits& bits, const KeyOf& key_of,
                   const Less& less, const Finish& finish) {

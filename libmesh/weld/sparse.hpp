@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The rules by lists of pairs, for points most of which have few others within the tolerance.
+/// The rules by lists of pairs, for clouds in which most points have few others within the
+/// tolerance.
 
 #include <libmesh/weld/group_points.hpp>
 #include <treeform/mesh/weld.hpp>
@@ -10,8 +11,8 @@
 
 namespace treeform::detail::weld {
 
-/// The kept point that each point belongs to by the rule `first`; empty where there are too many
-/// pairs for the search, or progress stopped it.
+/// [V] The kept point that represents each point by the rule `first`; empty when there are too many
+/// pairs for the search, or when cancelled.
 ///
 /// \pre  options.tolerance > 0
 /// \cost 36 bytes a point at most, result included
@@ -19,7 +20,7 @@ namespace treeform::detail::weld {
                                                         const weld_options& options,
                                                         neighbor_search search);
 
-/// The earliest point of each point's chain; empty as above.
+/// [V] The earliest point of the chain of each point; empty as for `sparse_leaders`.
 [[nodiscard]] std::vector<std::uint32_t> sparse_chains(points_view points,
                                                        const weld_options& options,
                                                        neighbor_search search);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Space cut into tiles, and which of them know of a point.
+/// Divides space into tiles.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
@@ -12,11 +12,13 @@
 
 namespace treeform::detail::weld {
 
-/// Space cut by planes, and each part again. All points, also those of no sample, are in one tile;
-/// points within the tolerance of each other are in tiles that know of both.
+/// A recursive division of space by planes with three fixed normals, which are not axis-aligned.
+/// Every point, in the sample or not, is in exactly one tile. Of two points within the tolerance of
+/// each other, each is in the tile of the other or in its halo.
 class TREEFORM_API tile_cuts {
   public:
-    /// At most `count` tiles with about equal shares of `sample`, whose points are finite.
+    /// Makes at most `count` tiles with about equal numbers of points of `sample`, which are
+    /// finite.
     ///
     /// \throws std::invalid_argument for a count of 0 or a tolerance that is negative or not finite
     /// \cost O(n log n) for n points of the sample
@@ -26,15 +28,16 @@ class TREEFORM_API tile_cuts {
 
     struct node {
         std::uint32_t direction = leaf;
-        std::uint32_t above = 0;  ///< node; the one below is the next. Of a leaf: the tile
-        double cut = 0.0;         ///< places from here on are above
+        /// number of the upper child; the lower one is the next node. For a leaf: the tile
+        std::uint32_t above = 0;
+        double cut = 0.0;  ///< positions >= `cut` along the direction are above
     };
-    /// What makes other cuts the same.
+    /// The nodes, from which an equal object can be constructed.
     [[nodiscard]] std::span<const node> nodes() const { return nodes_; }
     tile_cuts(std::vector<node> nodes, double tolerance);
 
-    /// The tile that the point is in. The others whose halo it is in replace the content of
-    /// `halos`.
+    /// Returns the tile that the point is in. Replaces the content of `halos` by the other tiles
+    /// that have it in their halo.
     ///
     /// \pre `p` is finite
     [[nodiscard]] std::uint32_t find(const point3& p, std::vector<std::uint32_t>& halos) const;

@@ -1,62 +1,65 @@
 #pragma once
 /// \file
-/// Clouds larger than memory, welded tile by tile with the groups that `group_points` finds.
+/// Welds clouds larger than memory tile by tile, with the same groups as `group_points`.
 ///
-/// A tile gets the points of its part of space, its own, and those of its halo: all others within
-/// the tolerance of that part. It sees every neighbor of its own points, but not all of those of
-/// its halo; what it says for certain is true of the whole cloud, and what hangs on its halo is
-/// left to one pass over the borders of all tiles. There are no rounds, and tiles need not know of
-/// each other: they may be done in any order, at any time, by any process.
+/// A tile gets the points of its part of space (its own points) and those of its halo: all others
+/// within the tolerance of that part. It has all neighbors of its own points, but not all neighbors
+/// of its halo. What a tile decides holds for the whole cloud; what depends on the neighbors of its
+/// halo is left to one pass over the borders of all tiles. There is no iteration, and tiles are
+/// independent: they can be processed in any order, at any time, by any process.
 ///
-/// Rule `first`. A tile goes through its points in their order and calls a point
+/// Rule `first`. A tile classifies its points in order. A point is
 /// - dropped when an earlier kept one is within the tolerance,
-/// - kept when it is the tile's own and all earlier neighbors are dropped,
-/// - open else.
-/// By induction over the order, a point that is called kept or dropped is so in the whole cloud:
-/// the neighbors of an own point are all here, and a kept one within the tolerance suffices to drop
-/// any. A dropped own point leans on the nearest kept one; should an open one be nearer, it may
-/// change sides. To the border pass go own points that are open or lean so, and kept ones that are
-/// in the halo of another tile. It goes through these in their order and drops an open point when
-/// an earlier kept one of them is within the tolerance, keeps it else. This is the rule's answer:
-/// an earlier neighbor that is kept in the end was not called kept here, or it would have dropped
-/// the point, nor dropped. So it is open in its own tile, or kept there and in our halo; both ways
-/// it is in the border pass. For the same reason the leader of a provisional point is the one it
-/// leans on, or one that the border pass has seen before it.
+/// - kept when it is an own point and all earlier neighbors are dropped,
+/// - open otherwise. By induction over the order, a point classified as kept or dropped is so in
+/// the whole cloud: the tile has all neighbors of an own point, and one kept point within the
+/// tolerance suffices to drop any point. The leader of a dropped own point is the nearest kept one.
+/// If an open point is nearer, the leader is provisional, since the open point may be kept. The
+/// border pass gets the own points that are open or have a provisional leader, and the kept ones in
+/// the halo of another tile. It processes these in order, and drops an open point if an earlier
+/// kept one of them is within the tolerance; otherwise it keeps the point. This conforms to the
+/// rule: an earlier neighbor that is kept in the end was not classified as kept here (it would have
+/// dropped the point), nor as dropped. So it is open in its own tile, or kept there and in the halo
+/// of this one; in both cases the border pass has it. For the same reason the final leader of a
+/// provisional point is its provisional leader, or a point that the border pass has processed
+/// before it.
 ///
-/// Open points are not kept apart from open ones within a fourth of the tolerance of them: one
-/// stands for all, with a reach as much longer. More points may be called open then, none wrongly
-/// kept or dropped, and what a tile remembers is bounded by its volume, not by its points.
+/// One open point represents all later open points within a fourth of the tolerance of it, with a
+/// reach longer by that much. So more points may be classified as open, but none wrongly as kept or
+/// dropped, and the memory of a tile is bounded by its volume, not by its number of points.
 ///
-/// Conditions. Points whose values do not agree are no neighbors, whatever is said above; one open
-/// point stands for others of the same values only.
+/// Conditions. Points whose values do not agree are never neighbors. An open point represents only
+/// others with the same values.
 ///
-/// Rule `chain`. The points that are linked inside a tile are one component there. A component of
-/// the cloud is one of tiles' components that share points, and shared are points of a tile that
-/// are in the halo of another: the border pass joins what they name. How far its points are from
-/// the lowest is known to no tile before; a tile names the points of components that may be larger,
-/// each with the lowest it knows of, and they are measured when all are brought together.
+/// Rule `chain`. The points that are linked inside a tile form a component there. A component of
+/// the cloud is the union of components of tiles that share points: points of a tile in the halo of
+/// another. The border pass joins these components. No tile has the distances of points to the
+/// lowest point of a component that extends beyond it; so a tile lists the points of components
+/// that may be larger, each with the lowest point in the tile, and distances are measured after all
+/// components are joined.
 ///
-/// The border pass may be taken in parts of space: one for some tiles each, and then one for what
-/// these passes leave. A point is outer to a pass when it is in a tile that is not among its own,
-/// or in the halo of one. With the rule first, a pass is to its tiles' points what a tile is to its
-/// own, but it knows nothing of what is beyond its tiles: so it calls an outer point that no kept
-/// one drops open, lets an outer one that is dropped lean, and hands on both, what is open because
-/// of them, what may change sides to such, and outer kept ones. A pass with no outer points leaves
-/// none. With the rule chain, a pass hands on the links of outer points, with the lowest of what it
-/// has joined.
+/// The border pass can be divided by space: one pass for each set of tiles, and then one for what
+/// these passes leave. A point is outer to a pass when it is in a tile that is not in the set, or
+/// in the halo of one. With the rule first, a pass treats the points of its tiles as a tile treats
+/// its own points, but it has no points beyond its tiles. So it classifies an outer point that no
+/// kept point drops as open, and gives an outer point that is dropped a provisional leader. It
+/// passes on both of these, points that are open because of them, points with a provisional leader
+/// because of them, and outer kept points. A pass without outer points leaves none. With the rule
+/// chain, a pass passes on the links of outer points, with the lowest point of the joined
+/// component.
 ///
-/// With the rule first, the border pass may have much to do: where points come row by row, what is
-/// open along a border may leave all later points of the rows open. So that memory need not hold
-/// them all, it may be taken in runs. A run has some slices of the numbers, which follow each
-/// other, and a `border_weld` of its own. It has to know of those points of earlier runs that
-/// decide the fate of its own. These are asked for: when an own point is open or leans, a tile
-/// marks the open points near it that are of another slice with the bundle of its slice. What the
-/// border pass has made of a marked point is handed over to each bundle that marked it, and so is
-/// what it has made of those the point stands for. That is all a run needs: an earlier neighbor
-/// that is kept in the end is open in the point's own tile, or dropped the point there. A run that
-/// has a part of a bundle takes, of what the bundle gets, what is near its own points. A pass of
-/// some tiles asks the next one likewise, for its own open points. It hands on what a tile asks for
-/// when that is outer: a place within a fourth of the tolerance of a point of another tile is.
+/// With the rule first, the border pass may be large: if points are stored row by row, open points
+/// along a border may leave all later points of the rows open. To limit its memory, it can be
+/// divided into runs. A run has consecutive slices of the point numbers and its own `border_weld`.
+/// It needs those points of earlier runs that decide the state of its own points. These are
+/// requested: when an own point is open or has a provisional leader, a tile marks the open points
+/// near it that are in another slice with the bundle of its slice. The final state of a marked
+/// point, and that of the points that it represents, is handed over to each bundle that marked it.
+/// A run needs no more: an earlier neighbor that is kept in the end is open in the point's own
+/// tile, or dropped the point there. A run with only part of a bundle takes those points handed
+/// over to the bundle that are near its own points. A pass for a set of tiles requests points from
+/// the next pass in the same way, for its own open points. It passes on a request of a tile that is
+/// outer: a position within a fourth of the tolerance of a point of another tile is.
 
 #include <libmesh/weld/agreement.hpp>
 #include <libmesh/weld/number_slices.hpp>
@@ -72,14 +75,14 @@
 
 namespace treeform::detail::weld {
 
-/// What a point is to a tile.
+/// The role of a point in a tile.
 enum class tile_role : std::uint8_t {
-    own,     ///< in its part of space, and in no other tile
-    shared,  ///< in its part of space, and in the halo of others
+    own,     ///< in the tile's part of space, and in no halo
+    shared,  ///< in the tile's part of space, and in the halo of others
     halo
 };
 
-/// A point as a tile gets it; its number, below 2^62, is that in the whole cloud.
+/// A point as input of a tile. Its number is that in the whole cloud, less than 2^62.
 struct tile_point {
     std::uint64_t tag = 0;  ///< number * 4 + role
     point3 at{};
@@ -91,7 +94,7 @@ struct tile_point {
     [[nodiscard]] tile_role role() const { return static_cast<tile_role>(tag & 3); }
 };
 
-/// A point that is dropped, and the one it belongs to.
+/// A dropped point, and the point that represents it (its leader).
 struct tile_drop {
     std::uint64_t id = 0;
     std::uint64_t leader = 0;
@@ -100,13 +103,13 @@ struct tile_drop {
 };
 
 enum class border_kind : std::uint8_t {
-    open,         ///< kept or dropped: the border pass says
-    provisional,  ///< dropped, for `leader` or for a nearer one
-    kept,         ///< for others to lean on
-    link          ///< rule chain: a shared point and the lowest of its component in one tile
+    open,         ///< kept or dropped: the border pass decides
+    provisional,  ///< dropped; represented by `leader` or a nearer point
+    kept,         ///< kept; may be the leader of others
+    link          ///< rule chain: a shared point, and the lowest point of its component in one tile
 };
 
-/// What one tile leaves to the border pass about a point.
+/// A point that a tile leaves to the border pass.
 struct border_point {
     std::uint64_t tag = 0;  ///< number * 4 + kind
     point3 at{};
@@ -120,29 +123,29 @@ struct border_point {
     [[nodiscard]] border_kind kind() const { return static_cast<border_kind>(tag & 3); }
 };
 
-/// A place near which the fate of points of a bundle may decide that of points in later slices.
+/// A position near which the state of points of a bundle may decide that of points in later slices.
 struct asked_point {
     std::uint64_t bundle = 0;
     point3 at{};
-    std::uint64_t asked_by = 0;  ///< a set of bundles
+    std::uint64_t asked_by = 0;  ///< set of bundles
 };
 
-/// A point of a component that may be in several tiles, with the rule chain.
+/// Rule chain: a point of a component that may extend over several tiles.
 struct tile_member {
     point3 at{};
-    std::uint64_t lowest = 0;  ///< that the tile knows of the component
+    std::uint64_t lowest = 0;  ///< lowest point of the component in the tile
     point3 lowest_at{};
 };
 
-/// The longest way from a dropped point to its leader.
+/// The longest distance from a dropped point to its leader.
 class TREEFORM_API longest_move {
   public:
-    /// Takes the one given when it is longer, decided exactly.
+    /// Replaces the current pair of points if the given one is farther apart, decided exactly.
     void consider(const point3& from, const point3& to);
     void consider(const longest_move& other) { consider(other.from_, other.to_); }
     [[nodiscard]] const point3& from() const { return from_; }
     [[nodiscard]] const point3& to() const { return to_; }
-    /// The least double that is no less than the length.
+    /// The least double that is not below the exact distance.
     [[nodiscard]] double length() const;
 
   private:
@@ -150,15 +153,15 @@ class TREEFORM_API longest_move {
     point3 to_{};
 };
 
-/// What a tile says of its own points.
+/// The results of a tile for its own points.
 struct tile_result {
-    std::vector<tile_drop> dropped{};    ///< by ascending numbers; for good with the rule first
+    std::vector<tile_drop> dropped{};    ///< by ascending numbers; final with the rule first
     std::vector<border_point> border{};  ///< by ascending numbers
-    std::vector<std::uint64_t> border_values{};  ///< of these with the rule first, as for `add`
-    std::vector<asked_point> asked{};            ///< with the rule first, by ascending bundles
-    std::vector<std::uint64_t> asked_values{};   ///< of these
-    std::vector<tile_member> members{};          ///< with the rule chain
-    /// Of `dropped`, with the rule chain except for the `members`.
+    std::vector<std::uint64_t> border_values{};  ///< rule first: values of `border`, as for `add`
+    std::vector<asked_point> asked{};            ///< rule first: requests, by ascending bundles
+    std::vector<std::uint64_t> asked_values{};   ///< values of `asked`
+    std::vector<tile_member> members{};          ///< rule chain only
+    /// Longest move of `dropped`; with the rule chain, without the `members`.
     longest_move move{};
 };
 
@@ -171,22 +174,23 @@ class TREEFORM_API tile_weld {
     tile_weld(tile_weld&&) noexcept;
     tile_weld& operator=(tile_weld&&) noexcept;
 
-    /// Memory for that many points without moving those that are there. No promise.
+    /// Reserves memory for that many points, to avoid reallocation. A hint only.
     void reserve(std::size_t points);
 
-    /// Takes the next points, whose numbers ascend over all calls, and appends what they lead to.
-    /// With the rule first only points that are kept or open take memory from then on, some 60
-    /// bytes each; with the rule chain all do, some 100 each, and `crowded_chain` is for more.
+    /// Adds the next points, whose numbers ascend over all calls, and appends their results to
+    /// `out`. With the rule first, only kept and open points are stored, in about 60 bytes each.
+    /// With the rule chain, all points are, in about 100 bytes each; use `crowded_chain` for more
+    /// points than fit into memory.
     ///
-    /// \pre all coordinates are finite, and `values` are those of the agreement, point by point
-    /// \cost O(1) a point with the rule first, expected, where those kept or open are not crowded
+    /// \pre all coordinates are finite; `values` has the values of the agreement, point by point
+    /// \cost expected O(1) a point with the rule first, if kept and open points are not dense
     void add(std::span<const tile_point> points, tile_result& out,
              std::span<const std::uint64_t> values = {});
 
-    /// The end of the tile, a piece of the result at a time: call it until it returns false.
+    /// Finishes the tile; each call appends a piece of the result. Call it until it returns false.
     /// \throws std::invalid_argument for the rule chain and more than 2^32 - 2 points
-    /// \cost as `group_points` with the rule chain; with the rule first, O(1) an open point that is
-    /// asked for and bundle
+    /// \cost with the rule chain as `group_points`; with the rule first O(1) for each requested
+    /// open point and bundle
     [[nodiscard]] bool finish(tile_result& out);
 
   private:
@@ -194,13 +198,13 @@ class TREEFORM_API tile_weld {
     std::unique_ptr<state> state_;
 };
 
-/// How far from a point an open one may be that matters to it. Where 1.26 tolerances leave the
-/// doubles, open points stand for equal ones only.
+/// The maximum distance of an open point that matters to a point. If 1.26 tolerances overflow, open
+/// points represent only equal ones.
 [[nodiscard]] inline double reach_of_open(double tolerance) {
     return tolerance < 0x1p1000 ? 1.26 * tolerance : tolerance;
 }
 
-/// A border pass: what the `border` of tiles leads to.
+/// A border pass, which decides the `border` points of tiles.
 class TREEFORM_API border_weld {
   public:
     /// \throws std::invalid_argument for a tolerance that is negative or not finite
@@ -209,40 +213,41 @@ class TREEFORM_API border_weld {
     border_weld(border_weld&&) noexcept;
     border_weld& operator=(border_weld&&) noexcept;
 
-    /// Takes the next point, whose numbers ascend over all calls and tiles (those of links may be
-    /// equal), and appends what it leads to: with the rule first a drop, or what the next pass has
-    /// to know. Only kept points, open ones, and linked components take memory, some 60 bytes each,
-    /// and 100 for a component.
+    /// Adds the next point, and appends its result to `out`: with the rule first, a drop or a point
+    /// for the next pass. Numbers ascend over all calls and tiles (those of links may be equal).
+    /// Only kept points, open points and linked components are stored: about 60 bytes for a point,
+    /// 100 for a component.
     ///
-    /// \pre `outer` is true if the point is, and `values` are those of the agreement
+    /// \pre `outer` tells whether the point is outer; `values` are those of the agreement
     void add(const border_point& p, std::span<const std::uint64_t> values, bool outer,
              tile_result& out);
 
-    /// Rule first: takes what has been handed over by earlier runs, before any of its own, and each
-    /// point once. Of an open one several runs may know for whom it stands (`leader`, a set of
-    /// bundles): all of them. What is farther than `reach_of_open` from all of its own is not
-    /// needed.
+    /// Rule first: adds a point handed over by earlier runs; before any own point, and each point
+    /// once. If several runs hand over an open point, `leader` (the set of bundles that it
+    /// represents) must be the union of theirs. Points farther than `reach_of_open` from all own
+    /// points are not needed.
     void receive(const border_point& p, std::span<const std::uint64_t> values);
-    /// Rule first: appends to `known` what is kept or open in a bundle within a fourth of the
-    /// tolerance of that place, of the same values, except for what others have handed over.
+    /// Rule first: appends to `known` the kept and open points of the bundle `asked.bundle`, with
+    /// the same values, within a fourth of the tolerance of `asked.at`, except for those received
+    /// from others.
     void hand_over(const asked_point& asked, std::span<const std::uint64_t> values,
                    std::vector<border_point>& known);
-    /// Rule first: appends the open points that later bundles ask for, a piece at a time: call it
-    /// until it returns false.
+    /// Rule first: appends the open points that later bundles request, a piece in each call. Call
+    /// it until it returns false.
     [[nodiscard]] bool finish(tile_result& out);
 
-    /// The end for the rule chain: links from what has been joined to the lowest, by ascending
-    /// numbers. Such a number is that of a dropped point, which may be in a tile's `dropped` as
-    /// well, with a leader that comes to the same.
+    /// Finishes the rule chain: links from joined components to the lowest point, by ascending
+    /// numbers. Each number is that of a dropped point, which may also be in `dropped` of a tile,
+    /// with an equivalent leader.
     [[nodiscard]] std::vector<border_point> joined();
-    /// The link with the lowest of what has been joined, as it is handed on.
+    /// `link` with the lowest point of its joined component, for the next pass.
     [[nodiscard]] border_point handed_on(const border_point& link) const;
-    /// Takes what another pass has `joined`.
+    /// Adds a link that another pass returned from `joined`.
     void join(const border_point& link);
 
-    /// The kept point that the leader named by a tile belongs to; itself with the rule first.
+    /// The final leader for a leader reported by a tile; with the rule first, `leader` itself.
     [[nodiscard]] std::uint64_t leader_of(std::uint64_t leader) const;
-    /// Considers the way from a member to the lowest point of its whole component.
+    /// Updates `longest` by the distance of a member to the lowest point of its whole component.
     void measure(const tile_member& member, longest_move& longest) const;
 
   private:

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A tolerance: its check at the door, and the cubes that it makes.
+/// Check of a tolerance, and the size of cubes derived from it.
 
 #include <cmath>
 #include <stdexcept>
@@ -8,9 +8,9 @@
 
 namespace treeform::detail::weld {
 
-/// Cubes whose points are all within the tolerance of each other: their diagonal is less than it
-/// (except where rounding makes a denormal width larger). Points within the tolerance are at most
-/// two cubes apart along each axis.
+/// Number of cube edges in a tolerance, such that all points in a cube are within the tolerance of
+/// each other: the diagonal of a cube is less than it (except where rounding makes a denormal width
+/// larger). Points within the tolerance are at most two cubes apart along each axis.
 inline constexpr double cubes_per_tolerance = 1.7321 * (1.0 + 0x1p-10);
 
 /// \throws std::invalid_argument naming the function `called`

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A vertex property as numbers that can be compared exactly.
+/// The values of a vertex property, for exact comparisons.
 
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -13,14 +13,14 @@
 
 namespace treeform::detail::weld {
 
-/// Whether values with these ascending keys agree, as `vertex_values::agree` says.
+/// Whether values with these ascending keys agree, as in `vertex_values::agree`.
 [[nodiscard]] bool keys_agree(bool whole, std::uint64_t a, std::uint64_t b, double tolerance);
 
 class vertex_values {
   public:
-    /// The column `name` of "vertex", or coordinates for "x", "y" and "z".
+    /// Takes the values of the column `name` of "vertex", or coordinates for "x", "y" and "z".
     ///
-    /// \throws std::invalid_argument when it is not there or is a list
+    /// \throws std::invalid_argument when the column is missing or is a list
     vertex_values(points_view points, const attributes& properties, const std::string& name);
 
     [[nodiscard]] bool less(std::size_t i, std::size_t j) const {
@@ -29,26 +29,27 @@ class vertex_values {
     [[nodiscard]] bool is_nan(std::size_t i) const {
         return whole_.size() == 0 && number_[i] != number_[i];
     }
-    /// Less where the value is less, equal where it is equal (-0 to +0); NaN comes last.
+    /// A key that is ordered like the values; equal for equal values (-0 equals +0). NaN is last.
     [[nodiscard]] std::uint64_t ascending_key(std::size_t i) const;
-    /// Less where the value is greater; otherwise the same.
+    /// A key that is ordered opposite to the values; otherwise like `ascending_key`.
     [[nodiscard]] std::uint64_t descending_key(std::size_t i) const {
         return is_nan(i) ? ascending_key(i) : ~ascending_key(i);
     }
-    /// Whether the values differ by at most `tolerance`, finite and not negative; NaN differs from
-    /// all but NaN.
+    /// Whether the values differ by at most `tolerance`, which is finite and not negative. NaN
+    /// agrees only with NaN.
     [[nodiscard]] bool agree(std::size_t i, std::size_t j, double tolerance) const;
 
-    /// Whether they are whole numbers of 64 bits.
+    /// Whether the values are 64-bit integers.
     [[nodiscard]] bool is_whole() const { return whole_.size() > 0; }
 
-    /// The values in one or two columns of doubles, which are equal where the values are.
+    /// The values as one or two columns of doubles, which are equal if and only if the values are.
     [[nodiscard]] std::vector<buffer<double>> take_columns() &&;
 
   private:
     // One of the two is empty.
     buffer<double> number_;
-    /// Numbers of 64 bits, which doubles do not hold; ordered and as far apart as the values.
+    /// 64-bit integers, which doubles cannot represent, as unsigned keys with the same order and
+    /// differences.
     buffer<std::uint64_t> whole_;
 };
 
