@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Faces and vertices in the colors of their classes.
+/// Colors faces and vertices by class.
 
 #include <treeform/mesh/attributes.hpp>
 
@@ -9,9 +9,9 @@
 
 namespace treeform::detail::attribute {
 
-/// Gives each row the color of its class, as the columns red, green and blue.
+/// Sets the columns red, green and blue of each row to the color of its class.
 ///
-/// \pre `classes` has one for each row, each of which has a color, "#rrggbb"
+/// \pre `classes` has one class for each row; `colors` has a color "#rrggbb" for each class
 void set_colors(element& rows, std::span<const std::uint8_t> classes,
                 std::span<const char* const> colors);
 

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// What formats call the columns of points that they all know, and of which type they are there:
-/// one table for readers, writers and all that looks for a normal or a color by its name.
+/// The names and types of common point columns in each format: one table for readers, writers, and
+/// all code that finds a normal or a color by name.
 ///
 /// \source PCL 1.13, point_types.hpp (PCD); LAS Specification 1.4 R15, and the extra bytes of
 ///         CloudCompare 2.13 and PDAL 2.5 (LAS); MeshLab 2022, vcglib import_ply.h (PLY, OFF, OBJ)
@@ -22,13 +22,13 @@ namespace treeform::detail::attribute {
 
 enum class column_use : std::uint8_t { color, normal, texture, number };
 
-/// Formats that have words of their own; all others have those of PLY.
+/// Formats with their own column names; all others use those of PLY.
 enum class dialect : std::uint8_t { ply, pcd, las };
 
-/// How a dialect has a column.
+/// The name and type of a column in a dialect.
 struct column_words {
     std::string_view name;
-    std::optional<scalar_type> type{};  ///< none: any
+    std::optional<scalar_type> type{};  ///< empty: any type
 };
 
 struct known_column {
@@ -40,65 +40,69 @@ struct known_column {
     }
 };
 
-/// Colors in PCD are packed: "rgb", or with an alpha "rgba".
+/// Colors in PCD are packed into one column: "rgb", or "rgba" with alpha.
 inline constexpr std::string_view packed_color = "rgb";
 inline constexpr std::string_view packed_color_with_alpha = "rgba";
 
-/// What 1 in a channel of 8 bits is in one of 16, which are 255 and 65535 where they are full.
+/// Factor from 8-bit to 16-bit color channels: 65535 / 255.
 inline constexpr double bytes_in_word = 257.0;
 
 [[nodiscard]] std::span<const known_column> known_columns();
 
-/// The column that a name means in any dialect, in any case, with underscores or without, and
-/// behind "scalar_" as CloudCompare has it; null where none is known.
+/// The column that a name means in any dialect; null if unknown. Ignores case, underscores and the
+/// prefix "scalar_" of CloudCompare.
 [[nodiscard]] const known_column* find_known(std::string_view name);
 
-/// Whether a name is one of a normal or a texture coordinate, or of a color, packed or not.
+/// Whether a name is that of a column with the given use: a normal, a texture coordinate or a
+/// color, packed or not.
 [[nodiscard]] bool is_use(std::string_view name, column_use use);
-/// The use that "normal", "uv" and "color" stand for.
+/// The use named "normal", "uv" or "color"; empty for other names.
 [[nodiscard]] std::optional<column_use> use_called(std::string_view name);
-/// The axis of a name of a normal: 0, 1, 2.
+/// The axis (0, 1 or 2) of a column of normals; empty for other names.
 [[nodiscard]] std::optional<std::size_t> normal_axis(std::string_view name);
 
 /// "pcd-binary" and "pcd" are PCD; "laz" is LAS.
 [[nodiscard]] dialect dialect_of(std::string_view format);
 
-/// Least and greatest of columns whose scale shows in their values: colors that are floats or have
-/// 16 bits, and intensities that are floats. `seen` is of other rows, which are counted in.
+/// Extends `seen`, the ranges of earlier rows, by the values of `rows`. Only columns whose scale
+/// must be inferred from their values have ranges: colors in float or 16 bits, and intensities in
+/// float.
 void look_at_ranges(const element& rows, std::vector<value_range>& seen);
 
-/// How columns of points are said in another format.
+/// Conversion of point columns to the names, types and scales of another format.
 class translation {
   public:
-    /// From `from` to `to`, both as `mesh_file::format` or an extension. A format is not translated
-    /// to itself: what a file has stays as it is. `ranges` is of all points, as far as it is known.
+    /// Converts from `from` to `to`, each named as in `mesh_file::format` or by extension. If both
+    /// are the same format, columns are not converted. `ranges` has the ranges of all points, as
+    /// far as known.
     translation(const element& columns, std::string_view from, std::string_view to,
                 std::span<const value_range> ranges)
         : translation(columns, from, to, ranges, {}, {}) {}
-    /// Columns named in `drop` are left out, and those in `rename` have another name before
-    /// anything else is done.
-    /// \throws std::invalid_argument naming one that is not there, or is there twice then
+    /// Columns named in `drop` are omitted and those in `rename` are renamed, before the
+    /// conversion.
+    /// \throws std::invalid_argument naming a column that does not exist, or a name that exists
+    ///         twice after renaming
     translation(const element& columns, std::string_view from, std::string_view to,
                 std::span<const value_range> ranges, std::span<const std::string> drop,
                 std::span<const std::pair<std::string, std::string>> rename);
 
-    /// Whether anything is to be done.
+    /// Whether the conversion changes anything.
     [[nodiscard]] bool changes() const { return changes_; }
-    /// These rows in the words of the other format; of no rows, the columns that there will be.
+    /// Converts rows. Without rows, the result has the columns of the converted format.
     [[nodiscard]] element apply(const element& rows) const;
-    /// What is scaled or rounded, a sentence each.
+    /// One warning for each scaled or rounded column.
     [[nodiscard]] const std::vector<io_warning>& warnings() const { return warnings_; }
 
   private:
-    /// How a channel of a color becomes one of 8 bits. In LAS those are the high ones of 16.
+    /// Conversion of a color channel to 8 bits. In LAS these are the high byte of 16 bits.
     enum class color_scale : std::uint8_t { bytes, high_byte, word, unit };
     enum class way : std::uint8_t { copied, cast, scaled, channel, packed, unpacked };
     struct target {
         column declared{};
         way how = way::copied;
-        std::vector<std::size_t> from{};  ///< columns that it is made of
+        std::vector<std::size_t> from{};  ///< source columns
         double factor = 1.0;
-        unsigned shift = 0;  ///< in what is packed
+        unsigned shift = 0;  ///< bit position in the packed value
     };
 
     void plan(const element& columns, std::vector<bool>& done);
@@ -118,10 +122,10 @@ class translation {
     dialect to_words_;
     std::span<const value_range> ranges_;
     std::span<const std::pair<std::string, std::string>> renamed_;
-    bool is_same_;  ///< format
+    bool is_same_;  ///< whether both formats are the same
     bool changes_ = false;
-    bool keeps_floats_ = false;  ///< of colors
-    bool keeps_words_ = false;   ///< of 16 bits, of colors
+    bool keeps_floats_ = false;  ///< whether colors stay float
+    bool keeps_words_ = false;   ///< whether colors stay 16 bits
     color_scale scale_ = color_scale::bytes;
     std::vector<target> targets_{};
     std::string narrowed_{};  ///< names of columns that become float32

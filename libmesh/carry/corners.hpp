@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Texture coordinates and normals of the inputs' corners, for the corners of what is made of them.
+/// Transfers texture coordinates and normals from the corners of the inputs to the corners of a
+/// result.
 
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/carry.hpp>
@@ -17,27 +18,29 @@ struct carried_elements {
     std::span<const operand_element> face_source;           ///< [F]
     std::span<const operand_element> vertex_source;         ///< [V]
     std::span<const operand_element> face_of_cut_vertex{};  ///< [V] or empty
-    /// [3 F] or empty: of a single input, as in `simplify_result`
+    /// [3 F], for a single input, as in `simplify_result`; or empty
     std::span<const std::uint32_t> corner_source{};
 };
 
-/// Gives `file` the values that corners of the inputs have.
+/// Sets the corner values of `file` from those of the inputs.
 ///
-/// A corner of a face that lies in an input's face has what that face has there: that of one of its
-/// corners where it is at this corner, and else values in between, of normals in the direction in
-/// between. Normals are turned around where the face is. Where the input's face has none at a
-/// corner that counts, or a face no source, there is none.
+/// A corner of a face with a source gets the value of the source face at its position: the value of
+/// a corner of the source face if it is at that corner, otherwise an interpolated value (for
+/// normals, an interpolated direction). Normals of flipped faces are negated. A corner gets no
+/// value if the face has no source, or if the source face has no value at a corner with a nonzero
+/// weight.
 ///
-/// Rows of an input stand once in the result, in the order of their first use, so that what shares
-/// one still does. Faces from one face of an input share what lies between at a point that they
-/// share. Of a surface with `corner_source`, values are those of these corners, or in between in
-/// the face of a new vertex; a face whose source has one normal gets its own. Where a PLY had
-/// texture coordinates as double, they are double in one that is written.
+/// Each used row of an input is stored once in the result, in the order of first use, so that
+/// corners that shared a row still do. Faces from the same input face share an interpolated value
+/// at a common point. With `corner_source`, values are those of these corners, or interpolated in
+/// the face of a new vertex; a face whose source has a single normal gets its own normal. Texture
+/// coordinates that a PLY file had as double are written as double to PLY.
 void carry_corners(mesh_file& file, std::span<const carry_source> inputs,
                    const carried_elements& made);
 
-/// Whether two triangles that share an edge have equal values at both of its ends, or of normals,
-/// each has one only. `at_ends` has their corners at either end.
+/// Whether two triangles with a common edge have equal values at both of its ends; for normals, it
+/// suffices that each triangle has a single one. `at_ends` has the corners of both triangles at
+/// each end.
 [[nodiscard]] bool look_alike(const corner_values& corners,
                               const std::array<std::uint32_t, 2>& triangles,
                               const std::array<std::array<std::size_t, 2>, 2>& at_ends);

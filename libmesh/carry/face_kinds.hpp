@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which faces of the inputs look alike.
+/// Groups faces of the inputs with the same appearance.
 
 #include <treeform/mesh/carry.hpp>
 
@@ -12,17 +12,18 @@
 
 namespace treeform::detail::carry {
 
-/// Materials, and what corners have. Faces whose corners have one and the same value are alike
-/// where these are; one whose corners differ is like no other.
+/// Compares faces by material and corner values. Faces whose three corners share one value are
+/// alike if these values are equal; a face with different corner values is like no other face.
 class face_kinds {
   public:
     /// `inputs` must outlive this.
     face_kinds(std::span<const carry_source> inputs, bool by_corners);
 
-    /// Whether there is nothing by which faces could differ.
+    /// Whether the inputs have no property by which faces could differ.
     [[nodiscard]] bool empty() const { return materials_.empty() && !has_corner_values_; }
 
-    /// Appends numbers to `values`, as many for each face, that are equal for faces that are alike.
+    /// Appends a key to `values`: the same number of values for every face, equal for faces that
+    /// are alike.
     void append(std::uint32_t input, std::uint32_t face, std::vector<double>& values) const;
 
   private:
@@ -31,11 +32,11 @@ class face_kinds {
     bool has_corner_values_ = false;
 };
 
-/// What faces of a group have in common.
+/// The criteria for faces of a group.
 struct common_of_group {
-    bool values = true;   ///< as of `carry_sources::face_groups`
-    bool input = false;   ///< as there
-    bool corners = true;  ///< with `values`, also what corners have
+    bool values = true;   ///< as for `carry_sources::face_groups`
+    bool input = false;   ///< as for `carry_sources::face_groups`
+    bool corners = true;  ///< with `values`, also corner values
 };
 
 /// As `carry_sources::face_groups`.

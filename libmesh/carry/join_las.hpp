@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The header of LAS files that become one.
+/// The common header of LAS files that are joined.
 
 #include <treeform/mesh/mesh_file.hpp>
 
@@ -10,11 +10,12 @@
 
 namespace treeform::detail::carry {
 
-/// That of the first file, if it is LAS: with a scale and an offset that hold the points of all, as
-/// far as their headers say where these are, and with what any of them says of extra bytes.
+/// The header of the first file, if it is LAS; otherwise empty. Scale and offset are changed so
+/// that they can represent the points of all files, as far as the bounds in the headers tell. It
+/// describes the extra bytes of all files.
 ///
-/// \throws std::invalid_argument for files of different reference systems or ways to count GPS
-///         time, unless `mixed`
+/// \throws std::invalid_argument for files with different coordinate systems or types of GPS time,
+///         unless `mixed`
 [[nodiscard]] std::optional<las_header> join_las(std::span<const mesh_file> files,
                                                  std::span<const std::string> names, bool mixed);
 

@@ -1,12 +1,12 @@
 #pragma once
 /// \file
-/// Which texture file a face has.
+/// The texture file of a face.
 
 #include <treeform/mesh/mesh_file.hpp>
 
 namespace treeform::detail::carry {
 
-/// The column "texnumber" of faces, numbers in `texture_files`; null when there is none.
+/// The column "texnumber" of faces, with indices into `texture_files`; null if there is none.
 const column* texture_numbers(const mesh_file& file);
 
 }  // namespace treeform::detail::carry

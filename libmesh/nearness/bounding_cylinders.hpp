@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Cylinders around what the nodes of a tree hold: thin where a surface is nearly flat, however it
-/// lies, which a box along the axes is not.
+/// Bounding cylinders of tree nodes. Unlike axis-aligned boxes, they are thin wherever the surface
+/// is nearly flat, in any orientation.
 
 #include <libmesh/nearness/triangle_blocks.hpp>
 #include <treeform/tree/detail/buffer.hpp>
@@ -16,9 +16,9 @@
 
 namespace treeform::detail::nearness {
 
-/// The cylinders of a node's children, in the frame of the tree. The points of a cylinder are
-/// center + s n + v with |s| <= half, v at a right angle to n, and |v| <= radius, where n is
-/// `normal` made to have length 1, which it has to 2^-22. An infinite radius says nothing.
+/// The cylinders of the children of a node, in the frame of the tree. A cylinder is the set of
+/// points center + s n + v with |s| <= half, v perpendicular to n, and |v| <= radius, where n is
+/// `normal` normalized; the length of `normal` is 1 up to 2^-22. An infinite radius means no bound.
 struct alignas(64) eight_cylinders {
     float center[3][8];
     float normal[3][8];
@@ -26,14 +26,14 @@ struct alignas(64) eight_cylinders {
     float radius[8];
 };
 
-/// Cylinders around the triangles of every node but the root: some 5 bytes a triangle.
+/// The cylinders around the triangles of every node except the root; about 5 bytes a triangle.
 class TREEFORM_API bounding_cylinders {
   public:
     bounding_cylinders() = default;
     /// \cost O(F) time
     bounding_cylinders(const tree<3>& tree, const buffer<eight_triangles>& triangles);
 
-    /// The cylinders of the children of a node, which are nodes.
+    /// The cylinders of the children of a node. \pre the children are nodes, not leaf blocks
     [[nodiscard]] const eight_cylinders& below(std::uint32_t level, std::uint32_t node) const {
         return cylinders_[begin_[level] + node];
     }
@@ -43,14 +43,14 @@ class TREEFORM_API bounding_cylinders {
     buffer<eight_cylinders> cylinders_;
 };
 
-/// The cylinders of two trees, and how they come into the common frame of a search.
+/// The cylinders of two trees, and their maps into the common frame of a search.
 struct cylinder_pair {
     const bounding_cylinders& a;
     const bounding_cylinders& b;
     const frame_map<3>& map_a;
     const frame_map<3>& map_b;
 
-    /// As `raise_bounds` says.
+    /// Implements `raise_bounds`.
     [[nodiscard]] unsigned raise(const opened_node& at, unsigned mask, float bound,
                                  float* squared) const;
 };

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A mesh that is asked which of its points is nearest.
+/// Closest-point queries on a mesh.
 
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -18,23 +18,24 @@ namespace treeform::detail::nearness {
 
 /// A tree over the F faces of a mesh, with a copy of its triangles in leaf order.
 ///
-/// The distance is within 16 u L of the true one, where u = 2^-53 and L is the larger of the
-/// distance and the diagonal of the face's box, and in any case a rounding of the coordinates
-/// times u. Degenerate faces count as the segment or point they are. Where several faces are as
-/// near, as computed, the one with the lowest number is named.
+/// The distance is within 16 u L of the true one, plus u times the largest coordinate, where u =
+/// 2^-53 and L is the larger of the distance and the diagonal of the box of the face. Degenerate
+/// faces count as segments or points. If several faces have the same computed distance, the one
+/// with the lowest number is returned.
 ///
-/// Queries are const and may run on any threads. `radius` is inclusive and not squared.
+/// Queries are const and thread-safe. `radius` is inclusive and not squared.
 ///
-/// \cost 128 bytes a face. A query opens O(log F) nodes where the nearest point is clear, more when
-///       much of the mesh is about as far; many when it is further off than 1e5 times the extent
+/// \cost 128 bytes a face. A query opens O(log F) nodes if the nearest point is unambiguous, more
+///       if much of the mesh is at about the same distance, and many if the query is farther away
+///       than 1e5 times the extent of the mesh
 class TREEFORM_API closest_point_query {
   public:
     static constexpr double any_distance = std::numeric_limits<double>::infinity();
 
-    /// No face, nothing near.
+    /// An empty mesh; queries find nothing.
     closest_point_query() = default;
 
-    /// Copies what it needs.
+    /// Copies the triangles; `mesh` need not outlive the query object.
     /// \throws std::invalid_argument naming the face with a corner out of range or not finite
     /// \same   on any number of threads
     explicit closest_point_query(mesh_view mesh, const char* function = "closest_point");
@@ -42,20 +43,22 @@ class TREEFORM_API closest_point_query {
     [[nodiscard]] std::size_t size() const { return tree_.size(); }
     [[nodiscard]] const tree<3>& faces_tree() const { return tree_; }
 
-    /// The nearest point, none when the mesh has no faces or all are beyond the radius.
-    /// \throws std::invalid_argument for a query that is not finite, a radius negative or NaN
+    /// The nearest point; empty if the mesh has no faces or all are farther than the radius.
+    /// \throws std::invalid_argument for a query that is not finite, or a radius that is negative
+    ///         or NaN
     [[nodiscard]] std::optional<closest_point_result> nearest(const point3& query,
                                                               double radius = any_distance) const;
 
-    /// [Q] The same for many queries, in their order, run in parallel and in the order of space.
+    /// [Q] The nearest point of each query, in the given order. Queries run in parallel, sorted
+    /// along a space-filling curve.
     /// \throws std::invalid_argument naming the query
     /// \same   on any number of threads: as the single queries
     [[nodiscard]] std::vector<std::optional<closest_point_result>> nearest(
         std::span<const point3> queries, double radius = any_distance) const;
 
-    /// [Q] The same for queries that are given in an order of space, each with a radius of its own:
-    /// the smaller, the faster.
-    /// \pre  as many radii as queries, not negative
+    /// [Q] The same for queries that are already in a spatial order, with one radius for each;
+    /// smaller radii are faster.
+    /// \pre  one radius for each query, not negative
     /// \throws std::invalid_argument naming the query
     /// \same   on any number of threads: as the single queries
     [[nodiscard]] std::vector<std::optional<closest_point_result>> nearest_in_order(
@@ -70,10 +73,10 @@ class TREEFORM_API closest_point_query {
     tree<3> tree_;
     buffer<double> triangles_;  ///< [blocks][12][8] in leaf order, times `unit_`
     double unit_ = 1.0;         ///< a power of two that keeps squares in range
-    double largest_ = 0.0;      ///< magnitude of a coordinate
+    double largest_ = 0.0;      ///< largest magnitude of a coordinate
 };
 
-/// That of a prepared mesh, which keeps it.
+/// The query object of a prepared mesh, cached in the mesh.
 [[nodiscard]] const closest_point_query& closest_point_query_of(const prepared_mesh& mesh);
 
 }  // namespace treeform::detail::nearness

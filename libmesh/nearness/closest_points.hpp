@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The nearest points of two meshes whose trees are known.
+/// The closest points of two meshes with prebuilt trees.
 
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -12,12 +12,12 @@
 
 namespace treeform::detail::nearness {
 
-/// As `treeform::closest_points`; the trees are those of the faces' boxes, and may be treated as
-/// transformed.
+/// Like `treeform::closest_points`, for trees over the boxes of the faces, each with an optional
+/// transform.
 ///
-/// \pre    coordinates of corners are finite, the trees are those of the meshes' faces
-/// \throws std::invalid_argument when a tree has another size than its mesh, or the radius is
-///         negative or NaN
+/// \pre    coordinates of corners are finite; the trees are over the faces of the meshes
+/// \throws std::invalid_argument when the size of a tree is not the number of faces of its mesh, or
+///         the radius is negative or NaN
 [[nodiscard]] TREEFORM_API std::optional<closest_points_result> closest_points(
     mesh_view a, const transformed<3>& tree_a, mesh_view b, const transformed<3>& tree_b,
     double radius = std::numeric_limits<double>::infinity());

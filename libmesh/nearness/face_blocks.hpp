@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// What bounds the surface of a prepared mesh closely: its triangles in leaf order, and cylinders
-/// around what the nodes of its tree hold.
+/// Tight bounds of the surface of a prepared mesh: its triangles in leaf order, and bounding
+/// cylinders of the nodes of its tree.
 
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/nearness/bounding_cylinders.hpp>
@@ -11,13 +11,13 @@
 
 namespace treeform::detail::nearness {
 
-/// Some 80 bytes a face; about half as long to make as a tree.
+/// Takes about 80 bytes a face, and about half the build time of a tree.
 struct face_blocks {
     buffer<eight_triangles> triangles;
     bounding_cylinders cylinders;
 };
 
-/// Of the tree `build_face_tree(mesh)`; the mesh keeps them.
+/// The blocks of the tree `build_face_tree(mesh)`, cached in the mesh.
 [[nodiscard]] const face_blocks& face_blocks_of(const prepared_mesh& mesh);
 
 }  // namespace treeform::detail::nearness

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Triangles in the leaf order of a tree, eight side by side.
+/// Triangles in the leaf order of a tree, in blocks of eight for SIMD.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
@@ -14,8 +14,8 @@
 
 namespace treeform::detail::nearness {
 
-/// The triangles of a leaf block. Slots without one repeat the first, so that what holds for all
-/// slots holds for the triangles.
+/// The triangles of a leaf block. Unused slots repeat the first triangle, so that bounds over all
+/// slots are bounds of the triangles.
 struct alignas(64) eight_triangles {
     double at[3][3][8];  ///< corner, axis, slot
 
@@ -31,16 +31,16 @@ struct alignas(64) eight_triangles {
     }
 };
 
-/// [blocks] the faces of `mesh` in the order of `tree`.
+/// [blocks] The faces of `mesh` in the leaf order of `tree`.
 [[nodiscard]] TREEFORM_API buffer<eight_triangles> triangle_blocks(mesh_view mesh,
                                                                    const tree<3>& tree);
 
-/// `from`, every corner moved as `transform::operator()` does, then multiplied by `unit`;
-/// `to` may be `from`.
+/// Sets `to` to `from` with every corner transformed by `by`, as by `transform::operator()`, and
+/// then multiplied by `unit`. `to` may be `from`.
 void move_triangles(const eight_triangles& from, const transform<3>& by, double unit,
                     eight_triangles& to);
 
-/// A line along which triangles are held apart; the length of `direction` is 1 to 2^-50.
+/// A separating direction; the length of `direction` is 1 up to 2^-50.
 struct sight_line {
     point3 origin;
     point3 direction;
@@ -49,7 +49,8 @@ struct sight_line {
 /// Pairs of slots of two blocks: bit j of element i.
 using slot_pairs = std::array<unsigned, 8>;
 
-/// Takes from `pairs` those that are further apart than `distance` along the line, b ahead of a.
+/// Removes from `pairs` the pairs that are farther apart than `distance` along the line, with b
+/// ahead of a.
 void drop_separated(const eight_triangles& a, const eight_triangles& b, const sight_line& line,
                     double distance, slot_pairs& pairs);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How near to a mesh, and how far from it, another one is: all of its points.
+/// Bounds of the distances from all points of one mesh to another.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -12,9 +12,9 @@ struct distance_bounds {
     double greatest = 0.0;
 };
 
-/// Bounds of the distances from all points of the faces of `from` to `mesh`. `least` is met;
-/// `greatest` is no less than the greatest, and more by `slack` at most, unless faces would have to
-/// be cut into more than 4^10 parts for that. To rounding. Both 0 where `progress` says stop.
+/// Bounds of the distances from all points on the faces of `from` to `mesh`, up to rounding.
+/// `least` is the minimum. `greatest` is at least the maximum and exceeds it by at most `slack`,
+/// unless that needs faces to be split into more than 4^10 parts. Both are 0 when cancelled.
 ///
 /// \pre  both have faces
 /// \same on any number of threads

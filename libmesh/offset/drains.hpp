@@ -6,16 +6,18 @@
 
 namespace treeform::detail::offset {
 
-/// What a drain takes away.
+/// The material that a drain removes.
 struct drilled {
     mesh prism;
-    bool leads = false;  ///< its ends are outside the solid and in a cavity, exactly
+    /// one end is outside of the solid and the other in a cavity, decided exactly
+    bool leads = false;
 };
 
-/// Along the shortest way from the point of the surface nearest to `at` to the cavities, and
-/// as far beyond both as the hole is wide, but no more than half of the way to what is next there.
+/// A hole along the shortest segment from the point of the surface nearest to `at` to the cavities.
+/// It extends beyond both ends by its diameter, but by no more than half of the distance to the
+/// next surface there.
 ///
-/// \pre both have faces, and no point in common
+/// \pre both meshes have faces, and do not meet
 [[nodiscard]] drilled drill(const point3& at, double diameter, const prepared_mesh& solid,
                             const prepared_mesh& cavities);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The surface of all points at a distance, from cells.
+/// Extracts the surface at a given distance from cells (marching tetrahedra).
 
 #include <libmesh/offset/cell_grid.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -8,12 +8,12 @@
 
 namespace treeform::detail::offset {
 
-/// The surface between corners of cells that are nearer to the mesh than `distance` and those that
-/// are not. Each cell is six tetrahedra about its diagonal, each cut by a triangle or by two:
-/// closed and manifold, whatever the distances are. Behind its faces is what is near, or else what
-/// is far.
+/// The surface between the corners of cells that are nearer to the mesh than `distance` and those
+/// that are not. Each cell is divided into six tetrahedra about its diagonal, and each tetrahedron
+/// is cut by one or two triangles: the surface is closed and manifold for any distances. With
+/// `near_is_behind`, the near side is behind its faces; otherwise the far side.
 ///
-/// Empty where `progress` says stop.
+/// Empty when cancelled.
 ///
 /// \same on any number of threads
 [[nodiscard]] mesh level_surface(const prepared_mesh& mesh, const cell_grid& grid, double distance,

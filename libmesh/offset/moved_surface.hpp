@@ -1,16 +1,17 @@
 #pragma once
 /// \file
-/// A surface moved to one of its sides.
+/// Moves a surface along its normals.
 
 #include <treeform/mesh/mesh.hpp>
 
 namespace treeform::detail::offset {
 
-/// Vertices moved along the mean of the normals around them, by angle, each by `by` over the cosine
-/// between that and the faces, as the mean has it; by twice `by` at most. Points with equal
-/// coordinates are one, with the corners that faces then have.
+/// Moves each vertex along the angle-weighted mean of the face normals at it, by `by` divided by
+/// the mean cosine between this direction and the face normals; by at most twice `by`. Points with
+/// equal coordinates are joined, and faces refer to the joined points.
 ///
-/// \throws std::invalid_argument naming a face that runs along an edge as another one does
+/// \throws std::invalid_argument naming a face that has an edge in the same direction as another
+///         face
 [[nodiscard]] mesh moved_to_front(mesh_view surface, double by);
 
 }  // namespace treeform::detail::offset

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is nearest to many places, with progress.
+/// Nearest points for many positions, with progress.
 
 #include <libmesh/nearness/closest_point_query.hpp>
 #include <treeform/mesh/distance.hpp>
@@ -14,7 +14,7 @@
 
 namespace treeform::detail::offset {
 
-/// As `query.nearest`, block by block. None at all once `progress` says stop.
+/// `query.nearest` of `places`, block by block. An empty vector when cancelled.
 [[nodiscard]] inline std::vector<std::optional<closest_point_result>> near_places(
     const nearness::closest_point_query& query, std::span<const point3> places,
     const progress_callback& progress) {

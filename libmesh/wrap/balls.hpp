@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Spheres through the corners of tetrahedra and faces. All of it is rounded.
+/// Spheres through the corners of tetrahedra and faces, in rounded arithmetic.
 
 #include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -18,7 +18,8 @@ struct ball {
     double squared_radius = 0.0;
 };
 
-/// The circumscribed ball; where four points are so flat that it has no finite center, none.
+/// The circumscribed ball; empty if the points are so nearly coplanar that its center is not
+/// finite.
 [[nodiscard]] inline std::optional<ball> ball_of(const std::array<point3, 4>& corners) {
     using namespace base;
     const point3 b = minus(corners[1], corners[0]);
@@ -34,7 +35,7 @@ struct ball {
     return result;
 }
 
-/// The smallest ball with the three corners of a face on its sphere.
+/// The smallest ball whose sphere passes through the three corners of a face.
 [[nodiscard]] inline std::optional<ball> ball_of(const std::array<point3, 3>& corners) {
     using namespace base;
     const point3 b = minus(corners[1], corners[0]);
@@ -48,9 +49,9 @@ struct ball {
     return result;
 }
 
-/// Of the balls that have the corners of a face on their spheres, and their centers between those
-/// of `outer` and `inner`, the square of the least radius: of a ball that passes through the face
-/// and holds no corner of any tetrahedron.
+/// The squared least radius of the balls whose spheres pass through the corners of a face, with
+/// centers between those of `outer` and `inner`: that of an empty ball, with no corner of a
+/// tetrahedron inside, at the face.
 [[nodiscard]] inline double least_squared_radius(const std::array<point3, 3>& face,
                                                  const std::optional<ball>& outer,
                                                  const std::optional<ball>& inner) {

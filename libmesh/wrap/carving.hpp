@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Space around a mesh, cut away as far as a ball gets.
+/// Carves the space around a mesh that a ball can reach.
 
 #include <libmesh/wrap/offset_surface.hpp>
 #include <libmesh/wrap/tetrahedralization.hpp>
@@ -15,22 +15,23 @@
 namespace treeform::detail::wrap {
 
 struct carving_options {
-    double size = 0.0;    ///< least radius of a ball that passes
-    double offset = 0.0;  ///< of corners from the mesh
-    treeform::precision precision = treeform::precision::float64;  ///< of corners
+    double size = 0.0;    ///< radius of the ball: it passes faces that admit at least this radius
+    double offset = 0.0;  ///< distance of corners from the mesh
+    treeform::precision precision = treeform::precision::float64;  ///< precision of corners
 };
 
-/// What is left of a box.
+/// The tetrahedra of a carved box.
 struct carved_space {
     tetrahedralization cells;
-    std::vector<std::uint8_t> is_outside;  ///< by tetrahedron
+    std::vector<std::uint8_t> is_outside;  ///< [tetrahedra] 1: outside
 };
 
-/// Tetrahedra in a box around `mesh`, outside as far as they can be reached from the box through
-/// faces that a ball passes. None that is outside meets the mesh: exact. None where `stop` says so,
-/// which receives how many tetrahedra were looked at, and how many faces wait.
+/// Fills a box around `mesh` with tetrahedra and marks as outside those that can be reached from
+/// the sides of the box through faces that the ball passes. No outside tetrahedron meets the mesh;
+/// that is exact. Empty when `stop`, which receives the numbers of processed tetrahedra and of
+/// waiting faces, returns true.
 ///
-/// \param around  further from the mesh than the size
+/// \param around  a box that is farther from the mesh than the size
 /// \cost  see `wrap`
 /// \source Portaneri et al., Alpha Wrapping with an Offset, section 3
 [[nodiscard]] std::optional<carved_space> carve(

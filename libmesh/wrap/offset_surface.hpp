@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The surface of all points that are at one distance from a mesh, and the mesh within.
+/// The surface at a given distance from a mesh, and the mesh itself.
 
 #include <libmesh/nearness/closest_point_query.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -12,19 +12,18 @@ namespace treeform::detail::wrap {
 
 class offset_surface {
   public:
-    /// Refers to `around`.
+    /// `around` must outlive the object.
     /// \throws std::invalid_argument naming the face with a corner out of range or not finite
     offset_surface(mesh_view around, double offset);
 
-    /// A point of the surface that the segment from `from` to `to` gets to first, or none where it
-    /// gets to none: some that it touches only just may be missed.
+    /// The first point of the surface on the segment from `from` to `to`; empty if there is none.
+    /// Points where the segment only grazes the surface may be missed.
     [[nodiscard]] std::optional<point3> first_on(const point3& from, const point3& to) const;
 
-    /// A point of the surface next to `p`, on the same side of the mesh; none where there is none
-    /// to be found.
+    /// A point of the surface near `p`, on the same side of the mesh; empty if none is found.
     [[nodiscard]] std::optional<point3> next_to(const point3& p) const;
 
-    /// Whether a face of the mesh has a point in the tetrahedron, its faces included. Exact.
+    /// Whether a face of the mesh meets the closed tetrahedron. Exact.
     ///
     /// \pre orient3d of the corners > 0
     [[nodiscard]] bool meets(const std::array<point3, 4>& tetrahedron) const;

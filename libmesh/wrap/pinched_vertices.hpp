@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Tetrahedra whose boundary is not a manifold, and more of them whose boundary is.
+/// Makes the boundary of a set of tetrahedra manifold.
 
 #include <libmesh/wrap/carving.hpp>
 
@@ -8,12 +8,12 @@
 
 namespace treeform::detail::wrap {
 
-/// Takes tetrahedra from outside until what is inside and what is outside are of one piece each
-/// around every corner, so that the faces between them are a manifold. Returns their number. Where
-/// outside has several pieces around a corner, the largest stays; where inside has, the fewest
-/// tetrahedra between two of its pieces go.
+/// Moves tetrahedra from outside to inside until, around every corner, the inside and the outside
+/// are each connected, so that the faces between them form a manifold. Returns the number of
+/// tetrahedra moved. If the outside has several components around a corner, the largest stays
+/// outside; if the inside has, the fewest tetrahedra that connect two of its components are moved.
 ///
-/// \cost O(V + T), and as many times for a corner as its tetrahedra change
+/// \cost O(V + T); each corner is processed again whenever one of its tetrahedra changes
 [[nodiscard]] std::uint64_t fill_pinched_vertices(carved_space& space);
 
 }  // namespace treeform::detail::wrap

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Tetrahedra that fill a box, with corners that are added one by one.
+/// An incremental tetrahedralization of a box.
 
 #include <treeform/mesh/mesh.hpp>
 
@@ -17,29 +17,31 @@ namespace treeform::detail::wrap {
 /// Corners a, b, c, d, with orient3d(a, b, c, d) > 0.
 struct tetrahedron {
     std::array<std::uint32_t, 4> corners{};
-    std::array<std::uint32_t, 4> neighbors{};  ///< [i] across the face opposite corner i, or none
+    /// [i] the neighbor across the face opposite corner i, or none
+    std::array<std::uint32_t, 4> neighbors{};
 };
 
-/// Tetrahedra that fill a box: any two have a corner, an edge, a face or nothing in common. That is
-/// exact. They are as good as Delaunay's as far as doubles tell: circumspheres are rounded.
+/// Tetrahedra that fill a box: any two share a corner, an edge, a face or nothing; that is exact.
+/// They are Delaunay up to rounding of the circumspheres.
 class tetrahedralization {
   public:
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-    /// Six around a diagonal of the box, whose corners are points 0 to 7.
-    /// \pre the box has a length along each axis
+    /// Six tetrahedra around a diagonal of the box; the corners of the box are points 0 to 7.
+    /// \pre the box has a positive extent along each axis
     explicit tetrahedralization(const box3& around);
 
     [[nodiscard]] const std::vector<point3>& points() const { return points_; }
-    /// Of numbers of tetrahedra; some may be unused.
+    /// Upper bound of tetrahedron numbers; some may be unused.
     [[nodiscard]] std::size_t size() const { return all_.size(); }
     [[nodiscard]] std::size_t count() const { return all_.size() - unused_.size(); }
     [[nodiscard]] const tetrahedron& operator[](std::uint32_t t) const { return all_[t]; }
-    /// How often the number has been given to a new tetrahedron; even while it is unused.
+    /// Generation counter of a tetrahedron number: changes when the tetrahedron is created or
+    /// removed; even while unused.
     [[nodiscard]] std::uint32_t births(std::uint32_t t) const { return births_[t]; }
     [[nodiscard]] bool is_used(std::uint32_t t) const { return (births_[t] & 1) != 0; }
 
-    /// The face opposite corner i, counter-clockwise as that corner sees it.
+    /// The face opposite corner i, counter-clockwise as seen from that corner.
     [[nodiscard]] std::array<std::uint32_t, 3> face(std::uint32_t t, std::size_t i) const {
         const auto& c = all_[t].corners;
         const auto& k = faces[i];
@@ -50,28 +52,28 @@ class tetrahedralization {
         return {points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]]};
     }
 
-    /// Makes `p` a corner: the tetrahedra that hold it, and those next to them with `p` in their
-    /// circumspheres, make room for new ones. Returns false, and changes nothing, where `p` is not
-    /// within the box, or nearer than `apart` to a corner of one of these.
+    /// Inserts `p` as a corner. The tetrahedra that contain it, and connected ones with `p` in
+    /// their circumspheres, are replaced by new ones. Returns false, and changes nothing, when `p`
+    /// is outside of the box, or nearer than `apart` to a corner of one of these tetrahedra.
     ///
-    /// \param near  a tetrahedron not far from `p`
-    /// \cost  some microseconds, and the way from `near` to `p`
-    /// \source Bowyer, Computing Dirichlet Tessellations, The Computer Journal 24 (1981); only as
-    ///         far as `p` sees all faces of the room strictly from inside
+    /// \param near  a tetrahedron near `p`, where the walk to it starts
+    /// \cost  a few microseconds, and the walk from `near` to `p`
+    /// \source Bowyer, Computing Dirichlet Tessellations, The Computer Journal 24 (1981); the
+    ///         cavity is restricted so that `p` is strictly inside of all its faces
     bool insert(const point3& p, std::uint32_t near, double apart);
 
-    /// By the last `insert`.
+    /// The tetrahedra created by the last `insert`.
     [[nodiscard]] std::span<const std::uint32_t> made() const { return made_; }
 
   private:
     static constexpr std::array<std::array<std::size_t, 3>, 4> faces{
         {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};
 
-    /// A face of the room for a new corner.
+    /// A face of the cavity of a new corner.
     struct wall {
         std::array<std::uint32_t, 3> corners;  ///< counter-clockwise from inside
-        std::uint32_t behind;                  ///< a tetrahedron, or none
-        std::size_t face_behind;               ///< of it
+        std::uint32_t behind;                  ///< the tetrahedron behind it, or none
+        std::size_t face_behind;               ///< number of this face in `behind`
     };
 
     [[nodiscard]] int side(std::uint32_t t, std::size_t i, const point3& p) const;
@@ -93,14 +95,14 @@ class tetrahedralization {
     std::vector<std::uint32_t> births_;
     std::vector<std::uint32_t> unused_;
     enum class part : std::uint8_t { none, dropped, room, core };
-    std::vector<part> part_;           ///< of the room for the new corner
-    std::vector<std::uint32_t> room_;  ///< tetrahedra
+    std::vector<part> part_;           ///< [tetrahedra] role in the cavity of the new corner
+    std::vector<std::uint32_t> room_;  ///< tetrahedra of the cavity
     std::vector<wall> walls_;
     std::vector<std::uint32_t> made_;
     struct edge_of_made {
         std::uint64_t ends;
         std::uint32_t of;
-        std::uint32_t opposite;  ///< corner of `of`
+        std::uint32_t opposite;  ///< corner of `of` opposite the face
     };
     std::vector<edge_of_made> edges_;
 };
