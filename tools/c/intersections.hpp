@@ -91,34 +91,36 @@ inline bool is_searched_in_tiles(const std::filesystem::path& path, std::string_
 }
 
 /// Begins a search. All processes must pass the same input and options, except for `progress`.
-inline tf::shared_search search_create(const std::filesystem::path& path,
-                                       const tf::stream_search_options& options) {
+inline tf::shared_search shared_search_create(const std::filesystem::path& path,
+                                              const tf::stream_search_options& options) {
     return {path, options};
 }
 
 /// Writes the faces of each tile, unless already done; `tiles` is the number of tiles. Called by
 /// one process.
-inline std::size_t search_scatter(tf::shared_search& search) {
+inline std::size_t shared_search_scatter(tf::shared_search& search) {
     check(search.scatter());
     return search.tiles();
 }
 
 /// Numbers of the tiles that are not finished.
-inline std::vector<std::uint32_t> search_unfinished(tf::shared_search& search) {
+inline std::vector<std::uint32_t> shared_search_unfinished(tf::shared_search& search) {
     const auto found = search.unfinished();
     return {found.begin(), found.end()};
 }
 
 /// Searches a tile, unless it is finished. Each process calls it for its share of the tiles.
-inline void search_tile(tf::shared_search& search, std::size_t tile) {
-    check(search.search_tile(tile));
+inline void shared_search_tile(tf::shared_search& search, std::size_t tile) {
+    check(search.shared_search_tile(tile));
 }
 
 /// Combines the results of all tiles; an error unless all tiles are finished. A step that is called
 /// too early fails, and ends the search.
-inline tf::stream_search_result search_finish(tf::shared_search& search) { return search.finish(); }
+inline tf::stream_search_result shared_search_finish(tf::shared_search& search) {
+    return search.finish();
+}
 
 /// Removes the folder of the tiles.
-inline void search_remove_folder(tf::shared_search& search) { search.remove_folder(); }
+inline void shared_search_remove_folder(tf::shared_search& search) { search.remove_folder(); }
 
 }  // namespace glue

@@ -84,13 +84,13 @@ def clashes(parts: Iterable[Body], poses: ArrayLike | None, how: _core.ClashOpti
 #   PoseClashes
 @dataclass(frozen=True, repr=False)
 class PoseClashes(Result):
-    """The pairs of parts that clash or touch in each of many poses: n pairs, pose after pose.
+    """The clashes in each of many poses: n pairs of parts, pose after pose.
 
     pose: (n,) the number of the pose, ascending.
     parts: (n, 2) the two parts, the lower number first.
-    how: (n,) uint8 the relation of the two parts, an index into `RELATIONS`.
-    distance: (n,) the distance of parts that are closer than the clearance, otherwise 0.
-    clashing: Number of poses in which a pair penetrates or is too close.
+    how: (n,) uint8: their relation, an index into `RELATIONS`.
+    distance: (n,) of those that are closer than the clearance; else 0.
+    clashing: Number of poses with a pair that penetrates or is too close.
     """
 
     pose: Ids
@@ -128,8 +128,8 @@ def clashes_in_poses(parts: Iterable[Body], poses: ArrayLike, how: _core.ClashOp
 def intersects(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
                move_b: ArrayLike | None = None, progress: Progress = None) -> Any:
     """Whether a face of `a` and a face of `b` have a common point; touching counts. Exact. Returns
-    as soon as one pair is found. Of objects other than a `Mesh`, only faces that reach, as moved,
-    into the intersection of both bounding boxes are indexed.
+    as soon as one pair is found. For meshes that are not a `Mesh`, only the faces that reach into
+    the intersection of both bounding boxes (after the transforms) are indexed.
 
     move_a: an affine transform of `a`, (4, 4), or several, (n, 4, 4). With several, the result is
         an array (n,).
@@ -242,8 +242,8 @@ class PartClash(Result):
     depth: For penetrating parts: `penetration_depth`, the length of `move`.
     move: (3,) a short translation that separates `a` from `b`.
     depth_effort: Of `depth`, as in `penetration_depth_result`.
-    regions: Where the parts meet: (bounding box (2, 3), number of pairs of faces, faces of a, faces
-        of b).
+    regions: Regions where they meet: (box (2, 3), number of pairs of faces, faces of a, faces of
+        b).
     """
 
     a: int
@@ -263,10 +263,10 @@ class PartClash(Result):
 
 @dataclass(frozen=True, repr=False)
 class ClashResult(Result):
-    """The relations of all pairs of parts.
+    """The clashes of all parts of an assembly.
 
-    pairs: That are not clear, ascending.
-    counts: The number of pairs with each relation.
+    pairs: Ascending.
+    counts: Number of tested pairs, by relation.
     clashes: Number of pairs that penetrate or are closer than the clearance; with a clearance, also
         pairs that touch.
     boxes_apart: Pairs excluded by their boxes.
@@ -334,7 +334,7 @@ def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0,
 
     poses: (P, N, 4, 4) for each of P poses, an affine transform for each of the N parts; or (P, 4,
         4), to move only the first part.
-    clearance: Parts that are nearer than this are too close.
+    clearance: Parts nearer than this are too close; not squared.
     first_only: `check_poses`: only the first clash of each pose.
     vertices: 'by_coordinates' or 'by_index'. As in `measure`.
     ignored: pairs of part numbers to ignore.

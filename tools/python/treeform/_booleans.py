@@ -64,18 +64,17 @@ def clipped(sheet: MeshLike, solids: tuple[Any, ...], keep: str, how: _core.Bool
 #   check_solid
 @dataclass(frozen=True, repr=False)
 class BooleanResult(MeshResult):
-    """The surface of a solid, and what was verified about it. A result can be passed to any
-    function that takes a mesh; `vertices, faces = result.mesh`.
+    """The surface of a solid, with its certificate. Every function that takes a mesh also takes a
+    result; `vertices, faces = result.mesh`.
 
     mesh: Faces are counter-clockwise from outside.
-    certificate: What was verified about the coordinates.
-    face_source: (F, 2) for each face, the operand and the operand's face that contains it; the
-        lowest operand if there are several.
-    vertex_source: (V, 2) for each vertex, the operand and the operand's vertex that it comes from;
-        the lowest operand if there are several, `NONE` for new vertices.
-    volumes: If `volumes` was set: the volumes of the first operand, the second, their union and
-        their intersection.
-    statistics: Counters of the operation.
+    certificate: The outcome of checking its coordinates.
+    face_source: (F, 2) the lowest operand, and its face, that contain each face.
+    vertex_source: (V, 2) the lowest operand, and its vertex, equal to each vertex; `NONE` for new
+        vertices.
+    volumes: With `volumes`: volumes of the first operand, the second, their union and their
+        intersection.
+    statistics: Counts of the steps.
     """
 
     mesh: Mesh
@@ -347,8 +346,9 @@ def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", inside: st
         joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
         coordinate. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
-        merged, exactly and before rounding: this removes vertices inside a flat part, and on a
-        straight edge between two flat parts. Uncut faces stay as they are. `split` keeps all cuts.
+        merged, exactly and before rounding, which removes vertices inside a flat region, and on a
+        straight edge between two flat regions. Uncut faces stay as they are. `split` keeps all
+        cuts.
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be

@@ -28,18 +28,17 @@ __all__ = ["CutPiece", "CutPieces", "MassProperties", "MeshPart", "Section", "Se
 #   Section
 @dataclass(frozen=True, repr=False)
 class Section(Result):
-    """Sections by parallel planes: one layer for each height, in the given order. `loops(i)`
-    returns the loops of layer i.
+    """Sections by parallel planes: layers, in the order of the given heights. Layer i has the loops
+    `loops(i)`.
 
-    heights: (K,) the height of each layer.
-    origins: (K, 3) a point on each plane.
-    areas: (K,) the area inside the loops of each layer; meaningful for solids.
-    lengths: (K,) the total length of the loops of each layer.
-    open_counts: (K,) the number of open polylines of each layer; 0 for a solid.
-    points: (P, 2) the points of all loops, one loop after the other: (x . p, y . p) for a point p
-        in space.
-    faces: (P,) for each point, the face that contains the side starting at it.
-    axes: (3, 3) the x and y axes of `points` and the normal of the plane, each of length 1.
+    heights: (K,) heights of the layers.
+    origins: (K, 3) a point of each plane.
+    areas: (K,) area of each layer: the area inside a solid.
+    lengths: (K,) total length of the loops of each layer.
+    open_counts: (K,) number of open polylines in each layer; 0 for a solid.
+    points: (P, 2) points of all loops, one after the other: (x . p, y . p) for p in space.
+    faces: (P,) the face in which the segment after each point begins.
+    axes: (3, 3) the axes x and y of `points`, and the normal, each of length 1.
     """
 
     heights: Floats
@@ -129,15 +128,15 @@ def joined(meshes: Iterable[MeshLike], progress: Progress) -> Mesh:
 class SectionLoop(Result):
     """A closed polygon, or an open polyline that ends at a border of the mesh.
 
-    points: (n, 2) in the plane of the section; the first point is not repeated at the end.
-    faces: (n,) for each point, the face that contains the side to the next point.
+    points: (n, 2) in the plane of the section; the first is not repeated.
+    faces: (n,) the face in which the segment after each point begins.
     closed: Whether the loop is a closed polygon.
-    oriented: Whether the faces along it are oriented consistently: the inside is to the left, seen
-        from above the plane.
-    parent: The number of the innermost loop of the layer that encloses it, or None.
+    oriented: Whether the faces along it are consistently oriented; then the inside is to the left,
+        seen from above the plane.
+    parent: Number of the innermost loop of the layer around this one; None if there is none.
     depth: Number of loops around this one; odd for holes in a solid.
     area: Positive if counter-clockwise; 0 for open loops.
-    length: Sum of the lengths of its sides.
+    length: Length of the polyline.
     """
 
     points: Floats
@@ -333,7 +332,7 @@ def cut_along(mesh: MeshLike, values: ArrayLike, levels: ArrayLike, *, check: bo
 
 @dataclass(frozen=True, repr=False)
 class MeshPart(MeshResult):
-    """Some faces of a mesh as a mesh of their own, with their vertices and attributes.
+    """A subset of the faces of a mesh, with the vertices that they use and their attributes.
 
     mesh: The part.
     face_source: (F,) the number of each face in the given mesh.

@@ -185,7 +185,7 @@ class Written(Result):
     format: 'stl-binary', 'ply-ascii', 'obj', ...
     precision: Precision of the written coordinates: 'float32' or 'float64'.
     max_displacement: Largest change of a coordinate by rounding to `precision`.
-    warnings: Warnings for the user.
+    warnings: Remarks about the file.
     """
 
     format: str

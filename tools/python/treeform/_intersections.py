@@ -33,9 +33,9 @@ KINDS = tuple(_core.KINDS)
 class FacePairs(Result):
     """Pairs of faces that meet.
 
-    pairs: (n, 2) uint32, ascending; for a single mesh, the lower face number first.
-    kinds: (n,) uint8 the kind of each pair, an index into `KINDS`.
-    counts: The number of pairs of each kind, including those not listed.
+    pairs: (n, 2) uint32, ascending; for one mesh, the lower face first.
+    kinds: (n,) uint8: the kind of each pair, an index into `KINDS`.
+    counts: Number of pairs of each kind, listed or not.
     """
 
     pairs: Ids
@@ -61,13 +61,13 @@ class FacePairs(Result):
 #   FilePairs
 @dataclass(frozen=True, repr=False)
 class FilePairs(FacePairs):
-    """Pairs of intersecting faces of a file, as face numbers of `mesh`.
+    """Pairs of faces of a file that meet, as numbers of faces of `mesh`.
 
-    mesh: Only the intersecting faces, in the order of the file.
-    face_in_file: (F,) for each face of `mesh`, its number in the file.
+    mesh: Only the faces in pairs, in the order of the file.
+    face_in_file: (F,) the number in the file of each face of `mesh`.
     stored_faces: Faces of the file.
-    tiles: Number of tiles that space was divided into.
-    non_finite: Number of triangles skipped because a coordinate is not finite.
+    tiles: Number of tiles into which space was cut.
+    non_finite: Number of omitted triangles with a coordinate that is not finite.
     """
 
     mesh: Mesh
@@ -100,7 +100,7 @@ class SharedSearch(InSteps[_core.SearchInSteps]):
     path: the path of the file.
     vertices: None: 'by_coordinates' for STL, otherwise 'by_index'.
     kinds: as for `self_intersections`.
-    format: Of the input, as for `read`.
+    format: Format of the input, as for `read`.
     memory: Limit in bytes; 0: three quarters of the machine's memory.
     folder: the folder for the tiles; empty: the name of the input with ".search-tiles".
     faces_per_tile: Approximate limit; 0: as the memory allows.
@@ -169,13 +169,13 @@ def self_intersections(mesh: MeshLike, *, vertices: str = "by_coordinates",
     Exact on the coordinates as given. A degenerate face (collinear corners) is treated as the
     segment or point that it is; its pairs have a kind of their own.
 
-    vertices: 'by_coordinates' or 'by_index'. `self_intersections`: which corners two faces share.
-    first_only: Stop at the first pair: the same on any number of threads.
+    vertices: 'by_coordinates' or 'by_index'. `self_intersections`: which corners count as shared.
+    first_only: Only the first pair; the same on any number of threads.
     kinds: the kinds to search for, from `KINDS`; None: all. 'crossing': the faces pass through each
         other and share no vertex; 'pierce': likewise, with one shared vertex; 'overlap': coplanar,
         with a common area; 'fold': coplanar, on the same side of a shared edge; 'duplicate': the
         same three vertices; 'touching': contact without crossing; 'degenerate': a face has no area.
-    limit: Lowest pairs listed; all are counted.
+    limit: List at most this many pairs, the lowest; all are counted.
 
     Cost: O(F log F + B) time for the B pairs whose boxes overlap, about 100 bytes a face.
 
@@ -197,14 +197,15 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = N
     Exact on the coordinates as given, or as moved. The kinds are crossing, overlap, touching and
     degenerate: two meshes share no corners, so faces that meet in equal corners are `touching`, and
     equal faces `overlap`. Surfaces count, not solids: a mesh inside the other that does not touch
-    it gives no pair. `a` and `b` may be the same mesh. Of objects other than a `Mesh`, only faces
-    that reach, as moved, into the intersection of both bounding boxes are indexed.
+    it gives no pair. `a` and `b` may be the same mesh. For meshes that are not a `Mesh`, only the
+    faces that reach into the intersection of both bounding boxes (after the transforms) are
+    indexed.
 
     move_a: (4, 4) an affine transform applied to `a` first.
     move_b: (4, 4) an affine transform applied to `b` first.
-    first_only: Stop at the first pair: the same on any number of threads.
+    first_only: Only the first pair; the same on any number of threads.
     kinds: the kinds to search for, from `KINDS`; None: all.
-    limit: Lowest pairs listed; all are counted.
+    limit: List at most this many pairs, the lowest; all are counted.
 
     Raises ValueError if a transform is not finite; naming the mesh and its face with a corner that
     is out of range or, after the transform, not finite.
@@ -266,8 +267,8 @@ class Region(Result):
     """A connected set of faces that meet.
 
     faces: (n,) ascending.
-    bounds: (2, 3) the bounding box of the pairs.
-    pairs: (n,) their numbers in the list of pairs, ascending.
+    bounds: (2, 3) bounding box of the faces.
+    pairs: (n,) numbers of its pairs in the list of pairs, ascending.
     """
 
     faces: Ids

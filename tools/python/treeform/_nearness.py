@@ -80,12 +80,12 @@ def all_hits(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, t_min: f
 #   ClosestPoints closest_point contains locate winding_number signed_distance RayHits raycast
 #   raycast_all raycast_any Deviation deviation
 class ClosestPoints(NamedTuple):
-    """The nearest point on a mesh for each query, in the order of trimesh: `closest, distance,
+    """The nearest point of a mesh for each query, in the order of trimesh: `closest, distance,
     triangle_id = closest_point(mesh, points)`.
 
-    closest: (n, 3) points on the mesh, rounded; NaN if there is none within the radius.
-    distance: (n,) distances, not squared; infinite if there is none.
-    triangle_id: (n,) uint32 the face; 4294967295 if there is none.
+    closest: (n, 3) points on the mesh, rounded; NaN if none is within the radius.
+    distance: (n,) distances, not squared; infinite if there is no point.
+    triangle_id: (n,) uint32 face numbers; 4294967295 if there is no point.
     """
 
     closest: Floats
@@ -194,10 +194,9 @@ def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = N
 class RayHits(NamedTuple):
     """The first face that each ray hits.
 
-    t: (n,) the hit is at origin + t * direction; infinite if nothing is hit.
-    face: (n,) uint32 the face; 4294967295 if nothing is hit.
-    at: (n,) uint8 where the face is hit: at corner 0, 1 or 2, on edge 3, 4 or 5, or in the interior
-        (6).
+    t: (n,) the point hit is origin + t direction; infinite without a hit.
+    face: (n,) uint32 face numbers; 4294967295 without a hit.
+    at: (n,) uint8: the corner (0, 1, 2), edge (3, 4, 5) or interior (6) of the face that was hit.
     """
 
     t: Floats
@@ -279,12 +278,12 @@ def raycast_any(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
 
 @dataclass(frozen=True, repr=False)
 class Deviation(Result):
-    """Distances of points from a surface.
+    """Distances of points from a surface, and their statistics.
 
     distances: (V,) of `a`: the distance of each point from the surface of `b`, negative inside the
         solid that `b` bounds, exactly 0 on its surface. Never negative if `b` bounds no solid.
     faces: (V,) the nearest face of `b`.
-    is_signed: Whether the distances are signed.
+    is_signed: Whether distances have a sign.
     side_counts: If distances have a sign: points of `a` inside, on and outside of `b`.
     mean: Mean of the signed distances.
     mean_absolute: Mean of their magnitudes.
@@ -296,8 +295,8 @@ class Deviation(Result):
     worst: The lowest point number with that magnitude.
     lowest: The least signed distance.
     highest: The greatest signed distance.
-    histogram: (bins,) the number of signed distances in each of `bins` intervals of equal length
-        from `lowest` to `highest`.
+    histogram: (bins,) number of signed distances in intervals of equal length from `lowest` to
+        `highest`.
     band_counts: With a band: points below, within and above it. Both ends are within.
     max_bound: Bound of the distance from any point of the surface `a` to `b`: the maximum, over its
         faces, of the largest corner distance plus the longest edge / sqrt(3). For a cloud it is

@@ -46,10 +46,10 @@ class Contacts(NamedTuple):
     """Pairs of faces that touch in the final position, or are at the clearance.
 
     points: (n, 3)
-    normals: (n, 3) unit normals from the fixed to the moving mesh; 0 if undefined.
+    normals: (n, 3) of length 1, from the fixed to the moving mesh; 0 if there is none.
     moving: (n,) faces of the moving mesh.
     fixed_face: (n,) faces of the fixed mesh; 4294967295 for the bed.
-    fixed: (n,) the number of the fixed mesh.
+    fixed: (n,) number of the fixed mesh.
     """
 
     points: Floats
@@ -64,15 +64,15 @@ class Contacts(NamedTuple):
 
 @dataclass(frozen=True, repr=False)
 class Placement(MeshResult):
-    """The new position of a mesh. True if one was found; otherwise `message` says why not.
+    """The result of a placement. True if the mesh has a place; else `message` has the reason.
 
-    mesh: The moved mesh, in checked coordinates; unmoved if no position was found.
-    matrix: (4, 4) new = M * old: a translation; of `turn` and `mate_features` a turn, too. `points`
-        are moved by it and rounded once, except for those that are set on the bed.
-    end: Why it ended there: 'contact', 'bed', 'unchanged', 'moved_apart', 'nothing_met', 'too_far',
-        'starts_penetrating', 'starts_too_near', 'starts_touching', 'starts_below_bed',
-        'not_representable', 'too_many_steps', 'out_of_range'.
-    message: Why no position was found, in words; otherwise empty.
+    mesh: The moved mesh, in the checked coordinates; the unmoved mesh if there is no place.
+    matrix: (4, 4) new = M * old: a translation; for `turn` and `mate_features` also a rotation.
+        `points` are moved by it and rounded once, except for points that are set on the bed.
+    end: Why the placement ended where it did: 'contact', 'bed', 'unchanged', 'moved_apart',
+        'nothing_met', 'too_far', 'starts_penetrating', 'starts_too_near', 'starts_touching',
+        'starts_below_bed', 'not_representable', 'too_many_steps', 'out_of_range'.
+    message: Why there is no place, as a clause; empty if there is a place.
     direction: (3,) unit direction of the travel; 0 if there is none.
     travel: Distance moved; for `too_far` the distance needed.
     at_start: Exact: 'separate', 'touching', 'penetrating', 'closer_than_clearance' or 'clear'.
@@ -80,9 +80,9 @@ class Placement(MeshResult):
         or 'clear'.
     contacts: Pairs of faces that touch in the final position, or are at the clearance.
     contact_count: Number of all contacts, listed or not.
-    nearest: How the mesh, as `a`, lies at the place to the fixed mesh that it penetrates, else to
-        one that it touches, else to the nearest. None if all are too far away.
-    certificate: What was verified about the coordinates.
+    nearest: The relation, at the place, of the moving mesh (`a`) to the fixed mesh that it
+        penetrates, else to one that it touches, else to the nearest. None if all are too far away.
+    certificate: The outcome of checking the coordinates.
     effort: For `separate`: the effort of its search. If `cut` is not 0, a shorter translation may
         exist or, if no place was found, a place.
     angle: For `turn` and `mate_features`: angle of the rotation, in degrees.
@@ -141,8 +141,8 @@ class Measure(Result):
     distance: Not squared. 0 if and only if the meshes touch or penetrate each other.
     surface_distance: Exactly 0 if and only if a face of one meets a face of the other. So it is
         positive for a mesh inside a solid whose surface it does not touch.
-    on_a: (3,) the nearest point on the surface of `a`; a common point if the bodies meet.
-    on_b: (3,) the nearest point on the surface of `b`; a common point if the bodies meet.
+    on_a: (3,) the nearest point on the surface of `a`; a common point if they meet.
+    on_b: (3,) the nearest point on the surface of `b`; a common point if they meet.
     face_a: The face of `a` that contains `on_a`.
     face_b: The face of `b` that contains `on_b`.
     a_inside_b: A component of `a` is inside the solid `b` without touching it.
@@ -175,8 +175,8 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
 
     onto: a fixed body, or a list of them.
     direction: (3,) the direction of motion, of any length.
-    clearance: The gap to leave, a distance; 0: until contact.
-    max_travel: A length; whatever is further along is ignored.
+    clearance: Gap to leave, a distance; 0: contact.
+    max_travel: Largest distance to move; obstacles beyond are ignored.
     precision: 'float32' or 'float64'. Precision of the returned points.
     bed: z of a bed, which also stops the mesh: points resting on the bed have exactly this z (for
         float32, the smallest value not below it), and no point is below it.
@@ -234,8 +234,8 @@ def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float |
     penetrates has no place.
 
     onto: a fixed body, or a list of them.
-    clearance: The gap to leave, a distance; 0: until contact.
-    max_travel: A length; whatever is further along is ignored.
+    clearance: Gap to leave, a distance; 0: contact.
+    max_travel: Largest distance to move; obstacles beyond are ignored.
     precision: 'float32' or 'float64'. Precision of the returned points.
 
     Raises ValueError as `slide`.
@@ -264,8 +264,8 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
     number (`cut`).
 
     fixed: a fixed body, or a list of them.
-    clearance: The gap to leave, a distance; 0: until contact.
-    max_travel: A length; whatever is further along is ignored.
+    clearance: Gap to leave, a distance; 0: contact.
+    max_travel: Largest distance to move; obstacles beyond are ignored.
     precision: 'float32' or 'float64'. Precision of the returned points.
     effort: limit for the number of pairs of faces that the search examines, where a pair in motion
         counts as two; 0: 20 million, plus 200 for each face. Distance computations for a clearance
@@ -311,8 +311,8 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
     fixed: a fixed body, or a list of them.
     axis: (3,) the direction of the axis, of any length.
     origin: (3,) a point on the axis.
-    clearance: The gap to leave, a distance; 0: until contact.
-    max_travel: A length; whatever is further along is ignored.
+    clearance: Gap to leave, a distance; 0: contact.
+    max_travel: Largest distance to move; obstacles beyond are ignored.
     max_angle: the largest rotation, in degrees; greater than 0 and at most 360.
     tolerance: the largest gap, beyond the clearance, that counts as contact; greater than 0. None:
         2^-32 of the largest distance of a point from the axis.
@@ -351,8 +351,8 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
     onto: a fixed body, or a list of them.
     of_moving: a plane or an axis found by `find_features`.
     of_fixed: one of the same kind.
-    clearance: The gap to leave, a distance; 0: until contact.
-    max_travel: A length; whatever is further along is ignored.
+    clearance: Gap to leave, a distance; 0: contact.
+    max_travel: Largest distance to move; obstacles beyond are ignored.
     flip: make the normals of the planes point in the same direction instead of in opposite
         directions; for axes, reverse the direction.
     precision: 'float32' or 'float64'. Precision of the returned points.
@@ -377,15 +377,15 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
 
 @dataclass(frozen=True, repr=False)
 class LaidFlat(MeshResult):
-    """A mesh laid flat on the bed.
+    """A mesh on the bed.
 
     mesh: The mesh on the bed.
     matrix: (4, 4) new = M * old, a rotation and a translation. `points` differ from it by a few
         units in the last place of the largest coordinate, old or new.
     chosen: Number in `sides`.
-    message: The result in words, without a full stop.
-    areas: (S,) the areas of the planar sides of the convex hull, largest first.
-    normals: (S, 3) the outward normals of these sides, before the rotation.
+    message: The outcome as a clause for people, without a full stop.
+    areas: (S,) areas of the flat sides of the convex hull, largest first.
+    normals: (S, 3) outward normals, before the rotation.
     tip_angles: (S,) for each side the least tilt, in degrees, that brings the center of mass over
         an edge of it, so that the mesh tips over. 90 if the center is in the plane of the side.
         Negative if the center is not over the side: then the mesh tips over by itself.
@@ -394,7 +394,7 @@ class LaidFlat(MeshResult):
         `overhang_sides` sides and the chosen one, else NaN.
     center_of_mass: (3,) before the rotation, rounded.
     on_bed: (n,) points of that side, ascending.
-    certificate: What was verified about the coordinates.
+    certificate: The outcome of checking the coordinates.
     center_heights: (S,) of the center of mass over the plane of the side.
     mass_dimension: What the mass is attributed to: 3 for the solid that a closed mesh bounds; 2 for
         the faces of an open mesh, as sheets of equal thickness; 0 for the points of a mesh without
@@ -463,7 +463,7 @@ def lay_flat(mesh: MeshLike, *, normal: ArrayLike | None = None, point: ArrayLik
 
 @dataclass(frozen=True, repr=False)
 class Alignment(MeshResult):
-    """The motion found by `align`.
+    """The motion that `align` found.
 
     matrix: (4, 4) new = M * old, with `start` included. Far from the origin its last column is
         large and has a large rounding error; then new = `pivot_moved` + (linear part of M) * (old -
@@ -485,10 +485,10 @@ class Alignment(MeshResult):
     end: 'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'.
     converged: `end` is `converged`.
     iterations: Steps from the best start.
-    start: Which start that was: 0 is the present position.
-    undetermined: Number of independent motions that the data does not determine, such as sliding a
-        plane along a plane.
-    message: The result in words, without a full stop.
+    start: Number of the best start; 0 is the present position.
+    undetermined: Number of independent motions that the data do not determine, such as a plane
+        sliding on a plane.
+    message: The outcome as a clause for people, without a full stop.
     """
 
     matrix: Floats
@@ -590,7 +590,7 @@ class PackedPart(NamedTuple):
     matrix: (4, 4) new = M * old, a rotation about z and a translation; the identity if the part is
         not placed. `points` differ from it by a few units in the last place of the largest
         coordinate.
-    mesh: The part in its position on the plate; unmoved if it is not placed.
+    mesh: The moved part; the unmoved part if it is not placed.
     """
 
     placed: bool
@@ -604,15 +604,15 @@ class PackedPart(NamedTuple):
 
 @dataclass(frozen=True, repr=False)
 class Packing(Result):
-    """Parts arranged on plates. True if every part was placed.
+    """Filled plates. True if every part was placed.
 
-    parts: The parts, in the order of the input.
-    not_placed: (n,) numbers of parts without a place, ascending.
+    parts: In the order of the input.
+    not_placed: (n,) numbers of parts without a position, ascending.
     plates_used: Plates with a part.
     tries: Number of tries made.
     density: Share of the area of the used plates that their parts cover, by the raster; with
         `stack`, share of the volume that the solids fill, cavities included.
-    message: The result in words, without a full stop.
+    message: The outcome as a clause for people, without a full stop.
     """
 
     parts: list[PackedPart]
@@ -694,7 +694,7 @@ def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coo
     if the bodies are farther apart than `radius`. The relation is exact, and so is whether the
     distance is 0. Other distances are rounded as in `distance`.
 
-    radius: Of `measure`; inclusive.
+    radius: For `measure`: ignore meshes further apart; inclusive.
     vertices: 'by_coordinates': vertices with equal coordinates are the same vertex; 'by_index':
         only those with the same number.
 

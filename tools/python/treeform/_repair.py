@@ -46,13 +46,12 @@ def steps_of(steps: Iterable[str]) -> dict[str, bool]:
 #   ConvexHull
 @dataclass(frozen=True, repr=False)
 class ConvexHull(Result):
-    """The convex hull of points: triangles, grouped into planar sides.
+    """The convex hull of points: triangles, grouped by flat sides.
 
     dimension: The dimension that the points span: 3, 2 in a plane, 1 on a line, 0 if all are equal,
         -1 for no points.
-    faces: (F, 3) the numbers of the points at the corners of each triangle, counter-clockwise from
-        outside.
-    first_face: (S,) the first face of each planar side; the faces of a side are consecutive.
+    faces: (F, 3) triangles, by point numbers, outward.
+    first_face: (S,) the first face of each flat side; its faces are consecutive.
     areas: (S,) the area of each side.
     normals: (S, 3) the outward normal of each side, of length 1.
     """
@@ -77,11 +76,11 @@ class ConvexHull(Result):
 class RepairResult(MadeMesh):
     """A repaired mesh.
 
-    face_source: (F',) input face, lowest of those merged, or `NONE`.
-    vertex_source: (V',) input vertex that each is, or `NONE`.
-    is_left: (F,) for each input face, whether any part of it is in the result, possibly merged with
-        other faces.
-    steps: Counters of each step: faces flipped, holes filled, ...
+    face_source: (F',) input face of each face, lowest of those merged; or `NONE`.
+    vertex_source: (V',) input vertex of each vertex, or `NONE`.
+    is_left: (faces of the input,) whether a part of each face is left, also if it was merged with
+        others.
+    steps: Counts of each step's changes: faces flipped, holes filled, ...
     """
 
     face_source: Ids

@@ -44,18 +44,17 @@ class Result:
 #   Certificate
 @dataclass(frozen=True, repr=False)
 class Certificate(Result):
-    """What was verified about the coordinates of a result, with exact predicates. True if the
-    result has all properties that the operation guarantees.
+    """The outcome of checking the coordinates of a result with exact predicates. True if all
+    guarantees of the operation hold.
 
     status: 'ok', or why the result is not certified.
-    meeting_count: Number of pairs of faces that intersect although they should not.
-    meeting: (n, 2) the first 100 of these pairs.
-    open_count: Number of edges where the surface is not closed: the faces on both sides do not
-        cancel out.
+    meeting_count: Number of pairs of faces that meet where they should not.
+    meeting: (n, 2) the first 100 pairs of faces that meet.
+    open_count: Number of edges whose signed face count is not zero.
     open_edges: (n, 2, 3) the ends of the first 100 of these edges.
-    open_faces: (n, 2) the operand and the face at each of these edges.
-    boundary_edges: Open edges with an odd number of faces.
-    misoriented_edges: Open edges between faces that are oriented inconsistently.
+    open_faces: (n, 2) the operand and its face at each of these edges.
+    boundary_edges: Number of open edges with an odd number of faces.
+    misoriented_edges: Number of open edges whose faces are inconsistently oriented.
     max_displacement: The largest change of a coordinate by rounding, from the exact position of the
         vertex. For vertices added or removed by mending, from the nearest point of the exact
         surface. Measured on the result; intermediate moves do not add up.
@@ -64,9 +63,9 @@ class Certificate(Result):
         coordinates; 0 if it had no faces.
     size_before: For status `excessive_loss`: the volume (the area, if there is no solid) before and
         after.
-    size_after: The volume (or area) after.
+    size_after: The same after the operation.
     size_is_volume: Whether these are volumes, not areas.
-    message: The result in words, without a full stop.
+    message: The outcome as a clause for people, without a full stop.
     """
 
     status: str

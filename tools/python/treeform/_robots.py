@@ -23,13 +23,13 @@ __all__ = ["Joint", "Robot", "read_urdf"]
 # made of headers:
 #   Joint
 class Joint(NamedTuple):
-    """A joint, which connects two links.
+    """A joint of two links.
 
     name: Name in the file.
     kind: 'fixed', 'revolute', 'continuous' or 'prismatic'.
     parent: Name of the parent link.
     child: Name of the child link.
-    limits: Lowest and highest value, in radians or meters; None if unlimited.
+    limits: Least and greatest value, in radians or meters; None without limits.
     """
 
     name: str
@@ -47,20 +47,19 @@ class Joint(NamedTuple):
 #   Robot
 @dataclass(frozen=True, repr=False)
 class Robot(Result):
-    """The links and joints of a robot, with a mesh for each link that has geometry.
+    """Links and joints, with a mesh for each link that has any.
 
-    Check it with `clash(robot.parts, ...)` or `check_poses(robot.parts, robot.poses(values),
-    ignored=robot.adjacent)`.
+    `clash(robot.parts, ...)` and `check_poses(robot.parts, robot.poses(values),
+    ignored=robot.adjacent)` take its parts.
 
-    name: As in the file.
+    name: Name in the file.
     links: Names of the links, in the order of the file.
-    joints: The joints, parents before their children.
-    parts: One mesh for each link that has geometry, in the frame of the link.
+    joints: Parents before their children.
+    parts: One mesh for each link with faces, in the frame of the link.
     link_of_part: (N,) the link of each part.
-    adjacent: (n, 2) parts that are connected by a joint, the lower number first. These always
-        touch.
-    approximated: The cylinders and spheres that were approximated by triangles, a sentence each.
-    skipped: Other geometry that is not a mesh and was skipped, a sentence each.
+    adjacent: (n, 2) parts connected by a joint, the lower number first: they always touch.
+    approximated: Cylinders and spheres replaced by triangles, a sentence each.
+    skipped: Geometry that is not read, a sentence each.
     """
 
     name: str

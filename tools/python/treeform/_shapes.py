@@ -64,7 +64,7 @@ class Isolines(Result):
 #   OrientedBox oriented_box Isoline isolines
 @dataclass(frozen=True, repr=False)
 class OffsetResult(MadeMesh):
-    """The result of `offset`, `hollow`, `thicken` or `wrap`.
+    """An offset, hollowed, thickened or wrapped solid.
 
     blind_drains: (n,) For `hollow`: numbers of drains that do not lead from outside into a cavity,
         judged by the ends of their axes.
@@ -224,8 +224,8 @@ def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision:
     No face of the mesh meets the wrap or is outside of it: this is verified exactly, on the
     coordinates of both. The wrap's vertices are at the offset from the mesh, up to rounding.
 
-    offset: `wrap`: how far the vertices of the wrap are from the mesh, in its length unit. None: a
-        thirtieth of the size.
+    offset: `wrap`: the distance of the wrap's vertices from the mesh, in its length unit. None: a
+        thirtieth of `size`.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
     check: if False, also return results that could not be certified; see their `certificate`.

@@ -29,10 +29,10 @@ class WeldResult(MeshResult):
     """A welded mesh or cloud.
 
     mesh: The welded mesh; without faces for a cloud.
-    index: (n,) for each input point, its number in the result.
-    source: (m,) for each point of the result, the input point that its properties come from.
-    face_source: (F,) for each face of the result, its number in the input; empty for a cloud.
-    statistics: Counters of the operation.
+    index: (n,) the new number of each point.
+    source: (m,) the input point whose properties each new point has.
+    face_source: (F,) the input face of each face; empty for a cloud.
+    statistics: Counts of what welding changed.
     """
 
     mesh: Mesh
@@ -82,7 +82,7 @@ class SharedWeld(InSteps[_core.WeldInSteps]):
 
     files: one or several files of points, read as one cloud; or one file of a mesh.
     tolerance: as for `weld`.
-    relative: `tolerance` is a share of the diagonal of the cloud's box.
+    relative: Whether `tolerance` is a fraction of the diagonal of the bounding box.
     chain: merge all points that are connected by a chain of points, each within the tolerance of
         the next. By default, a point is dropped if it is within the tolerance of an earlier point
         that is kept.
@@ -102,7 +102,7 @@ class SharedWeld(InSteps[_core.WeldInSteps]):
         resolution of that file before they are compared.
     memory: memory limit of the process, in bytes; 0: three quarters of the memory of the machine.
     folder: the folder for the tiles; empty: the name of the first input with ".tiles".
-    points_per_tile: At most about this many; 0: as the memory allows.
+    points_per_tile: Approximate limit; 0: as the memory allows.
     columns: as for `read`.
     mixed: allow LAS files with different coordinate reference systems or time types. The output has
         those of the first file.
@@ -250,18 +250,17 @@ def count_nearly_equal(points: ArrayLike, distance: float, *, progress: Progress
 class WeldStreamResult(Result):
     """The result of `weld_stream`.
 
-    points: Number of input points.
-    kept: Number of points in the output.
-    max_displacement: Upper bound of how far points moved, including rounding to the resolution of
-        LAS.
+    points: Number of points in the inputs.
+    kept: Number of kept points.
+    max_displacement: Upper bound of the distance that a point moved, rounding for LAS included.
     tolerance: The tolerance as a length.
     non_finite: Number of points that are not finite; all are kept.
-    tiles: Number of tiles that space was divided into.
-    continued: Whether the run resumed an earlier one.
-    faces: For a mesh, the number of faces in the output.
-    statistics: Counters of the operation, as in `WeldResult`.
-    warnings: Warnings for the user.
-    triangles: The same, with polygons cut into triangles.
+    tiles: Number of tiles into which space was cut.
+    continued: Whether this run resumed an earlier one.
+    faces: For a mesh, number of kept faces.
+    statistics: Counts of what welding changed, as in `WeldResult`.
+    warnings: Remarks about the files.
+    triangles: Number of triangles of these faces.
     """
 
     points: int
@@ -296,7 +295,7 @@ def weld_stream(files: Path | Iterable[Path], out: Path, tolerance: float = 0.0,
 
     files: one or several files of points, read as one cloud; or one file of a mesh.
     tolerance: as for `weld`.
-    relative: `tolerance` is a share of the diagonal of the cloud's box.
+    relative: Whether `tolerance` is a fraction of the diagonal of the bounding box.
     chain: merge all points that are connected by a chain of points, each within the tolerance of
         the next. By default, a point is dropped if it is within the tolerance of an earlier point
         that is kept.
@@ -317,7 +316,7 @@ def weld_stream(files: Path | Iterable[Path], out: Path, tolerance: float = 0.0,
     memory: memory limit of the process, in bytes; 0: three quarters of the memory of the machine.
     folder: the folder for temporary tiles; empty: a folder next to the first input. If a run was
         interrupted, the same call resumes it.
-    points_per_tile: At most about this many; 0: as the memory allows.
+    points_per_tile: Approximate limit; 0: as the memory allows.
     removed: a file for the dropped points.
     label: write all points, with the number of their group as a property of this name.
     withhold: write all points, and set the LAS flag "withheld" for those dropped.

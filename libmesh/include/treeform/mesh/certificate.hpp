@@ -30,7 +30,7 @@ enum class status : std::uint8_t {
     /// cancel each other out
     vanished,
     out_of_range,  ///< a coordinate of the result overflows the requested precision
-    no_placement,      ///< a placement found no position; `placement::end` has the reason
+    no_placement,  ///< a placement found no position; `placement::end` has the reason
     cancelled      ///< stopped by `progress`; there is no result
 };
 

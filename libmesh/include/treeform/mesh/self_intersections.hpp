@@ -154,7 +154,7 @@ struct intersection_region {
 [[nodiscard]] TREEFORM_API std::vector<intersection_region> group_pairs(
     mesh_view mesh, std::span<const face_pair> pairs);
 
-/// Options of `self_intersections_of_file` and `stream_search`.
+/// Options of `self_intersections_of_file` and `shared_search`.
 struct stream_search_options {
     std::optional<vertex_identity> vertices{};  ///< none: by coordinates for STL, else by index
     pair_kinds kinds = pair_kinds::all;

@@ -34,7 +34,7 @@
 
 namespace treeform {
 
-/// Options of `weld_stream` and `stream_weld`.
+/// Options of `weld_stream` and `shared_weld`.
 struct weld_stream_options {
     double tolerance = 0.0;  ///< as in `weld_options`
     /// whether `tolerance` is a fraction of the diagonal of the bounding box

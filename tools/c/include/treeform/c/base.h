@@ -211,7 +211,7 @@ enum {
     /// a coordinate of the result overflows the requested precision
     TREEFORM_STATUS_OUT_OF_RANGE = 7,
     /// a placement found no position; `placement::end` has the reason
-    TREEFORM_STATUS_NO_PLACE = 8,
+    TREEFORM_STATUS_NO_PLACEMENT = 8,
     /// stopped by `progress`; there is no result
     TREEFORM_STATUS_CANCELLED = 9
 };

@@ -31,7 +31,7 @@ TREEFORM_C_API treeform_code treeform_read_mesh(const char* path, treeform_mesh*
 /// How to read.
 typedef struct treeform_read_options {
     size_t size;
-    const char* format;  ///< null: by content
+    const char* format;  ///< null: determined by the content
     /// [column_count] For XYZ, PTS and CSV: names of columns, as pairs of the new name and the
     /// name in the first line or the column number, from 1: {"x", "easting"}. Columns x, y and z
     /// are the coordinates.

@@ -200,7 +200,7 @@ TREEFORM_C_API treeform_code treeform_color_pairs(treeform_file* file, const tre
                                                   const treeform_face_pair* pairs, size_t count);
 
 /// Options of `treeform_self_intersections_of_file` and `shared_search`.
-typedef struct treeform_search_file_options {
+typedef struct treeform_stream_search_options {
     size_t size;
     /// none: by coordinates for STL, else by index; a `treeform_vertices`, or -1
     int32_t vertices;
@@ -219,9 +219,9 @@ TREEFORM_C_API void treeform_stream_search_options_init(treeform_stream_search_o
                                                         size_t size);
 
 /// The pairs found in a file.
-typedef struct treeform_search_result {
+typedef struct treeform_stream_search_result {
     void* owner;
-    treeform_arrays mesh;          ///< only the faces that meet others
+    treeform_arrays mesh;          ///< only the intersecting faces
     const uint32_t* face_in_file;  ///< [F] number of each face in the file
     /// Pairs of faces of `treeform_named_faces`. Its counters are sums over the tiles.
     const treeform_pairs* found;
@@ -233,7 +233,7 @@ typedef struct treeform_search_result {
     size_t tiles;
     size_t finished_tiles;  ///< tiles finished by an earlier run
     uint64_t non_finite;    ///< number of triangles that are not finite
-} treeform_search_result;
+} treeform_stream_search_result;
 
 /// The pairs that `treeform_self_intersections` finds in the usable part of a file, for files
 /// larger than memory: binary STL, and PLY with vertices before faces. Space is cut into tiles.
@@ -254,31 +254,33 @@ TREEFORM_C_API treeform_code treeform_is_searched_in_tiles(const char* path, con
 // end
 
 /// The search of a file step by step, for many processes that share a folder.
-typedef struct treeform_search treeform_search;
+typedef struct treeform_shared_search treeform_shared_search;
 // made of the headers of C++:
-//   search_create() search_scatter() search_unfinished() search_tile() search_finish()
-//   search_remove_folder()
+//   shared_search_create() shared_search_scatter() shared_search_unfinished()
+//   shared_search_tile() shared_search_finish() shared_search_remove_folder()
 /// Begins a search. All processes must pass the same input and options, except for `progress`.
-TREEFORM_C_API treeform_code treeform_search_create(const char* path,
-                                                    const treeform_search_file_options* options,
-                                                    treeform_search** search);
+TREEFORM_C_API treeform_code
+treeform_shared_search_create(const char* path, const treeform_stream_search_options* options,
+                              treeform_shared_search** search);
 
 /// Writes the faces of each tile, unless already done; `tiles` is the number of tiles. Called by
 /// one process.
-TREEFORM_C_API treeform_code treeform_search_scatter(treeform_search* search, size_t* result);
+TREEFORM_C_API treeform_code treeform_shared_search_scatter(treeform_shared_search* search,
+                                                            size_t* result);
 
 /// Numbers of the tiles that are not finished.
-TREEFORM_C_API treeform_code treeform_search_unfinished(treeform_search* search,
-                                                        treeform_indices** indices);
+TREEFORM_C_API treeform_code treeform_shared_search_unfinished(treeform_shared_search* search,
+                                                               treeform_indices** indices);
 
 /// Searches a tile, unless it is finished. Each process calls it for its share of the tiles.
-TREEFORM_C_API treeform_code treeform_search_tile(treeform_search* search, size_t tile);
+TREEFORM_C_API treeform_code treeform_shared_search_tile(treeform_shared_search* search,
+                                                         size_t tile);
 
 /// Combines the results of all tiles; an error unless all tiles are finished. A step that is
 /// called too early fails, and ends the search.
-TREEFORM_C_API treeform_code treeform_search_finish(treeform_search* search,
-                                                    treeform_search_result** result);
+TREEFORM_C_API treeform_code treeform_shared_search_finish(treeform_shared_search* search,
+                                                           treeform_stream_search_result** result);
 
 /// Removes the folder of the tiles.
-TREEFORM_C_API treeform_code treeform_search_remove_folder(treeform_search* search);
+TREEFORM_C_API treeform_code treeform_shared_search_remove_folder(treeform_shared_search* search);
 // end

@@ -6,7 +6,7 @@
 
 // made of the headers of C++:
 //   weld_stream_options
-/// Options of `treeform_weld_stream` and `stream_weld`.
+/// Options of `treeform_weld_stream` and `shared_weld`.
 typedef struct treeform_weld_stream_options {
     size_t size;
     double tolerance;  ///< as in `treeform_weld_options`
