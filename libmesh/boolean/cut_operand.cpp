@@ -9,7 +9,7 @@
 #include <libmesh/boolean/operand_edges.hpp>
 #include <libmesh/exact/filter.hpp>
 #include <libmesh/topology/is_manifold.hpp>
-#include <libmesh/weld/few_equal_points.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/parallel.hpp>
 

@@ -5,7 +5,7 @@
 #include <libmesh/boolean/interaction_zone.hpp>
 #include <libmesh/intersect/classify_pair.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
-#include <libmesh/weld/few_equal_points.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/parallel.hpp>

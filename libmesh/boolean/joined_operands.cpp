@@ -4,7 +4,7 @@
 #include <libmesh/base/resize_all.hpp>
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
-#include <libmesh/weld/few_equal_points.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/topology/select_faces.hpp>
-#include <libmesh/weld/joined_faces.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/mesh.hpp>

@@ -2,7 +2,7 @@
 #include <libmesh/carry/corners.hpp>
 #include <libmesh/carry/face_kinds.hpp>
 #include <libmesh/weld/edge_uses.hpp>
-#include <libmesh/weld/equal_firsts.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <treeform/mesh/carry.hpp>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include <libmesh/cut/plane_levels.hpp>
 #include <libmesh/cut/slabs.hpp>
 #include <libmesh/round/round_surface.hpp>
-#include <libmesh/weld/joined_faces.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/cut.hpp>
 

@@ -3,7 +3,7 @@
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/cut/layer_loops.hpp>
 #include <libmesh/cut/plane_levels.hpp>
-#include <libmesh/weld/joined_faces.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/section.hpp>
 #include <treeform/mesh/self_intersections.hpp>

@@ -1,7 +1,7 @@
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/topology/select_faces.hpp>
-#include <libmesh/weld/joined_faces.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>

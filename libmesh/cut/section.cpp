@@ -4,7 +4,7 @@
 #include <libmesh/cut/layer_loops.hpp>
 #include <libmesh/cut/nested_loops.hpp>
 #include <libmesh/cut/plane_levels.hpp>
-#include <libmesh/weld/joined_faces.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/section.hpp>
 

@@ -7,7 +7,7 @@
 #include <libmesh/geometry/flat_triangle.hpp>
 #include <libmesh/geometry/signs.hpp>
 #include <libmesh/intersect/point_locator.hpp>
-#include <libmesh/weld/joined_faces.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/build.hpp>

@@ -8,7 +8,7 @@
 #include <libmesh/intersect/narrow_phase.hpp>
 #include <libmesh/intersect/own_candidates.hpp>
 #include <libmesh/intersect/pairs_by_tree.hpp>
-#include <libmesh/weld/joined_faces.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/detail/box_in_space.hpp>
 #include <treeform/tree/parallel.hpp>

@@ -6,7 +6,7 @@
 #include <libmesh/intersect/point_locator.hpp>
 #include <libmesh/place/facing.hpp>
 #include <libmesh/weld/edge_uses.hpp>
-#include <libmesh/weld/joined_faces.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <treeform/mesh/measure.hpp>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/intersect/point_locator.hpp>
 #include <libmesh/place/shape.hpp>
-#include <libmesh/weld/joined_faces.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <treeform/mesh/point_location.hpp>
 
 #include <algorithm>

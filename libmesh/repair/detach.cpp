@@ -3,7 +3,7 @@
 #include <libmesh/base/stars.hpp>
 #include <libmesh/repair/detach.hpp>
 #include <libmesh/round/surface_faults.hpp>
-#include <libmesh/weld/few_equal_points.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <treeform/mesh/certificate.hpp>
 
 #include <algorithm>

@@ -21,7 +21,7 @@
 #include <libmesh/repair/working_mesh.hpp>
 #include <libmesh/topology/area.hpp>
 #include <libmesh/topology/is_manifold.hpp>
-#include <libmesh/weld/few_equal_points.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/point_location.hpp>

@@ -16,7 +16,7 @@
 #include <libmesh/round/rounding_steps.hpp>
 #include <libmesh/round/solid_faces.hpp>
 #include <libmesh/round/surface_faults.hpp>
-#include <libmesh/weld/few_equal_points.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tree/parallel.hpp>

@@ -8,7 +8,7 @@
 #include <libmesh/simplify/kept_chains.hpp>
 #include <libmesh/simplify/quadric.hpp>
 #include <libmesh/simplify/seen_along.hpp>
-#include <libmesh/weld/equal_firsts.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/simplify.hpp>
 #include <treeform/tree/dynamic_tree.hpp>

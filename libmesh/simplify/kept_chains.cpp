@@ -2,7 +2,7 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/simplify/kept_chains.hpp>
 #include <libmesh/simplify/seen_along.hpp>
-#include <libmesh/weld/equal_firsts.hpp>
+#include <libmesh/weld/equal_points.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 #include <libmesh/stream/kept_rows.hpp>
-#include <libmesh/weld/running_mean.hpp>
+#include <libmesh/weld/kept_values.hpp>
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,4 @@
 #include <libmesh/stream/point_keys.hpp>
-#include <libmesh/weld/property_groups.hpp>
 #include <libmesh/weld/vertex_values.hpp>
 
 #include <cmath>

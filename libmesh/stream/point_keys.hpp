@@ -3,7 +3,7 @@
 /// Computes the values of points that the order, the conditions and the choice of kept points use,
 /// block by block.
 
-#include <libmesh/weld/agreement.hpp>
+#include <libmesh/weld/vertex_values.hpp>
 #include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 

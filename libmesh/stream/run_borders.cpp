@@ -6,7 +6,7 @@
 
 #include <libmesh/stream/border_rows.hpp>
 #include <libmesh/stream/tile_steps.hpp>
-#include <libmesh/weld/near_places.hpp>
+#include <libmesh/weld/near_cells.hpp>
 
 #include <algorithm>
 #include <array>

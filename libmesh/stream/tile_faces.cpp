@@ -4,7 +4,6 @@
 #include <libmesh/stream/new_numbers.hpp>
 #include <libmesh/stream/tile_faces.hpp>
 #include <libmesh/weld/carried_rows.hpp>
-#include <libmesh/weld/moves.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,8 @@
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/weld/crowded_chain.hpp>
 #include <libmesh/weld/cube_index.hpp>
-#include <libmesh/weld/hashed_ids.hpp>
 #include <libmesh/weld/reach.hpp>
-#include <libmesh/weld/settle_in_chain.hpp>
-#include <libmesh/weld/tolerance.hpp>
+#include <libmesh/weld/tile_weld.hpp>
 
 #include <algorithm>
 #include <array>

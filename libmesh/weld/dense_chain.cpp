@@ -1,11 +1,10 @@
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/weld/cube_index.hpp>
-#include <libmesh/weld/dense.hpp>
-#include <libmesh/weld/hashed_ids.hpp>
+#include <libmesh/weld/group_points.hpp>
 #include <libmesh/weld/lattice.hpp>
 #include <libmesh/weld/linked.hpp>
+#include <libmesh/weld/reach.hpp>
 #include <libmesh/weld/sort_by_key.hpp>
-#include <libmesh/weld/tolerance.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,28 +1,55 @@
 #include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/first_bad.hpp>
+#include <libmesh/base/flattened.hpp>
+#include <libmesh/base/prepared_slots.hpp>
 #include <libmesh/base/resize_all.hpp>
-#include <libmesh/weld/equal_firsts.hpp>
-#include <libmesh/weld/number_groups.hpp>
-#include <libmesh/weld/point_hash.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tree/detail/buffer.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
-namespace treeform {
+namespace treeform::detail::weld {
 namespace {
 
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 
-using detail::weld::bits_of;
+/// Equal coordinates have equal bits once -0 is made +0, on which no processor mode has a say: one
+/// that flushes denormals would take distinct ones for equal.
+std::uint64_t coordinate_bits(double x) {
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    return bits << 1 == 0 ? 0 : bits;
+}
+
+/// A product by an odd number carries low bits up, the shift carries high ones down: coordinates
+/// that were floats differ in their high bits only. Each step is a bijection of what came before.
+std::uint32_t hash_of(const point3& p, std::uint32_t label = 0) {
+    std::uint64_t h = 0x243f6a8885a308d3 + label;
+    for (const double x : {p.x, p.y, p.z}) {
+        h = (h + coordinate_bits(x)) * 0x9e3779b97f4a7c15;
+        h ^= h >> 32;
+    }
+    return static_cast<std::uint32_t>((h * 0xd1342543de82ef95) >> 32);
+}
 
 bool same(const point3& a, const point3& b) {
-    return bits_of(a.x) == bits_of(b.x) && bits_of(a.y) == bits_of(b.y) &&
-           bits_of(a.z) == bits_of(b.z);
+    return coordinate_bits(a.x) == coordinate_bits(b.x) &&
+           coordinate_bits(a.y) == coordinate_bits(b.y) &&
+           coordinate_bits(a.z) == coordinate_bits(b.z);
+}
+
+void check_count(points_view points) {
+    if (points.size() > nobody)
+        throw std::invalid_argument("treeform::find_equal_points: more than 2^32 - 1 points");
 }
 
 bool has_nan(const point3& p) { return p.x != p.x || p.y != p.y || p.z != p.z; }
@@ -80,7 +107,7 @@ class buckets {
     }
 
     int bits_;
-    detail::buffer<entry> entries_;
+    buffer<entry> entries_;
     std::vector<std::size_t> begin_;
 };
 
@@ -160,12 +187,62 @@ void find_firsts(points_view points, std::span<const std::uint32_t> label,
     });
 }
 
+/// Marks of hashes, 8 to 16 for each point that there is.
+class hash_marks {
+  public:
+    explicit hash_marks(std::size_t points)
+        : shift_(32 - std::clamp(static_cast<int>(std::bit_width(points)) + 3, 6, 32)),
+          seen_(std::size_t{1} << (32 - shift_ - 6)),
+          again_(seen_.size()) {}
+
+    /// Any number of threads may do so at the same time.
+    void set(std::uint32_t hash) {
+        if (add(seen_, hash)) add(again_, hash);
+    }
+    /// Whether the mark was set more than once.
+    [[nodiscard]] bool is_shared(std::uint32_t hash) const {
+        return (again_[word_of(hash)] & bit_of(hash)) != 0;
+    }
+
+  private:
+    using words = std::vector<std::uint64_t>;
+
+    [[nodiscard]] std::size_t word_of(std::uint32_t hash) const { return hash >> shift_ >> 6; }
+    [[nodiscard]] std::uint64_t bit_of(std::uint32_t hash) const {
+        return std::uint64_t{1} << (hash >> shift_ & 63U);
+    }
+    /// Whether the mark was there.
+    bool add(words& marks, std::uint32_t hash) const {
+        const std::uint64_t bit = bit_of(hash);
+        return (std::atomic_ref(marks[word_of(hash)]).fetch_or(bit, std::memory_order_relaxed) &
+                bit) != 0;
+    }
+
+    int shift_;
+    words seen_;
+    words again_;
+};
+
+/// The points whose marks are shared, ascending: all that equal another are among them.
+std::vector<std::uint32_t> points_in_doubt(points_view points) {
+    hash_marks marks(points.size());
+    for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) marks.set(hash_of(points[i]));
+    });
+    std::vector<std::vector<std::uint32_t>> found(chunk_count(points.size(), light_grain));
+    for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (marks.is_shared(hash_of(points[i])))
+                found[c].push_back(static_cast<std::uint32_t>(i));
+    });
+    return base::flattened(std::move(found));
+}
+
 }  // namespace
 
-std::vector<std::uint32_t> detail::weld::equal_firsts(points_view points,
-                                                      std::span<const std::uint32_t> label) {
+std::vector<std::uint32_t> equal_firsts(points_view points, std::span<const std::uint32_t> label) {
     std::vector<std::uint32_t> hash_then_first;
-    detail::base::resize_all(points.size(), hash_then_first);
+    base::resize_all(points.size(), hash_then_first);
     for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i)
             hash_then_first[i] = hash_of(points[i], label.empty() ? 0 : label[i]);
@@ -174,9 +251,80 @@ std::vector<std::uint32_t> detail::weld::equal_firsts(points_view points,
     return hash_then_first;
 }
 
+std::vector<std::uint32_t> number_groups(std::vector<std::uint32_t>& group_of_point) {
+    constexpr std::size_t grain = light_grain;
+    std::vector<std::uint32_t>& first = group_of_point;
+    std::vector<std::uint32_t> next(chunk_count(first.size(), grain), 0);
+    for_chunks(first.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        for (std::size_t i = begin; i < end; ++i) next[c] += first[i] == i ? 1 : 0;
+    });
+    std::uint32_t total = 0;
+    for (std::uint32_t& n : next) {
+        const std::uint32_t count = n;
+        n = total;
+        total += count;
+    }
+    std::vector<std::uint32_t> first_of_group;
+    base::resize_all(total, first_of_group);
+    buffer<std::uint32_t> number_of(first.size());
+    for_chunks(first.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
+        std::uint32_t n = next[c];
+        for (std::size_t i = begin; i < end; ++i) {
+            if (first[i] != i) continue;
+            first_of_group[n] = static_cast<std::uint32_t>(i);
+            number_of[i] = n++;
+        }
+    });
+    for_chunks(first.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) first[i] = number_of[first[i]];
+    });
+    return first_of_group;
+}
+
+std::optional<point_groups> few_equal_points(points_view points) {
+    check_count(points);
+    const std::vector<std::uint32_t> doubted = points_in_doubt(points);
+    std::vector<point3> at(doubted.size());
+    for_chunks(at.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) at[i] = points[doubted[i]];
+    });
+    const std::vector<std::uint32_t> first = equal_firsts(at, {});
+    const auto is_equal = [&](std::size_t i) { return first[i] != i; };
+    if (base::first_bad(first.size(), is_equal) == first.size()) return std::nullopt;
+    point_groups result;
+    result.group_of_point = base::numbers_below(points.size());
+    for (std::size_t i = 0; i < first.size(); ++i)
+        result.group_of_point[doubted[i]] = doubted[first[i]];
+    result.first_of_group = number_groups(result.group_of_point);
+    return result;
+}
+
+joined_faces join_faces(mesh_view mesh) {
+    joined_faces result;
+    const auto equal = few_equal_points(mesh.points);
+    if (!equal) return result;
+    result.changed = true;
+    result.faces.resize(mesh.faces.size());
+    constexpr std::size_t grain = std::size_t{1} << 15;
+    for_chunks(mesh.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t f = begin; f < end; ++f)
+            for (std::size_t i = 0; i < 3; ++i)
+                result.faces[f][i] = equal->first_of_group[equal->group_of_point[mesh.faces[f][i]]];
+    });
+    return result;
+}
+
+const joined_faces& join_faces(const prepared_mesh& mesh) {
+    constexpr base::slot<joined_faces> slot{base::slot_name::joined_corners};
+    return base::prepared_slots::get(mesh, slot, [&] { return join_faces(mesh.view()); });
+}
+
+}  // namespace treeform::detail::weld
+
+namespace treeform {
+
 point_groups find_equal_points(points_view points) {
-    if (points.size() > nobody)
-        throw std::invalid_argument("treeform::find_equal_points: more than 2^32 - 1 points");
+    detail::weld::check_count(points);
     point_groups result;
     result.group_of_point = detail::weld::equal_firsts(points, {});
     result.first_of_group = detail::weld::number_groups(result.group_of_point);

@@ -3,7 +3,6 @@
 /// The rule first, of the points of a tile or of the borders of some.
 
 #include <libmesh/weld/near_cells.hpp>
-#include <libmesh/weld/nearest_kept.hpp>
 #include <libmesh/weld/reach.hpp>
 #include <libmesh/weld/tile_weld.hpp>
 

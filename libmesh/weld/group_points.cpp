@@ -1,11 +1,8 @@
 #include <libmesh/base/check_faces.hpp>
-#include <libmesh/weld/dense.hpp>
-#include <libmesh/weld/equal_firsts.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <libmesh/weld/group_points.hpp>
 #include <libmesh/weld/lattice.hpp>
-#include <libmesh/weld/number_groups.hpp>
-#include <libmesh/weld/sparse.hpp>
-#include <libmesh/weld/tolerance.hpp>
+#include <libmesh/weld/reach.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tree/parallel.hpp>

@@ -1,17 +1,72 @@
 #pragma once
 /// \file
-/// The point, position and row of properties kept for each group.
+/// What is kept of each group: a point, a place, a row of properties; and the order of the points.
 
 #include <treeform/mesh/weld.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace treeform::detail::weld {
 
-/// [G] The point whose properties each group keeps.
+/// The mean of values that come one by one, rounded as the header of `weld` says; NaN when one is
+/// not finite. Where a sum of differences is beyond the doubles it is taken of values scaled by
+/// 2^-64: 2^32 differences of less than 2^961 each. What this drops of small values is nothing
+/// beside such differences.
+class running_mean {
+  public:
+    void add(double value) {
+        if (count_++ == 0) first_ = value;
+        sum_ += value - first_;
+        scaled_sum_ += value * scale - first_ * scale;
+        low_ = std::min(low_, value);
+        high_ = std::max(high_, value);
+    }
+
+    /// \pre one value at least
+    [[nodiscard]] double value() const {
+        const auto count = static_cast<double>(count_);
+        const double direct = first_ + sum_ / count;
+        const double result =
+            std::isfinite(direct) ? direct : (first_ * scale + scaled_sum_ / count) / scale;
+        // With an infinity among the values this is NaN, or infinite.
+        const bool finite = std::isfinite(low_) && std::isfinite(high_) && !std::isnan(result);
+        return finite ? std::clamp(result, low_, high_) : std::numeric_limits<double>::quiet_NaN();
+    }
+
+  private:
+    static constexpr double scale = 0x1p-64;
+
+    std::uint64_t count_ = 0;
+    double first_ = 0.0;
+    double sum_ = 0.0;
+    double scaled_sum_ = 0.0;
+    double low_ = std::numeric_limits<double>::infinity();
+    double high_ = -std::numeric_limits<double>::infinity();
+};
+
+/// [V] the points in the order that `options` asks for, or empty for that of their numbers.
+///
+/// \throws std::invalid_argument as `weld`
+[[nodiscard]] std::vector<std::uint32_t> points_in_order(points_view points,
+                                                         const attributes& properties,
+                                                         const weld_options& options);
+
+/// As `find_groups` of the points in `order`, which is not empty unless they are; in terms of the
+/// points as they are numbered.
+[[nodiscard]] point_groups find_groups_in_order(const char* called, points_view points,
+                                                const weld_options& options,
+                                                std::span<const std::uint32_t> order);
+
+/// Makes the earliest point of each group in `order` its first.
+void put_earliest_first(std::span<const std::uint32_t> order, point_groups& groups);
+
+/// [G] the point that gives its properties.
 ///
 /// \throws std::invalid_argument when `options.keep_by` is set but names no property
 [[nodiscard]] std::vector<std::uint32_t> kept_points(points_view points,

@@ -1,7 +1,7 @@
 #include <libmesh/base/stars.hpp>
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/weld/edge_uses.hpp>
-#include <libmesh/weld/manifold_groups.hpp>
+#include <libmesh/weld/group_points.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tree/parallel.hpp>

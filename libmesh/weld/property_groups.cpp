@@ -1,5 +1,5 @@
 #include <libmesh/attributes/known_columns.hpp>
-#include <libmesh/weld/property_groups.hpp>
+#include <libmesh/weld/vertex_values.hpp>
 
 #include <algorithm>
 #include <array>

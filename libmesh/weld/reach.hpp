@@ -1,9 +1,15 @@
 #pragma once
 /// \file
-/// Exact comparisons of distances between points.
+/// Whether points are within one distance of each other, and which is nearer: exactly. A tolerance:
+/// its check at the door, and the cubes that it makes.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
 
 namespace treeform::detail::weld {
 
@@ -53,6 +59,47 @@ class reach {
   private:
     double distance_;
     double square_;
+};
+
+/// Cubes whose points are all within the tolerance of each other: their diagonal is less than it
+/// (except where rounding makes a denormal width larger). Points within the tolerance are at most
+/// two cubes apart along each axis.
+inline constexpr double cubes_per_tolerance = 1.7321 * (1.0 + 0x1p-10);
+
+/// \throws std::invalid_argument naming the function `called`
+inline void check_tolerance(const char* called, double tolerance) {
+    if (!(tolerance >= 0.0) || !std::isfinite(tolerance))
+        throw std::invalid_argument(std::string("treeform::") + called +
+                                    ": the tolerance must be finite and not negative");
+}
+
+/// The nearest of the points met, the lowest of equally near ones: how the rule `first` decides,
+/// wherever it does (over lists of pairs, over cubes, in tiles and along their borders).
+class nearest_kept {
+  public:
+    explicit nearest_kept(const point3& p) : p_(p) {}
+
+    [[nodiscard]] bool any() const { return any_; }
+    [[nodiscard]] std::uint64_t id() const { return id_; }
+    [[nodiscard]] const point3& at() const { return at_; }
+
+    void consider(std::uint64_t id, const point3& at) {
+        if (any_ && !precedes(id, at)) return;
+        any_ = true;
+        id_ = id;
+        at_ = at;
+    }
+    /// Whether that point is nearer than the one found. \pre any()
+    [[nodiscard]] bool precedes(std::uint64_t id, const point3& at) const {
+        const int order = reach::compare(p_, at, at_);
+        return order < 0 || (order == 0 && id < id_);
+    }
+
+  private:
+    point3 p_;
+    point3 at_{};
+    std::uint64_t id_ = 0;
+    bool any_ = false;
 };
 
 }  // namespace treeform::detail::weld

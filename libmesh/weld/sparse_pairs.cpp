@@ -1,8 +1,8 @@
 #include <libmesh/base/union_find.hpp>
+#include <libmesh/weld/group_points.hpp>
 #include <libmesh/weld/near_pairs.hpp>
-#include <libmesh/weld/nearest_kept.hpp>
+#include <libmesh/weld/reach.hpp>
 #include <libmesh/weld/sort_by_key.hpp>
-#include <libmesh/weld/sparse.hpp>
 
 #include <algorithm>
 #include <atomic>

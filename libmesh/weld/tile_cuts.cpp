@@ -1,5 +1,5 @@
+#include <libmesh/weld/reach.hpp>
 #include <libmesh/weld/tile_cuts.hpp>
-#include <libmesh/weld/tolerance.hpp>
 
 #include <algorithm>
 #include <array>

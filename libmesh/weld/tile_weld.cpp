@@ -1,9 +1,7 @@
+#include <libmesh/weld/carried_rows.hpp>
 #include <libmesh/weld/first_pass.hpp>
-#include <libmesh/weld/moves.hpp>
 #include <libmesh/weld/reach.hpp>
-#include <libmesh/weld/settle_in_chain.hpp>
 #include <libmesh/weld/tile_weld.hpp>
-#include <libmesh/weld/tolerance.hpp>
 #include <treeform/mesh/predicates.hpp>
 
 #include <algorithm>

@@ -61,12 +61,13 @@
 /// the next pass in the same way, for its own open points. It passes on a request of a tile that is
 /// outer: a position within a fourth of the tolerance of a point of another tile is.
 
-#include <libmesh/weld/agreement.hpp>
-#include <libmesh/weld/number_slices.hpp>
+#include <libmesh/weld/vertex_values.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tree/detail/export.hpp>
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -75,7 +76,66 @@
 
 namespace treeform::detail::weld {
 
-/// The role of a point in a tile.
+/// The points of a cloud by their numbers, cut into slices of equal size: all of one come before
+/// those of the next. They follow each other in bundles; one of all numbers, unless said otherwise.
+/// A set of bundles is a number with a bit for each.
+class number_slices {
+  public:
+    static constexpr std::size_t bundles = 64;
+    /// Smaller slices save little memory, and more points lie where two of them meet.
+    static constexpr unsigned bits_of_slice = 15;
+
+    number_slices() = default;
+    /// Cuts the numbers below `count` into 64 bundles at most. A bundle of more than
+    /// `1 << least_bits` numbers is cut into slices of at least as many; there are 1024 at most.
+    explicit number_slices(std::uint64_t count, unsigned least_bits = bits_of_slice)
+        : bundle_bits_(bits_for(count, 6)),
+          slice_bits_(std::min(bundle_bits_, std::max(least_bits, bits_for(count, 10)))) {}
+
+    [[nodiscard]] std::uint64_t slice_of(std::uint64_t number) const {
+        return number >> slice_bits_;
+    }
+    [[nodiscard]] std::size_t bundle_of(std::uint64_t number) const {
+        return static_cast<std::size_t>(number >> bundle_bits_);
+    }
+    /// The first number of a slice, or of a bundle.
+    [[nodiscard]] std::uint64_t slice_begin(std::uint64_t slice) const {
+        return slice << slice_bits_;
+    }
+    [[nodiscard]] std::uint64_t bundle_begin(std::uint64_t bundle) const {
+        return bundle << bundle_bits_;
+    }
+
+    /// The number's bundle alone.
+    [[nodiscard]] std::uint64_t bit_of(std::uint64_t number) const {
+        return std::uint64_t{1} << bundle_of(number);
+    }
+    [[nodiscard]] static bool has(std::uint64_t set, std::size_t bundle) {
+        return (set >> bundle & 1) != 0;
+    }
+    /// The bundles of a set that have a slice after the first one of `bundle`.
+    [[nodiscard]] std::uint64_t after(std::size_t bundle, std::uint64_t set) const {
+        return bundle_bits_ > slice_bits_ ? set >> bundle << bundle
+                                          : set >> bundle >> 1 << bundle << 1;
+    }
+    /// The bundles of a set that have a slice at or after `number`, where a slice begins.
+    [[nodiscard]] std::uint64_t from(std::uint64_t number, std::uint64_t set) const {
+        const std::size_t bundle = bundle_of(number);
+        return bundle < bundles ? set >> bundle << bundle : 0;
+    }
+
+  private:
+    /// Of a part, when there are at most `1 << part_bits` of them.
+    [[nodiscard]] static unsigned bits_for(std::uint64_t count, unsigned part_bits) {
+        return static_cast<unsigned>(
+            std::bit_width((std::max<std::uint64_t>(count, 1) - 1) >> part_bits));
+    }
+
+    unsigned bundle_bits_ = 63;
+    unsigned slice_bits_ = 63;
+};
+
+/// What a point is to a tile.
 enum class tile_role : std::uint8_t {
     own,     ///< in the tile's part of space, and in no halo
     shared,  ///< in the tile's part of space, and in the halo of others
@@ -254,5 +314,28 @@ class TREEFORM_API border_weld {
     struct state;
     std::unique_ptr<state> state_;
 };
+
+/// The component of a point inside a tile.
+struct chain_component {
+    std::uint64_t lowest;  ///< its lowest number
+    point3 at;             ///< and where that point is
+    bool elsewhere;        ///< some of its points are in other tiles, too
+};
+
+inline void settle_in_chain(const tile_point& p, const chain_component& c, tile_result& out) {
+    if (p.role() != tile_role::halo) {
+        if (p.id() != c.lowest) out.dropped.push_back({p.id(), c.lowest});
+        if (c.elsewhere)
+            out.members.push_back({p.at, c.lowest, c.at});
+        else
+            out.move.consider(p.at, c.at);
+    }
+    if (p.role() == tile_role::own) return;
+    border_point link = border_point::make(p.id(), border_kind::link);
+    link.at = p.at;
+    link.leader = c.lowest;
+    link.leader_at = c.at;
+    out.border.push_back(link);
+}
 
 }  // namespace treeform::detail::weld

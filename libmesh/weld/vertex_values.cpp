@@ -5,16 +5,13 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
 namespace treeform::detail::weld {
 namespace {
-
-[[noreturn]] void refuse_property(const std::string& why) {
-    throw std::invalid_argument("treeform::weld: " + why);
-}
 
 template <class T, class Value>
 buffer<T> filled(std::size_t count, const Value& value) {
@@ -51,6 +48,8 @@ double number_of_key(std::uint64_t key) {
 
 }  // namespace
 
+void refuse(const std::string& why) { throw std::invalid_argument("treeform::weld: " + why); }
+
 bool keys_agree(bool whole, std::uint64_t a, std::uint64_t b, double tolerance) {
     return whole ? differ_by_at_most(a, b, tolerance)
                  : differ_by_at_most(number_of_key(a), number_of_key(b), tolerance);
@@ -62,11 +61,11 @@ vertex_values::vertex_values(points_view points, const attributes& properties,
     const column* c = vertices == nullptr ? nullptr : vertices->find(name);
     if (c == nullptr || c->role != column_role::data) {
         const std::size_t axis = name.size() == 1 ? std::string_view("xyz").find(name) : 3;
-        if (axis > 2) refuse_property("no vertex property '" + name + "'");
+        if (axis > 2) refuse("no vertex property '" + name + "'");
         number_ = filled<double>(points.size(), [&](std::size_t i) { return points[i][axis]; });
         return;
     }
-    if (c->list_length) refuse_property("the vertex property '" + name + "' is a list");
+    if (c->list_length) refuse("the vertex property '" + name + "' is a list");
     const bool is_signed = c->type == scalar_type::int64;
     if (!is_signed && c->type != scalar_type::uint64) {
         number_ = filled<double>(points.size(), [&](std::size_t i) { return c->number(i); });
@@ -104,6 +103,54 @@ std::vector<buffer<double>> vertex_values::take_columns() && {
             return static_cast<double>(static_cast<std::uint32_t>(whole_[i] >> shift));
         }));
     return columns;
+}
+
+agreement::agreement(std::vector<condition> conditions) : conditions_(std::move(conditions)) {
+    transitive_ = std::all_of(conditions_.begin(), conditions_.end(),
+                              [](const condition& c) { return c.tolerance == 0.0; });
+}
+
+bool agreement::holds(const std::uint64_t* a, const std::uint64_t* b) const {
+    for (std::size_t i = 0; i < conditions_.size(); ++i) {
+        const condition& c = conditions_[i];
+        if (a[i] == b[i]) continue;
+        if (c.tolerance == 0.0 || !keys_agree(c.whole, a[i], b[i], c.tolerance)) return false;
+    }
+    return true;
+}
+
+bool agreement::same(const std::uint64_t* a, const std::uint64_t* b) const {
+    return std::equal(a, a + conditions_.size(), b);
+}
+
+std::uint64_t agreement::salt(const std::uint64_t* values) const {
+    std::uint64_t h = 0;
+    for (std::size_t i = 0; i < conditions_.size(); ++i) {
+        if (conditions_[i].tolerance > 0.0) continue;
+        h = (h ^ values[i] ^ h >> 32) * 0x9e3779b97f4a7c15;
+        h ^= h >> 29;
+    }
+    return h;
+}
+
+bool agreement::equal_before(const std::uint64_t* a, const std::uint64_t* b) const {
+    for (std::size_t i = 0; i < conditions_.size(); ++i)
+        if (conditions_[i].tolerance == 0.0 && a[i] != b[i]) return a[i] < b[i];
+    return false;
+}
+
+std::vector<std::uint32_t> agreement::labels(std::span<const std::uint64_t> rows) const {
+    if (size() == 0) return {};
+    std::vector<std::uint32_t> order(rows.size() / size());
+    std::iota(order.begin(), order.end(), 0U);
+    const auto row = [&](std::uint32_t i) { return rows.data() + i * size(); };
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return equal_before(row(a), row(b)); });
+    std::vector<std::uint32_t> label(order.size());
+    for (std::size_t k = 1; k < order.size(); ++k)
+        label[order[k]] =
+            label[order[k - 1]] + (equal_before(row(order[k - 1]), row(order[k])) ? 1U : 0U);
+    return label;
 }
 
 }  // namespace treeform::detail::weld

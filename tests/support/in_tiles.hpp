@@ -4,7 +4,7 @@
 
 #include <libmesh/weld/crowded_chain.hpp>
 #include <libmesh/weld/first_pass.hpp>
-#include <libmesh/weld/near_places.hpp>
+#include <libmesh/weld/near_cells.hpp>
 #include <libmesh/weld/tile_cuts.hpp>
 #include <libmesh/weld/tile_weld.hpp>
 #include <treeform/tf.hpp>

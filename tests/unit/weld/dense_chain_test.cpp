@@ -1,6 +1,6 @@
 #include <libmesh/weld/cube_index.hpp>
-#include <libmesh/weld/dense.hpp>
-#include <libmesh/weld/tolerance.hpp>
+#include <libmesh/weld/group_points.hpp>
+#include <libmesh/weld/reach.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 

@@ -1,4 +1,4 @@
-#include <libmesh/weld/few_equal_points.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>

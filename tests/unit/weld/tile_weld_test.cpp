@@ -1,4 +1,4 @@
-#include <libmesh/weld/dense.hpp>
+#include <libmesh/weld/group_points.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>

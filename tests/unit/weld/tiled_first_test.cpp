@@ -1,6 +1,5 @@
-#include <libmesh/weld/dense.hpp>
+#include <libmesh/weld/group_points.hpp>
 #include <libmesh/weld/near_cells.hpp>
-#include <libmesh/weld/near_places.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/tf.hpp>
 

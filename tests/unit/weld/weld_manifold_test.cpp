@@ -1,4 +1,4 @@
-#include <libmesh/weld/manifold_groups.hpp>
+#include <libmesh/weld/group_points.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/weld.hpp>
