@@ -1,14 +1,19 @@
 #pragma once
 /// \file
-/// Communication of the processes (ranks) of a job, and the division of work into shares.
+/// The processes (ranks) that do one work together: what each sends to all, and which share is
+/// whose. Progress of work that several threads do, and its end when the caller says so.
 
-#include <libmesh/stream/state_record.hpp>
+#include <libmesh/stream/record_file.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <mutex>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -103,6 +108,38 @@ class communicator {
 
   private:
     treeform::communicator all_;
+};
+
+/// Thrown through the work, and caught where it was called.
+struct cancelled {};
+
+class cancellable_progress {
+  public:
+    explicit cancellable_progress(std::function<bool(std::string_view, double)> progress)
+        : progress_(std::move(progress)) {}
+
+    /// \throws cancelled
+    void show(std::string_view step, double share) {
+        const std::lock_guard lock(one_at_a_time_);
+        step_ = step;
+        share_ = share;
+        ask();
+    }
+    /// \throws cancelled
+    void check() {
+        const std::lock_guard lock(one_at_a_time_);
+        ask();
+    }
+
+  private:
+    void ask() const {
+        if (progress_ && !progress_(step_, share_)) throw cancelled{};
+    }
+
+    std::function<bool(std::string_view, double)> progress_;
+    std::mutex one_at_a_time_{};
+    std::string step_{"survey"};
+    double share_ = 0.0;
 };
 
 }  // namespace treeform::detail::stream

@@ -1,13 +1,17 @@
 #pragma once
 /// \file
-/// Joins the parts of a file that the ranks write.
+/// One file of the parts that each rank writes; files that all ranks see for some time.
 
 #include <libmesh/stream/communicator.hpp>
+#include <libmesh/stream/record_file.hpp>
 
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 namespace treeform::detail::stream {
 
@@ -40,6 +44,31 @@ class text_out {
     const communicator* all_;
     std::string held_{};
     std::uint64_t written_ = 0;
+};
+
+/// Rank 0 makes them, and removes them at the end, whatever that is.
+class passing_files {
+  public:
+    explicit passing_files(const communicator& all) : all_(all) {}
+    passing_files(const passing_files&) = delete;
+    passing_files& operator=(const passing_files&) = delete;
+    ~passing_files() {
+        std::error_code ignored;
+        for (const std::filesystem::path& file : files_) std::filesystem::remove(file, ignored);
+    }
+
+    /// Makes an empty one, in the place of what a killed run has left. Others see it when they have
+    /// received it. \throws io_error
+    void add(std::filesystem::path file) {
+        if (!all_.is_root()) return;
+        std::filesystem::remove(file);
+        files_.push_back(std::move(file));
+        append_to(files_.back(), {});
+    }
+
+  private:
+    const communicator& all_;
+    std::vector<std::filesystem::path> files_{};
 };
 
 }  // namespace treeform::detail::stream

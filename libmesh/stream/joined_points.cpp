@@ -1,15 +1,22 @@
+#include <libmesh/io/lzf.hpp>
 #include <libmesh/io/pcd_header.hpp>
+#include <libmesh/io/source.hpp>
 #include <libmesh/io/vertex_columns.hpp>
 #include <libmesh/stream/joined_points.hpp>
 #include <libmesh/stream/record_file.hpp>
-#include <libmesh/stream/shared_records.hpp>
+#include <libmesh/stream/rows_in_turn.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/write.hpp>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace treeform::detail::stream {
 namespace {
@@ -42,6 +49,13 @@ void clear_rows(mesh_file& file) {
         const element before = std::move(e);
         io::restart(e, before);
     }
+}
+
+namespace fs = std::filesystem;
+
+void send(const io::lzf_place& at, bool good, state_writer& to) {
+    to.numbers(good, at.packed, at.unpacked);
+    to.text(at.last);
 }
 
 }  // namespace
@@ -153,6 +167,48 @@ void joined_points::fit(io::point_block& block) {
     file.mesh.points = std::move(block.points);
     moved_ = std::max(moved_, round_to_las(file));
     block.points = std::move(file.mesh.points);
+}
+
+std::uint64_t unpack_in_turn(const fs::path& pcd, const fs::path& to, const communicator& all,
+                             cancellable_progress& pace) {
+    const io::source in = io::source::open(pcd, io::scratch_place::file);
+    const io::packed_pcd packed = io::find_packed_pcd(in, io::read_pcd_header(in));
+    io::lzf_place at;
+    const auto put = [&](std::string_view bytes) {
+        write_to(to, at.unpacked, std::as_bytes(std::span(bytes)));
+        in.release_before(packed.bytes.data() + at.packed);
+        pace.check();
+    };
+    all.sequential(
+        [&](state_writer& mine) {
+            // What is read and made: where little is packed, much is made.
+            const std::uint64_t end = all.end_of_turn(packed.bytes.size() + packed.size);
+            const bool good = io::lzf_unpack_on(packed.bytes, at, static_cast<std::size_t>(end),
+                                                packed.size, put);
+            send(at, good, mine);
+        },
+        [&](state_reader received) {
+            if (received.number() == 0) packed.fail_damaged(in);
+            at.packed = static_cast<std::size_t>(received.number());
+            at.unpacked = static_cast<std::size_t>(received.number());
+            at.last = received.text();
+        });
+    if (at.packed != packed.bytes.size() || at.unpacked != packed.size) packed.fail_damaged(in);
+    return packed.size;
+}
+
+unpacked_inputs::unpacked_inputs(const work_folder& folder, const communicator& all,
+                                 const cloud_inputs& inputs, joined_points& source,
+                                 cancellable_progress& pace)
+    : files_(all) {
+    std::vector<fs::path> unpacked(inputs.paths.size());
+    for (std::size_t i = 0; i < unpacked.size(); ++i) {
+        if (source.format(i) != io::name_of(io::pcd_encoding::compressed)) continue;
+        unpacked[i] = folder.file("unpacked." + std::to_string(i));
+        files_.add(unpacked[i]);
+        bytes_ += unpack_in_turn(inputs.paths[i], unpacked[i], all, pace);
+    }
+    source.read_unpacked(std::move(unpacked));
 }
 
 }  // namespace treeform::detail::stream

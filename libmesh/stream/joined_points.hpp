@@ -1,10 +1,13 @@
 #pragma once
 /// \file
-/// Reads several point files as one cloud, from the first point to the last, or from any point on.
+/// Clouds in any number of files, read as one from the first point to the last, or from any on.
+/// Compressed PCD files are unpacked once for all ranks.
 
 #include <libmesh/io/las_grid_choice.hpp>
 #include <libmesh/io/point_blocks.hpp>
 #include <libmesh/stream/communicator.hpp>
+#include <libmesh/stream/joined_parts.hpp>
+#include <libmesh/stream/work_folder.hpp>
 #include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 
@@ -95,6 +98,30 @@ class joined_points {
     bool fits_ = true;  ///< whether the file has the columns of the joined header
     bool single_ = true;
     double moved_ = 0.0;
+};
+
+/// Unpacks what is packed in `pcd` to an empty file that rank 0 has made. What a byte
+/// stands for is known when those ahead are, so each in turn unpacks its share, counted in bytes
+/// read and made, and sends the next one how far it has come. Collective: every rank must call
+/// this. Returns how many bytes it became.
+///
+/// \throws io_error, all of them the same where the packed bytes are damaged; cancelled
+std::uint64_t unpack_in_turn(const std::filesystem::path& pcd, const std::filesystem::path& to,
+                             const communicator& all, cancellable_progress& pace);
+
+/// The unpacked inputs in a folder, from where they are read until the end.
+class unpacked_inputs {
+  public:
+    /// Collective: every rank must call this. \throws as `unpack_in_turn`
+    unpacked_inputs(const work_folder& folder, const communicator& all, const cloud_inputs& inputs,
+                    joined_points& source, cancellable_progress& pace);
+
+    /// That they take in the folder.
+    [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+
+  private:
+    passing_files files_;
+    std::uint64_t bytes_ = 0;
 };
 
 }  // namespace treeform::detail::stream

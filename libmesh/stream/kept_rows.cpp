@@ -1,7 +1,9 @@
 #include <libmesh/stream/kept_rows.hpp>
+#include <libmesh/stream/row_file.hpp>
 #include <libmesh/weld/kept_values.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <stdexcept>
@@ -69,6 +71,8 @@ class mean_point {
     std::vector<number> numbers_{};
     std::vector<std::uint64_t> first_{};
 };
+
+constexpr std::uint64_t points_a_check = 65536;
 
 }  // namespace
 
@@ -243,6 +247,51 @@ void kept_rows::replace(io::point_block& block, std::size_t point) {
     if (next_->empty()) throw std::logic_error("a group without what is kept of it");
     packed_.unpack(next_->front().subspan(1), block, point);
     next_->pop();
+}
+
+new_numbers::new_numbers(cancellable_progress& pace, const work_folder& folder,
+                         const communicator& all, tile_steps& steps, tiles_welded& welded)
+    : welded_(welded), leaders_(steps, all, welded) {
+    welded.kept.number();
+    if (!all.is_alone()) ask_others(pace, folder, all, steps);
+}
+
+/// The rank that a point is assigned to knows its number: it is asked for those of the points that
+/// belong to it.
+void new_numbers::ask_others(cancellable_progress& pace, const work_folder& folder,
+                             const communicator& all, const tile_steps& steps) {
+    const share& mine = welded_.points;
+    state_writer kept;
+    kept.number(mine.size() - welded_.kept.dropped());
+    std::vector<state_reader> received = all.exchange(kept);
+    for (std::size_t r = 0; r < all.rank(); ++r) before_ += received[r].number();
+    const std::uint64_t points = steps.survey().points;
+    const std::uint64_t memory = steps.sorting_memory() / 2;
+    all_to_all asked(folder, all, "asked", 2, memory);
+    for (std::uint64_t point = mine.first; point < mine.last; ++point) {
+        if (point % points_a_check == 0) pace.check();
+        if (welded_.kept.keeps(point)) continue;
+        const std::uint64_t leader = leaders_.of(point);
+        asked.put(all.owner_of(leader, points), std::array{point, leader});
+    }
+    asked.send();
+    all_to_all answers(folder, all, "answers", 2, memory);
+    for (row_merge rows(asked.received(), 1); !rows.empty(); rows.pop()) {
+        const std::uint64_t point = rows.front()[0];
+        const std::uint64_t number = before_ + welded_.kept.number_of(rows.front()[1]);
+        answers.put(all.owner_of(point, points), std::array{point, number});
+    }
+    asked.remove_received();
+    answers.send();
+    of_dropped_.emplace(answers.received(), 1);
+}
+
+std::uint64_t new_numbers::of(std::uint64_t point) {
+    if (welded_.kept.keeps(point)) return before_ + welded_.kept.number_of(point);
+    if (!of_dropped_) return welded_.kept.number_of(leaders_.of(point));
+    const std::uint64_t number = of_dropped_->front()[1];
+    of_dropped_->pop();
+    return number;
 }
 
 }  // namespace treeform::detail::stream

@@ -1,8 +1,10 @@
 #pragma once
 /// \file
-/// The points kept of groups, if these are not simply the first ones.
+/// What is kept of groups of several points, where it is not simply the first of them; and the
+/// numbers that points have when they are welded.
 
-#include <libmesh/stream/all_to_all.hpp>
+#include <libmesh/stream/communicator.hpp>
+#include <libmesh/stream/row_file.hpp>
 #include <libmesh/stream/tile_steps.hpp>
 
 #include <cstddef>
@@ -83,6 +85,26 @@ class kept_rows {
     bool has_all_;
     std::vector<record_count> counts_{};  ///< rows of each rank: leader, and the packed point
     std::optional<row_merge> next_{};
+};
+
+/// Of kept points those in the files that are written, of others those of the points that they
+/// belong to; asked for one by one, from the first point that is assigned to the process on.
+class new_numbers {
+  public:
+    /// Collective: every rank must call this, with its points.
+    new_numbers(cancellable_progress& pace, const work_folder& folder, const communicator& all,
+                tile_steps& steps, tiles_welded& welded);
+
+    [[nodiscard]] std::uint64_t of(std::uint64_t point);
+
+  private:
+    void ask_others(cancellable_progress& pace, const work_folder& folder, const communicator& all,
+                    const tile_steps& steps);
+
+    tiles_welded& welded_;
+    tile_steps::leaders leaders_;
+    std::uint64_t before_ = 0;               ///< kept points of lower ranks
+    std::optional<row_merge> of_dropped_{};  ///< of several ranks: points and their numbers
 };
 
 }  // namespace treeform::detail::stream

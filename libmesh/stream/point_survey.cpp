@@ -2,6 +2,7 @@
 #include <libmesh/base/add_to_box.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/words.hpp>
+#include <libmesh/io/las_grid_choice.hpp>
 #include <libmesh/stream/point_survey.hpp>
 #include <libmesh/stream/record_file.hpp>
 #include <libmesh/weld/near_cells.hpp>
@@ -38,8 +39,7 @@ class sampler {
     }
     void store(state_writer& state) {
         leave_one_a_key();
-        state.number(mask_);
-        state.number(chosen_.size());
+        state.numbers(mask_, chosen_.size());
         for (const auto& [mixed, p] : chosen_) {
             state.number(mixed);
             state.point(p);
@@ -159,6 +159,44 @@ void unite(const communicator& all, const std::string& failure, point_survey& su
     }
 }
 
+using io::las_grid_choice;
+
+void look_at_all(las_grid_choice& choice, const pass_of_points& each, const communicator& all) {
+    each([&](points_view some) { choice.look(some); });
+    state_writer sent;
+    for (const las_grid_choice::range& r : choice.ranges()) {
+        sent.real(r.low);
+        sent.real(r.high);
+    }
+    for (state_reader& one : all.exchange(sent))
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double low = one.real();
+            choice.add(axis, {low, one.real()});
+        }
+}
+
+/// Whether all agree that the scales hold all points.
+bool try_on_all(las_grid_choice& choice, const pass_of_points& each, const communicator& all) {
+    each([&](points_view some) { choice.try_on(some); });
+    state_writer sent;
+    sent.number(choice.must_try_again() ? 1 : 0);
+    for (const int d : choice.tried()) sent.number(static_cast<std::uint64_t>(d));
+    bool agreed = true;
+    las_grid_choice::digits most{};
+    std::vector<las_grid_choice::digits> tried;
+    for (state_reader& one : all.exchange(sent)) {
+        agreed = one.number() == 0 && agreed;
+        las_grid_choice::digits& of_one = tried.emplace_back();
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            of_one[axis] = static_cast<int>(one.number());
+            most[axis] = std::max(most[axis], of_one[axis]);
+        }
+    }
+    for (const las_grid_choice::digits& of_one : tried) agreed = agreed && of_one == most;
+    choice.start_round(most);
+    return agreed;
+}
+
 }  // namespace
 
 std::uint64_t cube_of(const point3& p, double tolerance) {
@@ -226,17 +264,14 @@ point_survey survey(joined_points& points, const communicator& all, const share&
 
 void store(const point_survey& survey, state_writer& state) {
     const cloud_survey& s = survey.cloud;
-    state.number(s.points);
-    state.number(s.non_finite);
-    state.number(s.box ? 1 : 0);
+    state.numbers(s.points, s.non_finite, s.box.has_value());
     state.point(s.box ? s.box->min : point3{});
     state.point(s.box ? s.box->max : point3{});
-    state.number(s.single ? 1 : 0);
+    state.number(s.single);
     state.real(s.las_moved);
     state.number(s.sources.size());
     for (const mesh_file& one : s.sources) {
-        state.number(points_of(one));
-        state.number(is_single(one) ? 1 : 0);
+        state.numbers(points_of(one), is_single(one));
         state.text(one.format);
     }
     state.number(s.ranges.size());
@@ -244,13 +279,9 @@ void store(const point_survey& survey, state_writer& state) {
         state.text(r.column);
         state.real(r.least);
         state.real(r.greatest);
-        state.number(r.whole ? 1 : 0);
+        state.number(r.whole);
     }
-    state.number(s.warnings.size());
-    for (const io_warning& w : s.warnings) {
-        state.text(w.code);
-        state.text(w.text);
-    }
+    store_warnings(s.warnings, state);
 }
 
 point_survey load_survey(state_reader& state) {
@@ -259,9 +290,7 @@ point_survey load_survey(state_reader& state) {
     s.points = state.number();
     s.non_finite = state.number();
     const bool has_box = state.number() != 0;
-    const point3 min = state.point();
-    const point3 max = state.point();
-    if (has_box) s.box = box3{min, max};
+    if (const box3 box{state.point(), state.point()}; has_box) s.box = box;
     s.single = state.number() != 0;
     s.las_moved = state.real();
     for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left) {
@@ -269,18 +298,34 @@ point_survey load_survey(state_reader& state) {
         const bool single = state.number() != 0;
         count_points(s.sources.emplace_back(source_of(state.text())), points, single);
     }
-    for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left) {
-        value_range r{.column = state.text()};
-        r.least = state.real();
-        r.greatest = state.real();
-        r.whole = state.number() != 0;
-        s.ranges.push_back(std::move(r));
-    }
-    for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left) {
-        std::string code = state.text();
-        s.warnings.push_back({std::move(code), state.text()});
-    }
+    for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left)
+        s.ranges.push_back({state.text(), state.real(), state.real(), state.number() != 0});
+    s.warnings = load_warnings(state);
     return survey;
+}
+
+las_header las_grid_of(const pass_of_points& each, const communicator& all,
+                       const io::las_grid_wish& wish) {
+    las_grid_choice choice;
+    look_at_all(choice, each, all);
+    while (!try_on_all(choice, each, all)) {
+    }
+    las_header header;
+    choice.put(header, wish);
+    return header;
+}
+
+las_header las_grid_of(joined_points& points, const communicator& all, const share& mine,
+                       cancellable_progress& pace, const io::las_grid_wish& wish) {
+    const auto each = [&](const std::function<void(points_view)>& take) {
+        io::point_block block;
+        points.rewind(mine);
+        while (points.read(block, points_a_block)) {
+            take(block.points);
+            pace.check();
+        }
+    };
+    return las_grid_of(each, all, wish);
 }
 
 }  // namespace treeform::detail::stream

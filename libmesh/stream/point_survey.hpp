@@ -1,15 +1,16 @@
 #pragma once
 /// \file
-/// The survey of a cloud before it is cut into tiles.
+/// What is to be known of a cloud before it is cut into tiles, or written as LAS.
 
-#include <libmesh/stream/cancellable_progress.hpp>
+#include <libmesh/io/las_grid_choice.hpp>
 #include <libmesh/stream/communicator.hpp>
 #include <libmesh/stream/joined_points.hpp>
-#include <libmesh/stream/state_record.hpp>
+#include <libmesh/stream/record_file.hpp>
 #include <treeform/mesh/weld_stream.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -45,5 +46,19 @@ inline constexpr std::size_t points_a_block = std::size_t{1} << 15;
 void store(const point_survey& survey, state_writer& state);
 /// Loads a survey, without the sample.
 [[nodiscard]] point_survey load_survey(state_reader& state);
+
+/// Gives the points of a process to what it is called with, some at a time.
+using pass_of_points = std::function<void(const std::function<void(points_view)>&)>;
+
+/// Those that `round_to_las` chooses for all points, those of each rank, in two passes or more.
+[[nodiscard]] las_header las_grid_of(const pass_of_points& each, const communicator& all,
+                                     const io::las_grid_wish& wish);
+
+/// Those that `round_to_las` chooses for all points, of which each rank reads its share twice,
+/// or more often where the first ones have fewer digits than later ones.
+/// \throws io_error, cancelled
+[[nodiscard]] las_header las_grid_of(joined_points& points, const communicator& all,
+                                     const share& mine, cancellable_progress& pace,
+                                     const io::las_grid_wish& wish);
 
 }  // namespace treeform::detail::stream

@@ -3,8 +3,9 @@
 /// Writes points to a file, of which each rank may write a part.
 
 #include <libmesh/stream/communicator.hpp>
-#include <libmesh/stream/leading_points.hpp>
-#include <libmesh/stream/passing_files.hpp>
+#include <libmesh/stream/joined_parts.hpp>
+#include <libmesh/stream/kept_rows.hpp>
+#include <libmesh/stream/row_file.hpp>
 #include <libmesh/stream/tile_faces.hpp>
 #include <libmesh/stream/work_folder.hpp>
 #include <treeform/mesh/point_stream.hpp>
@@ -13,11 +14,35 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace treeform::detail::stream {
+
+/// Parts of a file that have a multiple of some number of points: those at the begin of a part that
+/// make up an earlier one.
+class leading_points {
+  public:
+    /// Of a process that has `mine` of the points, between those of lower and of higher ranks;
+    /// parts have a multiple of `together`. Collective: every rank must call this. \pre no lists
+    leading_points(const work_folder& folder, const communicator& all, const std::string& name,
+                   const mesh_file& header, std::uint64_t mine, std::uint64_t together);
+
+    /// Takes those of an earlier part off the front of the next points.
+    void take_off(io::point_block& block);
+    /// Gives those of later processes that make up the part. Collective: every rank must call this.
+    void give(const std::function<void(const io::point_block&)>& write);
+
+  private:
+    const mesh_file& header_;
+    packed_points packed_;
+    all_to_all exchanged_;
+    std::uint64_t left_ = 0;  ///< that are of an earlier part
+    std::size_t to_ = 0;      ///< and whose
+    std::vector<std::uint64_t> row_{};
+};
 
 using output_path = std::pair<std::filesystem::path, write_options>;
 

@@ -6,11 +6,20 @@
 
 #include <bit>
 #include <cerrno>
+#include <cstring>
 #include <system_error>
 #include <utility>
 
 namespace treeform::detail::stream {
 namespace {
+
+constexpr std::size_t word = 8;
+
+std::uint64_t digest_of(std::string_view bytes) {
+    digest d;
+    d.add(std::as_bytes(std::span(bytes)));
+    return d.value();
+}
 
 class descriptor {
   public:
@@ -38,6 +47,64 @@ using kind = io_error::kind;
 
 }  // namespace
 
+void state_writer::number(std::uint64_t n) {
+    char bytes[word];
+    std::memcpy(bytes, &n, word);
+    bytes_.append(bytes, word);
+}
+
+void state_writer::real(double x) { number(std::bit_cast<std::uint64_t>(x)); }
+
+void state_writer::point(const point3& p) {
+    for (std::size_t k = 0; k < 3; ++k) real(p[k]);
+}
+
+void state_writer::text(std::string_view s) {
+    number(s.size());
+    bytes_ += s;
+    bytes_.append((word - s.size() % word) % word, '\0');
+}
+
+std::string state_writer::bytes() const {
+    state_writer all = *this;
+    all.number(digest_of(bytes_));
+    return std::move(all.bytes_);
+}
+
+state_reader::state_reader(std::string bytes) : bytes_(std::move(bytes)) {
+    if (bytes_.size() < word || bytes_.size() % word != 0) return;
+    end_ = bytes_.size() - word;
+    std::uint64_t stored = 0;
+    std::memcpy(&stored, bytes_.data() + end_, word);
+    whole_ = stored == digest_of(std::string_view(bytes_).substr(0, end_));
+}
+
+std::uint64_t state_reader::number() {
+    whole_ = whole_ && at_ < end_;
+    if (!whole_) return 0;
+    std::uint64_t n = 0;
+    std::memcpy(&n, bytes_.data() + at_, word);
+    at_ += word;
+    return n;
+}
+
+double state_reader::real() { return std::bit_cast<double>(number()); }
+
+point3 state_reader::point() {
+    point3 p;
+    for (std::size_t k = 0; k < 3; ++k) p[k] = real();
+    return p;
+}
+
+std::string state_reader::text() {
+    const std::uint64_t size = number();
+    whole_ = whole_ && size <= end_ - at_;
+    if (!whole_) return {};
+    std::string s = bytes_.substr(at_, size);
+    at_ += size + (word - size % word) % word;
+    return s;
+}
+
 void digest::add(std::span<const std::byte> bytes) {
     for (std::size_t i = 0; i + 8 <= bytes.size(); i += 8) {
         std::uint64_t word = 0;
@@ -46,14 +113,23 @@ void digest::add(std::span<const std::byte> bytes) {
     }
 }
 
-void store_count(const record_count& c, state_writer& state) {
-    state.number(c.records);
-    state.number(c.digest);
+void store_count(const record_count& c, state_writer& state) { state.numbers(c.records, c.digest); }
+
+record_count load_count(state_reader& state) { return {state.number(), state.number()}; }
+
+void store_warnings(const std::vector<io_warning>& warnings, state_writer& state) {
+    state.number(warnings.size());
+    for (const io_warning& w : warnings) {
+        state.text(w.code);
+        state.text(w.text);
+    }
 }
 
-record_count load_count(state_reader& state) {
-    const std::uint64_t records = state.number();
-    return {records, state.number()};
+std::vector<io_warning> load_warnings(state_reader& state) {
+    std::vector<io_warning> warnings;
+    for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left)
+        warnings.push_back({state.text(), state.text()});
+    return warnings;
 }
 
 void append_to(const std::filesystem::path& path, std::span<const std::byte> bytes) {

@@ -1,10 +1,12 @@
 #pragma once
 /// \file
-/// Files of records, stored as in memory, written and read sequentially in pieces. Files are not
-/// kept open between pieces, so there may be any number of them.
+/// Files of records as they are in memory, written and read front to back, a piece at a time. None
+/// is open between two pieces, so there may be any number of them. What is to be known after an
+/// interruption, as bytes that tell whether they are whole.
 
-#include <libmesh/stream/state_record.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/weld_stream.hpp>
+#include <treeform/tree/detail/export.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -13,12 +15,53 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
 namespace treeform::detail::stream {
 
-/// A checksum against accidental changes; not cryptographic.
+/// Numbers, points and texts, one after the other, each in a multiple of eight bytes.
+class TREEFORM_API state_writer {
+  public:
+    void number(std::uint64_t n);
+    template <class... Numbers>
+    void numbers(Numbers... n) {
+        (number(static_cast<std::uint64_t>(n)), ...);
+    }
+    void real(double x);
+    void point(const point3& p);
+    void text(std::string_view s);
+
+    /// All that was put in, and a digest of it.
+    [[nodiscard]] std::string bytes() const;
+
+  private:
+    std::string bytes_{};
+};
+
+/// Gives back what was put in, in the same order.
+class TREEFORM_API state_reader {
+  public:
+    explicit state_reader(std::string bytes);
+
+    /// Whether the bytes are those of a `state_writer`, and nothing beyond them was asked for.
+    [[nodiscard]] bool whole() const { return whole_; }
+    /// 0, or an empty text, when there is nothing left.
+    [[nodiscard]] std::uint64_t number();
+    [[nodiscard]] double real();
+    [[nodiscard]] point3 point();
+    [[nodiscard]] std::string text();
+
+  private:
+    std::string bytes_;
+    std::size_t at_ = 0;
+    std::size_t end_ = 0;
+    bool whole_ = false;
+};
+
+/// A number for all bytes given, that any change of them changes nearly always. Not for enemies.
 class TREEFORM_API digest {
   public:
     /// Adds bytes; their number must be a multiple of eight.
@@ -37,6 +80,8 @@ struct record_count {
 
 void store_count(const record_count& c, state_writer& state);
 [[nodiscard]] record_count load_count(state_reader& state);
+void store_warnings(const std::vector<io_warning>& warnings, state_writer& state);
+[[nodiscard]] std::vector<io_warning> load_warnings(state_reader& state);
 
 /// Whether an error concerns the folder, its files or the memory, not an input or output file.
 [[nodiscard]] inline bool is_of_tiles(const io_error& error) {

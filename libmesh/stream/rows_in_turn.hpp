@@ -1,12 +1,16 @@
 #pragma once
 /// \file
-/// Reads rows after the points of a file whose positions depend on all rows before them.
+/// Rows behind the points of a file whose places only those know who have read what is ahead of
+/// them, and likewise points with lists.
 
 #include <libmesh/io/point_blocks.hpp>
+#include <libmesh/io/reading.hpp>
+#include <libmesh/io/record_index.hpp>
 #include <libmesh/stream/communicator.hpp>
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -30,5 +34,13 @@ struct file_of_rows {
     const communicator& all, const file_of_rows& of,
     const std::function<void(const io::row_block&)>& take,
     const std::function<void(const io::point_blocks&)>& done = {});
+
+/// Looks at files before any rank can read its share: at the lines of a text that begin in its
+/// share of the bytes, and likewise at points with lists, one after the other. Returns what is known of each file when all have looked; none of what is no text of points or of a PLY,
+/// and of what cannot be read: what is wrong is said where it is read from the front. Collective:
+/// every rank must call this.
+[[nodiscard]] std::vector<std::optional<io::record_index>> survey_records(
+    const std::vector<std::filesystem::path>& paths, const io::reading& how,
+    const communicator& all);
 
 }  // namespace treeform::detail::stream

@@ -4,7 +4,6 @@
 /// each in turn takes some bundles of what is left, and sends the ranks behind it what their points
 /// ask for.
 
-#include <libmesh/stream/border_rows.hpp>
 #include <libmesh/stream/tile_steps.hpp>
 #include <libmesh/weld/near_cells.hpp>
 

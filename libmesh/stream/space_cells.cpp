@@ -51,12 +51,9 @@ space_cells::space_cells(std::vector<point3> sample, std::size_t count) {
 
 space_cells::space_cells(state_reader& state) {
     for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left) {
-        node& n = nodes_.emplace_back();
-        n.cut = state.real();
-        n.high = static_cast<std::uint32_t>(state.number());
-        n.cell = static_cast<std::uint32_t>(state.number());
-        n.axis = static_cast<std::size_t>(state.number());
-        size_ += n.axis == no_axis ? 1 : 0;
+        nodes_.push_back({state.real(), static_cast<std::uint32_t>(state.number()),
+                          static_cast<std::uint32_t>(state.number()), state.number()});
+        size_ += nodes_.back().axis == no_axis ? 1 : 0;
     }
 }
 
@@ -64,9 +61,7 @@ void space_cells::store(state_writer& state) const {
     state.number(nodes_.size());
     for (const node& n : nodes_) {
         state.real(n.cut);
-        for (const std::uint64_t number :
-             {std::uint64_t{n.high}, std::uint64_t{n.cell}, std::uint64_t{n.axis}})
-            state.number(number);
+        state.numbers(n.high, n.cell, n.axis);
     }
 }
 

@@ -3,7 +3,7 @@
 /// Divides space into cells by axis-aligned planes (a k-d tree), so that each has about the same
 /// share of a sample.
 
-#include <libmesh/stream/state_record.hpp>
+#include <libmesh/stream/record_file.hpp>
 #include <treeform/mesh/mesh.hpp>
 
 #include <cstddef>

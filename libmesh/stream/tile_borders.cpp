@@ -230,8 +230,7 @@ void tile_steps::follow(const tiles_welded& w, kept_points& kept, kept_points& f
 void tile_steps::sum_up(tiles_welded& w, const kept_points& kept, const kept_points& followed,
                         longest_move longest) const {
     state_writer mine;
-    mine.number(kept.dropped());
-    mine.number(followed.dropped());
+    mine.numbers(kept.dropped(), followed.dropped());
     mine.point(longest.from());
     mine.point(longest.to());
     for (state_reader& one : communicator_.exchange(mine)) {

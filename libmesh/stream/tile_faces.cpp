@@ -1,7 +1,7 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/stars.hpp>
 #include <libmesh/stream/joined_parts.hpp>
-#include <libmesh/stream/new_numbers.hpp>
+#include <libmesh/stream/kept_rows.hpp>
 #include <libmesh/stream/tile_faces.hpp>
 #include <libmesh/weld/carried_rows.hpp>
 

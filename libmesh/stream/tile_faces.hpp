@@ -5,7 +5,6 @@
 #include <libmesh/io/point_blocks.hpp>
 #include <libmesh/stream/edge_files.hpp>
 #include <libmesh/stream/kept_rows.hpp>
-#include <libmesh/stream/paged_file.hpp>
 #include <libmesh/stream/rows_in_turn.hpp>
 #include <libmesh/stream/tile_steps.hpp>
 #include <treeform/mesh/point_stream.hpp>
@@ -128,5 +127,19 @@ class tile_faces {
     std::vector<point3> places_before_{};   ///< positions of these
     std::vector<point3> places_after_{};
 };
+
+/// Removes what a process that was killed while it gave back has not brought to an end.
+void remove_leftovers(const work_folder& folder);
+
+/// The last pass over the input: what is kept, and what else is asked for. `rows` stand for groups
+/// of several; null where their first points do. `faces` of a mesh that was
+/// welded; null for a cloud. Enters in `made` what was written.
+///
+/// \throws io_error, also where the input has changed meanwhile; cancelled;
+///         std::logic_error where points in are not points kept and points removed
+void give_back(cancellable_progress& pace, const tile_task& task,
+               const weld_stream_outputs& outputs, tile_steps& steps, tiles_welded& welded,
+               kept_rows* rows, tile_faces* faces, const work_folder& folder,
+               weld_stream_result& made);
 
 }  // namespace treeform::detail::stream

@@ -128,19 +128,10 @@ void tile_faces::end_survey(const io::point_blocks& reader, cloud_survey& survey
 /// Returns whether each has `seen` its part.
 bool tile_faces::share_survey(cloud_survey& survey, bool seen) {
     state_writer mine;
-    for (const std::uint64_t n :
-         {std::uint64_t{seen}, survey.faces, survey.triangles, left_out_,
-          std::uint64_t{most_corners_}, std::uint64_t{is_blank_},
-          std::uint64_t{survey.warnings.size()}, std::uint64_t{parts_.size()}})
-        mine.number(n);
-    for (const io_warning& w : survey.warnings) {
-        mine.text(w.code);
-        mine.text(w.text);
-    }
-    for (const io::row_place& place : parts_) {
-        mine.number(place.row);
-        mine.number(place.byte);
-    }
+    mine.numbers(seen, survey.faces, survey.triangles, left_out_, most_corners_, is_blank_,
+                 parts_.size());
+    store_warnings(survey.warnings, mine);
+    for (const io::row_place& place : parts_) mine.numbers(place.row, place.byte);
     survey.faces = survey.triangles = left_out_ = 0;
     for (state_reader& one : steps_.all().exchange(mine)) {
         seen = one.number() != 0 && seen;
@@ -149,16 +140,9 @@ bool tile_faces::share_survey(cloud_survey& survey, bool seen) {
         left_out_ += one.number();
         most_corners_ = std::max(most_corners_, static_cast<std::size_t>(one.number()));
         is_blank_ = one.number() != 0 && is_blank_;
-        survey.warnings.resize(one.whole() ? static_cast<std::size_t>(one.number()) : 0);
         parts_.resize(one.whole() ? static_cast<std::size_t>(one.number()) : 0);
-        for (io_warning& w : survey.warnings) {
-            w.code = one.text();
-            w.text = one.text();
-        }
-        for (io::row_place& place : parts_) {
-            place.row = one.number();
-            place.byte = one.number();
-        }
+        survey.warnings = load_warnings(one);
+        for (io::row_place& place : parts_) place = {one.number(), one.number()};
     }
     return seen;
 }

@@ -25,14 +25,11 @@ bool is_sampled(std::uint64_t point, std::uint64_t one_of) {
 std::vector<keyed> begins_of_ranges(const communicator& all, const std::vector<keyed>& sample) {
     state_writer mine;
     mine.number(sample.size());
-    for (const keyed& one : sample)
-        for (const std::uint64_t n : one) mine.number(n);
+    for (const keyed& one : sample) mine.numbers(one[0], one[1]);
     std::vector<keyed> rows;
     for (state_reader& one : all.exchange(mine))
-        for (std::uint64_t left = one.number(); left > 0; --left) {
-            const std::uint64_t key = one.number();
-            rows.push_back({key, one.number()});
-        }
+        for (std::uint64_t left = one.number(); left > 0; --left)
+            rows.push_back({one.number(), one.number()});
     std::sort(rows.begin(), rows.end());
     std::vector<keyed> begins;
     for (std::size_t r = 1; r < all.size() && !rows.empty(); ++r)

@@ -3,10 +3,10 @@
 #include <libmesh/io/las_plan.hpp>
 #include <libmesh/io/vertex_columns.hpp>
 #include <libmesh/stream/joined_parts.hpp>
-#include <libmesh/stream/las_grid.hpp>
-#include <libmesh/stream/new_numbers.hpp>
+#include <libmesh/stream/kept_rows.hpp>
+#include <libmesh/stream/point_survey.hpp>
 #include <libmesh/stream/points_out.hpp>
-#include <libmesh/stream/tile_outputs.hpp>
+#include <libmesh/stream/tile_faces.hpp>
 #include <treeform/mesh/point_stream.hpp>
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 #include <libmesh/io/extension.hpp>
 #include <libmesh/stream/point_places.hpp>
 #include <libmesh/stream/rows_in_turn.hpp>
-#include <libmesh/stream/shared_records.hpp>
 #include <libmesh/stream/tile_search.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/properties.hpp>

@@ -43,21 +43,15 @@ void store_box(const std::optional<box3>& box, state_writer& state) {
 
 std::optional<box3> load_box(state_reader& state) {
     if (state.number() == 0) return std::nullopt;
-    const point3 min = state.point();
-    return box3{min, state.point()};
+    return box3{state.point(), state.point()};
 }
 
 void store_search(const stream_search_result& s, state_writer& state) {
     each_number(s, [&](std::uint64_t n) { state.number(n); });
     store_box(s.bounds, state);
     state.text(s.header.format);
-    state.number(static_cast<std::uint64_t>(s.header.stored_as));
-    state.number(s.header.indexed ? 1 : 0);
-    state.number(s.header.warnings.size());
-    for (const io_warning& w : s.header.warnings) {
-        state.text(w.code);
-        state.text(w.text);
-    }
+    state.numbers(s.header.stored_as, s.header.indexed);
+    store_warnings(s.header.warnings, state);
 }
 
 stream_search_result load_search(state_reader& state) {
@@ -67,11 +61,7 @@ stream_search_result load_search(state_reader& state) {
     s.header.format = state.text();
     s.header.stored_as = static_cast<precision>(state.number());
     s.header.indexed = state.number() != 0;
-    for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left) {
-        io_warning& w = s.header.warnings.emplace_back();
-        w.code = state.text();
-        w.text = state.text();
-    }
+    s.header.warnings = load_warnings(state);
     return s;
 }
 
@@ -98,7 +88,7 @@ void tile_search::store_plan() const {
     state_writer state;
     state.text(identity());
     store_search(survey_, state);
-    state.number(static_cast<std::uint64_t>(vertices_));
+    state.numbers(vertices_);
     cells_->store(state);
     state.number(firsts_.size());
     for (const std::uint64_t first : firsts_) state.number(first);

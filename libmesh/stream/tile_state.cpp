@@ -1,7 +1,7 @@
 /// \file
 /// What is stored of a plan and of its tiles, and taken over by a later run.
 
-#include <libmesh/stream/las_grid.hpp>
+#include <libmesh/stream/point_survey.hpp>
 #include <libmesh/stream/tile_steps.hpp>
 
 #include <algorithm>
@@ -24,20 +24,16 @@ longest_move load_move(state_reader& state) {
 void store_cuts(const tile_cuts& cuts, state_writer& state) {
     state.number(cuts.nodes().size());
     for (const tile_cuts::node& n : cuts.nodes()) {
-        state.number(n.direction);
-        state.number(n.above);
+        state.numbers(n.direction, n.above);
         state.real(n.cut);
     }
 }
 
 tile_cuts load_cuts(state_reader& state, double tolerance) {
     std::vector<tile_cuts::node> nodes;
-    for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left) {
-        tile_cuts::node& n = nodes.emplace_back();
-        n.direction = static_cast<std::uint32_t>(state.number());
-        n.above = static_cast<std::uint32_t>(state.number());
-        n.cut = state.real();
-    }
+    for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left)
+        nodes.push_back({static_cast<std::uint32_t>(state.number()),
+                         static_cast<std::uint32_t>(state.number()), state.real()});
     return {std::move(nodes), tolerance};
 }
 
@@ -118,9 +114,7 @@ void tile_steps::store_plan() const {
     state.number(numbers_.size());
     for (const record_count& part : numbers_) store_count(part, state);
     store_cuts(*cuts_, state);
-    state.number(needs_.tiles);
-    state.number(needs_.borders);
-    state.number(communicator_.size());
+    state.numbers(needs_.tiles, needs_.borders, communicator_.size());
     for (const tile& t : tiles_) {
         for (const record_count& part : t.points) store_count(part, state);
         state.number(t.own);

@@ -1,5 +1,4 @@
 #include <libmesh/stream/tile_faces.hpp>
-#include <libmesh/stream/tile_outputs.hpp>
 #include <libmesh/stream/tile_steps.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/weld_stream.hpp>
@@ -41,16 +40,14 @@ std::string identity_of(const cloud_inputs& inputs, const weld_stream_options& o
         state.text(name);
         state.text(source);
     }
-    state.number(inputs.mixed ? 1 : 0);
-    state.number(o.chain ? 1 : 0);
+    state.numbers(inputs.mixed, o.chain);
     state.real(o.tolerance);
     for (const weld_condition& c : o.same) {
         state.text(c.property);
         state.real(c.tolerance);
     }
     state.text(o.order_by);
-    for (const bool one : {o.highest_first, o.relative, o.as_las, o.keep_seams})
-        state.number(one ? 1 : 0);
+    state.numbers(o.highest_first, o.relative, o.as_las, o.keep_seams);
     for (const std::string& name : o.across) state.text(name);
     for (const auto* grid : {&o.las_scale, &o.las_offset})
         for (const double x : grid->value_or(std::array<double, 3>{})) state.real(x);

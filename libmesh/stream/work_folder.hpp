@@ -2,8 +2,8 @@
 /// \file
 /// The folder of a job in tiles, whose content outlives the process.
 
-#include <libmesh/stream/cancellable_progress.hpp>
-#include <libmesh/stream/state_record.hpp>
+#include <libmesh/stream/communicator.hpp>
+#include <libmesh/stream/record_file.hpp>
 
 #include <cstdint>
 #include <filesystem>

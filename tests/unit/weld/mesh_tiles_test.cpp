@@ -1,5 +1,4 @@
 #include <libmesh/stream/edge_files.hpp>
-#include <libmesh/stream/paged_file.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/weld_stream.hpp>

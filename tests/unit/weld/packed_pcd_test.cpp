@@ -2,7 +2,7 @@
 /// Compressed PCD read and written by a team: each rank unpacks and packs its share, and the bytes
 /// are those of one.
 
-#include <libmesh/stream/unpacked_pcd.hpp>
+#include <libmesh/stream/joined_points.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/weld.hpp>

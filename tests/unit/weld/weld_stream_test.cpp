@@ -1,4 +1,4 @@
-#include <libmesh/stream/state_record.hpp>
+#include <libmesh/stream/record_file.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/weld_stream.hpp>
