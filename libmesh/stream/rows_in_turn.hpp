@@ -36,9 +36,10 @@ struct file_of_rows {
     const std::function<void(const io::point_blocks&)>& done = {});
 
 /// Looks at files before any rank can read its share: at the lines of a text that begin in its
-/// share of the bytes, and likewise at points with lists, one after the other. Returns what is known of each file when all have looked; none of what is no text of points or of a PLY,
-/// and of what cannot be read: what is wrong is said where it is read from the front. Collective:
-/// every rank must call this.
+/// share of the bytes, and likewise at points with lists, one after the other. Returns what is
+/// known of each file when all have looked; none of what is no text of points or of a PLY, and of
+/// what cannot be read: what is wrong is said where it is read from the front. Collective: every
+/// rank must call this.
 [[nodiscard]] std::vector<std::optional<io::record_index>> survey_records(
     const std::vector<std::filesystem::path>& paths, const io::reading& how,
     const communicator& all);
