@@ -3,10 +3,8 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/place/align_frame.hpp>
-#include <libmesh/place/align_judge.hpp>
-#include <libmesh/place/align_scale.hpp>
 #include <libmesh/place/align_search.hpp>
-#include <libmesh/place/align_starts.hpp>
+#include <libmesh/place/align_steps.hpp>
 #include <libmesh/place/align_target.hpp>
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/mesh.hpp>

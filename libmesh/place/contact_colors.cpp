@@ -2,6 +2,7 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/topology/select_faces.hpp>
 #include <treeform/mesh/attributes.hpp>
+#include <treeform/mesh/deviation.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/properties.hpp>
@@ -75,6 +76,21 @@ bool has_colors(const mesh_file& file) {
                        [](const element& e) { return e.find("red") != nullptr; });
 }
 
+using rgb = std::array<double, 3>;
+
+constexpr rgb lowest{33.0, 102.0, 172.0}, zero{247.0, 247.0, 247.0}, highest{178.0, 24.0, 43.0};
+constexpr rgb unknown{128.0, 128.0, 128.0};
+
+rgb color_of(double d, double low, double high) {
+    if (std::isnan(d)) return unknown;
+    const double end = d < 0.0 ? low : high;
+    const double share = d == 0.0 ? 0.0 : end == 0.0 ? 1.0 : std::min(d / end, 1.0);
+    rgb mixed{};
+    for (std::size_t k = 0; k < 3; ++k)
+        mixed[k] = zero[k] + share * ((d < 0.0 ? lowest : highest)[k] - zero[k]);
+    return mixed;
+}
+
 }  // namespace
 
 std::vector<mesh_relation> body_set::relations_in_files(
@@ -112,6 +128,42 @@ void placement::color(mesh_file& file, std::span<const mesh_relation> relations,
     std::vector<std::int32_t> numbers;
     for (const std::uint8_t row : of_row) numbers.push_back(row > tint ? 0 : row);
     rows.set(column::of<std::int32_t>("tf_class", numbers));
+}
+
+std::vector<double> body_set::distances_in_file(std::size_t number,
+                                                std::span<const double> distances) const {
+    const prepared_mesh& shape = shapes[number];
+    const mesh& file = file_of(number).content.mesh;
+    std::vector<double> all(file.points.size(), std::nan(""));
+    const std::span<const face> faces = shape.view().faces;
+    for (std::uint32_t f = 0; f < faces.size(); ++f) {
+        const std::uint32_t t = triangle(number, f);
+        if (shape.is_cloud())
+            all[t] = distances[f];
+        else
+            for (std::size_t i = 0; i < 3; ++i) all[file.faces[t][i]] = distances[faces[f][i]];
+    }
+    return all;
+}
+
+void deviation_result::color(mesh_file& file, std::span<const double> distances, double low,
+                             double high) {
+    if (distances.size() != file.mesh.points.size())
+        throw std::invalid_argument(
+            "treeform::deviation_result::color: a distance for each point is needed");
+    if (!(low <= 0.0 && 0.0 <= high))
+        throw std::invalid_argument("treeform::deviation_result::color: 0 is not from low to high");
+    element& rows = file.attributes.find_or_add("vertex", distances.size());
+    std::array<std::vector<std::uint8_t>, 3> channels;
+    for (auto& one : channels) one.reserve(distances.size());
+    for (const double d : distances) {
+        const rgb mixed = color_of(d, low, high);
+        for (std::size_t k = 0; k < 3; ++k)
+            channels[k].push_back(static_cast<std::uint8_t>(std::lround(mixed[k])));
+    }
+    constexpr const char* names[] = {"red", "green", "blue"};
+    for (std::size_t k = 0; k < 3; ++k) rows.set(column::of<std::uint8_t>(names[k], channels[k]));
+    rows.set(column::of<double>("distance", distances));
 }
 
 }  // namespace treeform

@@ -1,12 +1,21 @@
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/place/contacts.hpp>
 #include <libmesh/place/facing.hpp>
+#include <libmesh/place/shape.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/placement.hpp>
+#include <treeform/tree/build.hpp>
+#include <treeform/tree/search_pair.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace treeform::detail::place {
 namespace {
@@ -102,3 +111,107 @@ std::optional<placement_contact> contact_with_bed(mesh_view mesh) {
 }
 
 }  // namespace treeform::detail::place
+
+namespace treeform {
+namespace {
+
+using detail::base::triangle_of;
+
+using detail::place::shape;
+using relations = std::vector<mesh_relation>;
+
+int gravity(mesh_relation how) {
+    constexpr std::array<int, 5> of{0, 2, 3, 1, 0};
+    return of[static_cast<std::size_t>(how)];
+}
+
+/// The gravest relation stays.
+void mark(mesh_relation& present, mesh_relation one) {
+    if (gravity(one) > gravity(present)) present = one;
+}
+
+void mark_meeting(const shape& placed, const shape& part, relations& a, relations& b) {
+    const auto found = detail::intersect::mesh_intersections(placed.mesh(), placed.faces(),
+                                                             part.mesh(), part.faces());
+    for (const face_pair& pair : found.pairs) {
+        const mesh_relation one =
+            pair.kind == pair_kind::crossing ? mesh_relation::penetrating : mesh_relation::touching;
+        mark(a[pair.a], one);
+        mark(b[pair.b], one);
+    }
+}
+
+void mark_near(const shape& placed, const shape& part, double clearance, relations& a,
+               relations& b) {
+    const mesh_view mesh = placed.mesh();
+    const auto wide = build(mesh.faces, [&](const face& f) {
+        aabb<double, 3> box;
+        for (const std::uint32_t corner : f) box.include(mesh.points[corner]);
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < 3; ++k) {
+            box.min[k] = std::nextafter(box.min[k] - clearance, -infinity);
+            box.max[k] = std::nextafter(box.max[k] + clearance, infinity);
+        }
+        return box;
+    });
+    using pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+    const auto chunks =
+        search<pairs>(wide, part.faces(), [&](pairs& mine, std::uint32_t i, std::uint32_t j) {
+            const auto near = closest_points(triangle_of(mesh, i), triangle_of(part.mesh(), j));
+            if (std::sqrt(near.squared_distance) < clearance) mine.emplace_back(i, j);
+            return false;
+        });
+    for (const pairs& chunk : chunks)
+        for (const auto& [i, j] : chunk) {
+            mark(a[i], mesh_relation::closer_than_clearance);
+            mark(b[j], mesh_relation::closer_than_clearance);
+        }
+}
+
+/// A clearance that was given is kept: what stopped at it is not closer, and shown all the same.
+void mark_contacts(mesh_view placed, std::span<const prepared_mesh> fixed, const placement& at,
+                   std::vector<relations>& found) {
+    const mesh_relation one =
+        at.clearance > 0.0 ? mesh_relation::closer_than_clearance : mesh_relation::touching;
+    for (const placement_contact& c : at.contacts) {
+        mark(found[0][c.moving], one);
+        if (!c.fixed_face) continue;
+        found[1 + c.fixed].resize(fixed[c.fixed].view().faces.size());
+        mark(found[1 + c.fixed][*c.fixed_face], one);
+    }
+    if (at.end != placement_end::bed || !at.bed) return;
+    for (std::uint32_t f = 0; f < placed.faces.size(); ++f)
+        for (const std::uint32_t corner : placed.faces[f])
+            if (placed.points[corner].z <= *at.bed) mark(found[0][f], one);
+}
+
+}  // namespace
+
+std::vector<relations> placement::face_relations(const mesh_ref& given_moving,
+                                                 const mesh_refs& given_fixed) const {
+    const placement& at = *this;
+    const detail::base::prepared_ref moving(given_moving);
+    const detail::base::prepared_refs all_fixed(given_fixed);
+    const std::span<const prepared_mesh> fixed = all_fixed;
+    const mesh_view here = moving.view();
+    const mesh_view there{at.points, here.faces};
+    std::optional<tree<3>> own;
+    if (!std::equal(here.points.begin(), here.points.end(), at.points.begin(), at.points.end()))
+        own = build_face_tree(there);
+    const shape placed = own ? shape(moving, at.points, *own) : shape(moving);
+    const auto box = detail::place::box_of_faces(there);
+    std::vector<relations> found(1 + fixed.size());
+    found[0].resize(here.faces.size());
+    for (std::size_t i = 0; i < fixed.size(); ++i) {
+        const auto other = bounding_box(fixed[i].view().points);
+        if (!box || !other || !detail::place::within(*box, *other, at.clearance)) continue;
+        const shape part(fixed[i]);
+        found[1 + i].resize(part.mesh().faces.size());
+        if (at.clearance > 0.0) mark_near(placed, part, at.clearance, found[0], found[1 + i]);
+        mark_meeting(placed, part, found[0], found[1 + i]);
+    }
+    mark_contacts(there, fixed, at, found);
+    return found;
+}
+
+}  // namespace treeform

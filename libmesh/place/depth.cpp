@@ -5,11 +5,10 @@
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/intersect/point_locator.hpp>
-#include <libmesh/place/impact_of.hpp>
-#include <libmesh/place/length_of.hpp>
 #include <libmesh/place/relation_of.hpp>
 #include <libmesh/place/separation_search.hpp>
 #include <libmesh/place/shape.hpp>
+#include <libmesh/place/sweep_among.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>

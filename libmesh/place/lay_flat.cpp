@@ -8,7 +8,6 @@
 #include <libmesh/place/contacts.hpp>
 #include <libmesh/place/quickhull.hpp>
 #include <libmesh/place/shape.hpp>
-#include <libmesh/place/stability.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/pack.hpp>

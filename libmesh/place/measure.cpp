@@ -3,8 +3,6 @@
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/nearness/closest_points.hpp>
-#include <libmesh/place/barycentric.hpp>
-#include <libmesh/place/measure_of.hpp>
 #include <libmesh/place/relation_of.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/mesh.hpp>

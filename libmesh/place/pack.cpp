@@ -2,7 +2,6 @@
 #include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/place/filling.hpp>
-#include <libmesh/place/pack_shapes.hpp>
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/pack.hpp>

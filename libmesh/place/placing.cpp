@@ -1,10 +1,9 @@
 #include <libmesh/base/max_displacement.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/place/contacts.hpp>
-#include <libmesh/place/length_of.hpp>
-#include <libmesh/place/mate_motion.hpp>
 #include <libmesh/place/placing.hpp>
 #include <libmesh/place/separation_search.hpp>
+#include <libmesh/place/shape.hpp>
 #include <libmesh/place/snap_to_representable.hpp>
 #include <libmesh/place/sweep_among.hpp>
 #include <treeform/mesh/certificate.hpp>

@@ -1,4 +1,4 @@
-#include <libmesh/place/plate_raster.hpp>
+#include <libmesh/place/plate.hpp>
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,12 @@
 #include <libmesh/base/effort.hpp>
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/parallel.hpp>
+
+#include <array>
+#include <limits>
+#include <optional>
 
 namespace treeform::detail::place {
 
@@ -14,5 +19,17 @@ namespace treeform::detail::place {
 [[nodiscard]] mesh_measure relation_of(const shape& a, const shape& b,
                                        const progress_callback& progress = {},
                                        base::effort* effort = nullptr);
+
+/// As `measure`, which has checked the operands.
+[[nodiscard]] std::optional<mesh_measure> measure_of(
+    const shape& a, const shape& b, double radius = std::numeric_limits<double>::infinity(),
+    const progress_callback& progress = {});
+
+/// The weights of the corners of `t` that give the point `p` of it, as in `surface_point`.
+///
+/// \pre coordinates are finite; `p` is on the triangle, except for rounding: otherwise the weights
+///      are those of some other point of it
+[[nodiscard]] std::array<double, 3> barycentric_weights(const std::array<point3, 3>& t,
+                                                        const point3& p);
 
 }  // namespace treeform::detail::place

@@ -6,6 +6,7 @@
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/tree.hpp>
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -69,5 +70,7 @@ void check_motion(const std::string& function, const point3& motion);
 
 /// Whether the boxes are within `distance` of each other along each axis.
 [[nodiscard]] bool within(const box3& a, const box3& b, double distance);
+
+[[nodiscard]] inline double length_of(const point3& v) { return std::hypot(v.x, v.y, v.z); }
 
 }  // namespace treeform::detail::place

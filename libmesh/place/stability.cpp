@@ -1,5 +1,5 @@
 #include <libmesh/base/point_math.hpp>
-#include <libmesh/place/stability.hpp>
+#include <libmesh/place/quickhull.hpp>
 #include <treeform/mesh/point_location.hpp>
 
 #include <algorithm>

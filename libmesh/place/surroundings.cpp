@@ -1,5 +1,5 @@
 #include <libmesh/base/work_progress.hpp>
-#include <libmesh/place/measure_of.hpp>
+#include <libmesh/place/relation_of.hpp>
 #include <libmesh/place/surroundings.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/nearness.hpp>

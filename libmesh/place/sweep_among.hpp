@@ -3,11 +3,15 @@
 /// How far a mesh can move among several others.
 
 #include <libmesh/base/effort.hpp>
+#include <libmesh/geometry/contact_order.hpp>
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/certificate.hpp>
+#include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/tree/parallel.hpp>
+#include <treeform/tree/tree.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +20,29 @@
 #include <vector>
 
 namespace treeform::detail::place {
+
+/// The greatest double that is not beyond the exact time of a contact.
+///
+/// \pre `contact` was returned by `time_of_impact` for `motion`
+[[nodiscard]] double time_not_beyond(const sweep_contact& contact, const point3& motion);
+
+/// As `time_of_impact`; `cancelled`, too, where the effort does not suffice. `exact` is the exact
+/// time, that of the first contact.
+///
+/// \pre the trees are those of the meshes
+[[nodiscard]] TREEFORM_API impact impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                            const tree<3>& tree_b, const point3& motion,
+                                            const impact_options& options = {},
+                                            base::effort* effort = nullptr,
+                                            sweep_contact* exact = nullptr);
+
+/// As `time_to_distance`, with an effort likewise, which looking where it starts does not spend.
+///
+/// \pre the trees are those of the meshes
+[[nodiscard]] TREEFORM_API impact approach_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                              const tree<3>& tree_b, const point3& motion,
+                                              double distance, const impact_options& options = {},
+                                              base::effort* effort = nullptr);
 
 struct sweep_options {
     double clearance = 0.0;  ///< distance to keep; 0: move until contact
@@ -57,5 +84,26 @@ struct sweep_result {
 [[nodiscard]] TREEFORM_API sweep_result sweep_among(const shape& a, std::span<const shape> parts,
                                                     const point3& motion,
                                                     const sweep_options& options = {});
+
+struct mate_motion {
+    /// From the nearest point of the mesh to that of the part; 0 when they meet, or are the same
+    /// except for rounding.
+    point3 motion{};
+    /// How far along it the mesh goes: 1 except for the clearance and for rounding. Not beyond the
+    /// exact time of contact, as `sweep_among` says.
+    double time = 0.0;
+    sweep_result met{};  ///< what stops it there; `at_start`: nearer than the clearance already
+};
+
+/// For a mesh of which is known how it lies to what is nearest to it: `parts` are those that may be
+/// in the way.
+///
+/// \throws std::overflow_error where the way is beyond the range of doubles; `way_between` too
+[[nodiscard]] TREEFORM_API mate_motion motion_to_mate(const mesh_measure& nearest, const shape& a,
+                                                      std::span<const shape> parts,
+                                                      const sweep_options& options = {});
+
+/// From the nearest point of the one mesh to that of the other.
+[[nodiscard]] TREEFORM_API point3 way_between(const mesh_measure& nearest);
 
 }  // namespace treeform::detail::place

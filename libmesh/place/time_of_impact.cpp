@@ -5,8 +5,8 @@
 #include <libmesh/geometry/contact_order.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
-#include <libmesh/place/impact_of.hpp>
 #include <libmesh/place/shape.hpp>
+#include <libmesh/place/sweep_among.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/tree/detail/bounded_sweep.hpp>
 

@@ -3,8 +3,8 @@
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/nearness/closest_points.hpp>
-#include <libmesh/place/impact_of.hpp>
 #include <libmesh/place/shape.hpp>
+#include <libmesh/place/sweep_among.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/tree/build.hpp>
 #include <treeform/tree/detail/bounded_sweep.hpp>

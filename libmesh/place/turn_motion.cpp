@@ -1,7 +1,7 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
-#include <libmesh/place/length_of.hpp>
+#include <libmesh/place/shape.hpp>
 #include <libmesh/place/turn_motion.hpp>
 #include <treeform/tree/nearness_pair.hpp>
 #include <treeform/tree/tree.hpp>

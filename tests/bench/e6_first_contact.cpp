@@ -8,7 +8,7 @@
 #include "bench/peers/versions.hpp"
 #include "bench/triangle_askers.hpp"
 #include <libmesh/geometry/contact_order.hpp>
-#include <libmesh/place/impact_of.hpp>
+#include <libmesh/place/sweep_among.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/tree/parallel.hpp>

@@ -1,4 +1,4 @@
-#include <libmesh/place/barycentric.hpp>
+#include <libmesh/place/relation_of.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/tf.hpp>
 
