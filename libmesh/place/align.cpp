@@ -6,6 +6,7 @@
 #include <libmesh/place/align_search.hpp>
 #include <libmesh/place/align_steps.hpp>
 #include <libmesh/place/align_target.hpp>
+#include <libmesh/place/shape.hpp>
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/mesh.hpp>
 
@@ -40,16 +41,9 @@ using detail::place::Vector3d;
 
 void refuse(const std::string& what) { throw std::invalid_argument("treeform::align: " + what); }
 
-void check(const char* of, points_view points) {
-    for (std::size_t i = 0; i < points.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k)
-            if (!std::isfinite(points[i][k]))
-                refuse(std::string(of) + " point " + std::to_string(i) + " is not finite");
-}
-
 void check(points_view moving, mesh_view fixed, const align_options& o) {
-    check("moving", moving);
-    check("fixed", fixed.points);
+    detail::place::check_finite("align", moving, "moving point");
+    detail::place::check_finite("align", fixed.points, "fixed point");
     detail::base::check_faces("align", fixed.points.size(), fixed.faces);
     if (!(o.overlap > 0.0 && o.overlap <= 1.0)) refuse("the overlap is not in (0, 1]");
     if (!(o.max_distance >= 0.0)) refuse("the largest distance is negative or NaN");

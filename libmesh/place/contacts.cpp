@@ -25,15 +25,6 @@ using base::dot;
 using base::minus;
 using base::triangle_of;
 
-/// Of length 1; 0 where there is no direction.
-point3 unit(const point3& v) {
-    const double size = std::hypot(v.x, v.y, v.z);
-    if (!(size > 0.0) || !std::isfinite(size)) return {};
-    return {v.x / size, v.y / size, v.z / size};
-}
-
-point3 normal_of(const triangle3& t) { return unit(cross(minus(t[1], t[0]), minus(t[2], t[0]))); }
-
 /// Along an edge; 0 where the feature is none.
 point3 edge_of(const triangle3& t, feature on) {
     switch (on) {
@@ -51,7 +42,7 @@ point3 edge_of(const triangle3& t, feature on) {
 /// Of the plane in which the features meet; on the side that the motion comes from.
 point3 contact_normal(const triangle3& moving, const triangle3& fixed, contact at,
                       const point3& motion) {
-    point3 normal = unit(cross(edge_of(moving, at.on_a), edge_of(fixed, at.on_b)));
+    point3 normal = unit_of(cross(edge_of(moving, at.on_a), edge_of(fixed, at.on_b)));
     if (normal == point3{} && at.on_a == feature::interior) normal = normal_of(moving);
     if (normal == point3{}) normal = normal_of(fixed);
     if (normal == point3{}) normal = normal_of(moving);

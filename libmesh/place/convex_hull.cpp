@@ -1,5 +1,6 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/place/quickhull.hpp>
+#include <libmesh/place/shape.hpp>
 #include <treeform/mesh/convex_hull.hpp>
 #include <treeform/mesh/predicates.hpp>
 
@@ -17,13 +18,8 @@ namespace {
 
 void check_points(points_view points) {
     if (points.size() > std::numeric_limits<std::uint32_t>::max())
-        throw std::invalid_argument(
-            "treeform::convex_hull: more points than 32-bit numbers can name");
-    for (std::size_t i = 0; i < points.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k)
-            if (!std::isfinite(points[i][k]))
-                throw std::invalid_argument("treeform::convex_hull: point " + std::to_string(i) +
-                                            " is not finite");
+        throw std::invalid_argument("treeform::convex_hull: more points than 32 bits can number");
+    detail::place::check_finite("convex_hull", points);
 }
 
 /// The point of the highest score for which `holds`: asked of the highest alone at first, since it

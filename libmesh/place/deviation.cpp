@@ -1,5 +1,6 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/prepared_ref.hpp>
+#include <libmesh/base/used_points.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/intersect/point_locator.hpp>
 #include <libmesh/nearness/closest_point_query.hpp>
@@ -26,13 +27,6 @@ void check_deviation(const deviation_options& o) {
     if (o.band && !((*o.band)[0] <= (*o.band)[1]))
         throw std::invalid_argument(
             "treeform::deviation: the band is NaN, or its first value is above the second");
-}
-
-void check_finite_points(points_view points) {
-    for (std::size_t i = 0; i < points.size(); ++i)
-        if (!detail::base::is_finite(points[i]))
-            throw std::invalid_argument("treeform::deviation: point " + std::to_string(i) +
-                                        " is not finite");
 }
 
 /// What was found for points, in an order of space.
@@ -106,17 +100,6 @@ double bound_of(mesh_view of, std::span<const double> distances) {
                });
     for (const double one : most) bound = std::max(bound, one * (1.0 + 0x1p-48));
     return bound;
-}
-
-/// The numbers of the points of `mesh` that faces use.
-std::vector<std::uint32_t> used_points(mesh_view mesh) {
-    std::vector<bool> used(mesh.points.size());
-    for (const face& f : mesh.faces)
-        for (const std::uint32_t corner : f) used[corner] = true;
-    std::vector<std::uint32_t> numbers;
-    for (std::size_t i = 0; i < used.size(); ++i)
-        if (used[i]) numbers.push_back(static_cast<std::uint32_t>(i));
-    return numbers;
 }
 
 /// The least of these magnitudes that a share of them do not exceed. Changes their order.
@@ -199,7 +182,7 @@ std::optional<deviation_result> deviation_from(const prepared_mesh& a, const pre
                                                bool solid, const deviation_options& options) {
     const mesh_view from = a.view(), to = b.view();
     check_deviation(options);
-    check_finite_points(from.points);
+    detail::place::check_finite("deviation", from.points);
     if (from.points.empty() || to.faces.empty()) return std::nullopt;
     detail::base::work_progress work(options.progress);
     deviation_result r;
@@ -236,7 +219,7 @@ std::optional<deviation_result> deviation_from(const prepared_mesh& a, const pre
     r.histogram = histogram_of(r, options.bins);
     if (options.band) r.band_counts = counts_in(*options.band, r.distances);
     if (options.both_ways && !from.faces.empty()) {
-        const std::vector<std::uint32_t> used = used_points(to);
+        const auto used = detail::base::used_points(to.points.size(), to.faces);
         std::vector<point3> points;
         points.reserve(used.size());
         for (const std::uint32_t i : used) points.push_back(to.points[i]);

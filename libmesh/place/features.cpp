@@ -2,6 +2,7 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/geometry/closest_point.hpp>
 #include <libmesh/place/fit_features.hpp>
+#include <libmesh/place/shape.hpp>
 #include <treeform/mesh/properties.hpp>
 
 #include <algorithm>
@@ -33,9 +34,7 @@ void check(mesh_view mesh, const feature_options& o) {
         throw std::invalid_argument("treeform::find_features: " + what);
     };
     detail::base::check_faces("find_features", mesh.points.size(), mesh.faces);
-    for (std::size_t i = 0; i < mesh.points.size(); ++i)
-        if (!detail::base::is_finite(mesh.points[i]))
-            refuse("point " + std::to_string(i) + " is not finite");
+    detail::place::check_finite("find_features", mesh.points);
     if (o.tolerance && !(*o.tolerance >= 0.0)) refuse("the tolerance is negative or NaN");
     for (const double angle : {o.plane_angle, o.facet_angle, o.arc})
         if (!(angle >= 0.0)) refuse("an angle is negative or NaN");

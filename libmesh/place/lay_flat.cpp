@@ -2,6 +2,8 @@
 #include <libmesh/base/max_displacement.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/base/resize_all.hpp>
+#include <libmesh/base/used_points.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/exact/plane_predicates.hpp>
 #include <libmesh/geometry/closest_point.hpp>
@@ -33,10 +35,7 @@ constexpr double equally_good = 0x1p-40;
 
 void check(mesh_view mesh, const lay_flat_options& options) {
     detail::base::check_faces("lay_flat", mesh.points.size(), mesh.faces);
-    for (std::size_t i = 0; i < mesh.points.size(); ++i)
-        if (!detail::base::is_finite(mesh.points[i]))
-            throw std::invalid_argument("treeform::lay_flat: point " + std::to_string(i) +
-                                        " is not finite");
+    detail::place::check_finite("lay_flat", mesh.points);
     if (!(options.tolerance >= 0.0) || std::isinf(options.tolerance))
         throw std::invalid_argument("treeform::lay_flat: the tolerance is negative or not finite");
     if (!std::isfinite(options.bed) ||
@@ -55,13 +54,8 @@ void check(mesh_view mesh, const lay_flat_options& options) {
 
 /// Numbers of the points that faces use, ascending; of all when there are no faces.
 std::vector<std::uint32_t> points_that_count(mesh_view mesh) {
-    std::vector<bool> used(mesh.points.size(), mesh.faces.empty());
-    for (const face& f : mesh.faces)
-        for (const std::uint32_t i : f) used[i] = true;
-    std::vector<std::uint32_t> ids;
-    for (std::uint32_t i = 0; i < used.size(); ++i)
-        if (used[i]) ids.push_back(i);
-    return ids;
+    return mesh.faces.empty() ? detail::base::numbers_below(mesh.points.size())
+                              : detail::base::used_points(mesh.points.size(), mesh.faces);
 }
 
 /// A hull with its sides by descending area; with a tolerance, sides are joined.

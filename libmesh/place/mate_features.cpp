@@ -101,11 +101,9 @@ class feature_mover {
 
   private:
     [[nodiscard]] placement measured(const prepared_mesh& mesh, double begin, double end) {
-        return measure_among(mesh, fixed_,
-                             {.clearance = options_.clearance,
-                              .limit = options_.limit,
-                              .vertices = options_.vertices,
-                              .progress = work_.part(begin, end)});
+        placement_options options = options_;
+        options.progress = work_.part(begin, end);
+        return measure_among(mesh, fixed_, options);
     }
 
     [[nodiscard]] mesh moved(const transform<3>& by) const {

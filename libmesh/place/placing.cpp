@@ -33,32 +33,36 @@ point3 in_range_of_doubles(const point3& direction) {
     return scaled;
 }
 
-[[noreturn]] void refuse(const placing_options& o, const char* what) {
-    throw std::invalid_argument("treeform::" + std::string(o.function) + ": " + what);
+[[noreturn]] void refuse(const char* function, const char* what) {
+    throw std::invalid_argument("treeform::" + std::string(function) + ": " + what);
 }
 
-void check(const placing_options& o) {
+void check(const char* function, const placement_options& o) {
     if (!(o.clearance >= 0.0) || !std::isfinite(o.clearance))
-        refuse(o, "the clearance is negative or not finite");
-    if (o.max_travel && !(*o.max_travel >= 0.0)) refuse(o, "the largest travel is negative or NaN");
+        refuse(function, "the clearance is negative or not finite");
+    if (o.max_travel && !(*o.max_travel >= 0.0))
+        refuse(function, "the largest travel is negative or NaN");
     if (o.bed && !std::isfinite(not_below(*o.bed + o.clearance, o.precision)))
-        refuse(o, "the bed is above the range of coordinates that can be written");
+        refuse(function, "no coordinate that can be written is as high as the bed");
 }
 
 }  // namespace
 
-placing::placing(const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
-                 const placing_options& options)
+placing::placing(const char* function, const prepared_mesh& moving,
+                 std::span<const prepared_mesh> fixed, const placement_options& options,
+                 looking where)
     : prepared_(moving),
       moving_(moving, options.vertices),
       among_(fixed, options.vertices),
+      function_(function),
       options_(options),
+      where_(where),
       work_(options_.progress) {
-    check(options);
-    check_operand(options.function, "moving", moving.view());
+    check(function, options);
+    check_operand(function, "moving", moving.view());
     faces_ = moving.view().faces.size();
     for (std::size_t i = 0; i < fixed.size(); ++i) {
-        check_operand(options.function, "fixed " + std::to_string(i), fixed[i].view());
+        check_operand(function, "fixed " + std::to_string(i), fixed[i].view());
         faces_ += fixed[i].view().faces.size();
     }
     box_ = box_of_faces(moving.view());
@@ -136,8 +140,8 @@ void placing::look_at_start() {
 /// How far to look for the nearest mesh. On the way along a direction only those matter that are
 /// met; others need not even be indexed.
 double placing::radius(double more) const {
-    return options_.along_direction ? options_.clearance + more
-                                    : std::numeric_limits<double>::infinity();
+    return where_ == looking::on_the_way ? options_.clearance + more
+                                         : std::numeric_limits<double>::infinity();
 }
 
 bool placing::stuck_at_start() {
@@ -194,11 +198,11 @@ void placing::settle(const chosen_parts& known, const point3& motion, double tim
 
 void placing::slide(const point3& direction) {
     if (!base::is_finite(direction) || direction == point3{})
-        refuse(options_, "the direction is zero or not finite");
+        refuse(function_, "the direction is zero or not finite");
     const point3 motion = in_range_of_doubles(direction);
     double bed_time = std::numeric_limits<double>::infinity();
     if (result_.bed) {
-        if (!(motion.z < 0.0)) refuse(options_, "the direction does not lead down to the bed");
+        if (!(motion.z < 0.0)) refuse(function_, "the direction does not lead down to the bed");
         const double above = box_->min.z - *result_.bed;
         if (above < 0.0) return lift(motion, above);
         bed_time = above / -motion.z;

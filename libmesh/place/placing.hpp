@@ -9,6 +9,7 @@
 #include <libmesh/place/surroundings.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/placement.hpp>
+#include <treeform/mesh/slide.hpp>
 #include <treeform/tree/detail/function_ref.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -19,28 +20,15 @@
 
 namespace treeform::detail::place {
 
-/// The union of the options of these functions.
-struct placing_options {
-    const char* function = "";  ///< name of the function, for error messages
-    double clearance = 0.0;
-    std::optional<double> max_travel{};
-    treeform::precision precision = treeform::precision::float64;
-    std::optional<double> bed{};
-    bool close_in = false;
-    bool along_direction = false;  ///< only meshes on the way along the direction matter
-    std::size_t normals = 24;
-    std::size_t face_pairs = 64;
-    std::uint64_t effort = 0;  ///< for `separate`
-    std::size_t limit = 1000;
-    vertex_identity vertices = vertex_identity::by_coordinates;
-    progress_callback progress{};
-};
+/// Where the nearest mesh is looked for. What is met on the way may be all that matters.
+enum class looking { everywhere, on_the_way };
 
 class placing {
   public:
-    /// \throws std::invalid_argument for invalid options or operands
-    placing(const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
-            const placing_options& options);
+    /// `function` was called, for what is refused.
+    /// \throws std::invalid_argument for options or operands that cannot be meant
+    placing(const char* function, const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
+            const placement_options& options, looking where);
 
     /// Measures the start position, finds the final one by `find`, and measures that.
     template <class Find>
@@ -89,7 +77,9 @@ class placing {
     const prepared_mesh& prepared_;
     shape moving_;
     surroundings among_;
-    placing_options options_;
+    const char* function_;
+    placement_options options_;
+    looking where_;
     base::work_progress work_;
     std::optional<box3> box_;
     double longest_ = std::numeric_limits<double>::infinity();

@@ -3,6 +3,7 @@
 #include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/intersect/point_locator.hpp>
 #include <libmesh/place/point_sides.hpp>
+#include <libmesh/place/shape.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>
@@ -189,10 +190,7 @@ void lower_sides(const prepared_mesh& solid, points_view points, std::vector<std
 std::array<std::uint64_t, 3> count_sides(points_view points, const mesh_refs& given_solids) {
     const detail::base::prepared_refs all_solids(given_solids);
     const std::span<const prepared_mesh> solids = all_solids;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        if (!detail::base::is_finite(points[i]))
-            throw std::invalid_argument("treeform::count_sides: point " + std::to_string(i) +
-                                        " is not finite");
+    detail::place::check_finite("count_sides", points);
     std::vector<std::int8_t> side(points.size(), 1);
     for (const prepared_mesh& solid : solids) lower_sides(solid, points, side);
     std::array<std::uint64_t, 3> counts{};

@@ -42,6 +42,23 @@ void check_motion(const std::string& function, const point3& motion) {
         throw std::invalid_argument("treeform::" + function + ": the motion is zero or not finite");
 }
 
+void check_finite(const std::string& function, points_view points, const std::string& of) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (!base::is_finite(points[i]))
+            throw std::invalid_argument("treeform::" + function + ": " + of + " " +
+                                        std::to_string(i) + " is not finite");
+}
+
+point3 unit_of(const point3& v) {
+    const double size = length_of(v);
+    if (!(size > 0.0) || !std::isfinite(size)) return {};
+    return {v.x / size, v.y / size, v.z / size};
+}
+
+point3 normal_of(const triangle3& t) {
+    return unit_of(base::cross(base::minus(t[1], t[0]), base::minus(t[2], t[0])));
+}
+
 std::optional<box3> box_of_faces(mesh_view mesh) {
     if (mesh.faces.empty()) return std::nullopt;
     const point3& first = mesh.points[mesh.faces[0][0]];

@@ -4,6 +4,7 @@
 
 #include <libmesh/base/build_face_tree.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/predicates.hpp>
 #include <treeform/tree/tree.hpp>
 
 #include <cmath>
@@ -59,10 +60,19 @@ void check_operand(const std::string& function, const std::string& operand, mesh
 void check_operand(const std::string& function, const std::string& operand,
                    const prepared_mesh& mesh);
 
+/// \throws std::invalid_argument for the first of the points that is not finite, an `of`
+void check_finite(const std::string& function, points_view points, const std::string& of = "point");
 /// \throws std::invalid_argument for a motion that is zero or not finite
 void check_motion(const std::string& function, const point3& motion);
 
-/// The box of the points that faces use; empty without faces.
+/// Neither overflows nor vanishes on the way.
+[[nodiscard]] inline double length_of(const point3& v) { return std::hypot(v.x, v.y, v.z); }
+/// Of length 1; 0 where there is no direction.
+[[nodiscard]] point3 unit_of(const point3& v);
+/// The same of the normal of a triangle.
+[[nodiscard]] point3 normal_of(const triangle3& t);
+
+/// The box of the points that faces use; none without faces.
 [[nodiscard]] std::optional<box3> box_of_faces(mesh_view mesh);
 
 /// The least value of the precision `of` that is not below `x`; infinite if there is none.
@@ -70,7 +80,5 @@ void check_motion(const std::string& function, const point3& motion);
 
 /// Whether the boxes are within `distance` of each other along each axis.
 [[nodiscard]] bool within(const box3& a, const box3& b, double distance);
-
-[[nodiscard]] inline double length_of(const point3& v) { return std::hypot(v.x, v.y, v.z); }
 
 }  // namespace treeform::detail::place

@@ -7,97 +7,62 @@
 namespace treeform {
 namespace {
 
+using detail::place::looking;
 using detail::place::placing;
 
-using many = std::span<const prepared_mesh>;
+template <class Find>
+placement placed(const char* function, const mesh_ref& moving, const mesh_refs& fixed,
+                 const placement_options& options, const Find& find,
+                 looking where = looking::everywhere) {
+    const detail::base::prepared_ref one(moving);
+    const detail::base::prepared_refs others(fixed);
+    return placing(function, one, others, options, where).run(find);
+}
 
-placement slide_as(const char* function, const prepared_mesh& moving, many fixed,
-                   const point3& direction, const placement_options& o) {
-    placing work(moving, fixed,
-                 {.function = function,
-                  .clearance = o.clearance,
-                  .max_travel = o.max_travel,
-                  .precision = o.precision,
-                  .bed = o.bed,
-                  .close_in = o.close_in,
-                  .along_direction = true,
-                  .limit = o.limit,
-                  .vertices = o.vertices,
-                  .progress = o.progress});
-    return work.run([&](placing& p) { p.slide(direction); });
+placement_options without_bed(placement_options options) {
+    options.bed.reset();
+    return options;
 }
 
 }  // namespace
 
-placement slide(const mesh_ref& given_moving, const mesh_refs& given_fixed, const point3& direction,
+placement slide(const mesh_ref& moving, const mesh_refs& fixed, const point3& direction,
                 const placement_options& options) {
-    const detail::base::prepared_ref moving(given_moving);
-    const detail::base::prepared_refs all_fixed(given_fixed);
-    const std::span<const prepared_mesh> fixed = all_fixed;
-    return slide_as("slide", moving, fixed, direction, options);
+    return placed(
+        "slide", moving, fixed, options, [&](placing& p) { p.slide(direction); },
+        looking::on_the_way);
 }
 
-placement drop(const mesh_ref& given_moving, const mesh_refs& given_fixed,
-               const placement_options& options, const point3& direction) {
-    const detail::base::prepared_ref moving(given_moving);
-    const detail::base::prepared_refs all_fixed(given_fixed);
-    const std::span<const prepared_mesh> fixed = all_fixed;
+placement drop(const mesh_ref& moving, const mesh_refs& fixed, const placement_options& options,
+               const point3& direction) {
     placement_options o = options;
     if (fixed.empty() && !o.bed) o.bed = 0.0;
-    return slide_as("drop", moving, fixed, direction, o);
+    return placed(
+        "drop", moving, fixed, o, [&](placing& p) { p.slide(direction); }, looking::on_the_way);
 }
 
 placement drop(const mesh_ref& moving, const placement_options& options, const point3& direction) {
     return drop(moving, mesh_refs(), options, direction);
 }
 
-placement mate(const mesh_ref& given_moving, const mesh_refs& given_fixed,
-               const placement_options& o) {
-    const detail::base::prepared_ref moving(given_moving);
-    const detail::base::prepared_refs all_fixed(given_fixed);
-    const std::span<const prepared_mesh> fixed = all_fixed;
-    placing work(moving, fixed,
-                 {.function = "mate",
-                  .clearance = o.clearance,
-                  .max_travel = o.max_travel,
-                  .precision = o.precision,
-                  .limit = o.limit,
-                  .vertices = o.vertices,
-                  .progress = o.progress});
-    return work.run([](placing& p) { p.mate(); });
+placement mate(const mesh_ref& moving, const mesh_refs& fixed, const placement_options& options) {
+    return placed("mate", moving, fixed, without_bed(options), [](placing& p) { p.mate(); });
 }
 
-placement separate(const mesh_ref& given_moving, const mesh_refs& given_fixed,
-                   const placement_options& o) {
-    const detail::base::prepared_ref moving(given_moving);
-    const detail::base::prepared_refs all_fixed(given_fixed);
-    const std::span<const prepared_mesh> fixed = all_fixed;
-    placing work(moving, fixed,
-                 {.function = "separate",
-                  .clearance = o.clearance,
-                  .max_travel = o.max_travel,
-                  .precision = o.precision,
-                  .normals = o.normals,
-                  .face_pairs = o.face_pairs,
-                  .effort = o.effort,
-                  .limit = o.limit,
-                  .vertices = o.vertices,
-                  .progress = o.progress});
-    return work.run([](placing& p) { p.separate(); });
+placement separate(const mesh_ref& moving, const mesh_refs& fixed,
+                   const placement_options& options) {
+    return placed("separate", moving, fixed, without_bed(options),
+                  [](placing& p) { p.separate(); });
 }
 
-placement measure_among(const mesh_ref& given_moving, const mesh_refs& given_fixed,
+placement measure_among(const mesh_ref& moving, const mesh_refs& fixed,
                         const placement_options& o) {
-    const detail::base::prepared_ref moving(given_moving);
-    const detail::base::prepared_refs all_fixed(given_fixed);
-    const std::span<const prepared_mesh> fixed = all_fixed;
-    placing work(moving, fixed,
-                 {.function = "measure_among",
-                  .clearance = o.clearance,
-                  .limit = o.limit,
-                  .vertices = o.vertices,
-                  .progress = o.progress});
-    return work.run([](placing& p) { p.measure(); });
+    return placed("measure_among", moving, fixed,
+                  {.clearance = o.clearance,
+                   .limit = o.limit,
+                   .vertices = o.vertices,
+                   .progress = o.progress},
+                  [](placing& p) { p.measure(); });
 }
 
 }  // namespace treeform

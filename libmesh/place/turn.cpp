@@ -69,11 +69,9 @@ class turning {
     [[nodiscard]] bool cancelled() const { return work_.cancelled(); }
 
     [[nodiscard]] placement measured(const prepared_mesh& mesh, double begin, double end) {
-        return measure_among(mesh, fixed_,
-                             {.clearance = options_.clearance,
-                              .limit = options_.limit,
-                              .vertices = options_.vertices,
-                              .progress = work_.part(begin, end)});
+        placement_options options = options_;
+        options.progress = work_.part(begin, end);
+        return measure_among(mesh, fixed_, options);
     }
 
     [[nodiscard]] placement search() {

@@ -2,6 +2,7 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
+#include <libmesh/place/shape.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/measure.hpp>
 
@@ -12,19 +13,13 @@
 namespace treeform {
 namespace {
 
-using detail::base::cross;
 using detail::base::dot;
 using detail::base::minus;
 
 constexpr double endless_wall = std::numeric_limits<double>::infinity();
 
-/// The normal of a face, at length 1; 0 where it has none.
 point3 outward(mesh_view mesh, std::uint32_t f) {
-    const auto [p, q, r] = detail::base::triangle_of(mesh, f);
-    const point3 n = cross(minus(q, p), minus(r, p));
-    const double length = std::hypot(n.x, n.y, n.z);
-    if (!(length > 0.0) || !std::isfinite(length)) return {};
-    return {n.x / length, n.y / length, n.z / length};
+    return detail::place::normal_of(detail::base::triangle_of(mesh, f));
 }
 
 point3 middle(mesh_view mesh, std::uint32_t f) {
