@@ -19,32 +19,15 @@
 #include <string>
 #include <vector>
 
-namespace treeform {
+namespace treeform::detail::place {
 namespace {
-
-using detail::place::align_frame;
-using detail::place::align_target;
-using detail::place::both_ways;
-using detail::place::endless;
-using detail::place::freedom;
-using detail::place::matching;
-using detail::place::Matrix3d;
-using detail::place::moving_points;
-using detail::place::partner;
-using detail::place::quality;
-using detail::place::residuals;
-using detail::place::search_result;
-using detail::place::search_task;
-using detail::place::similarity;
-using detail::place::to_point;
-using detail::place::Vector3d;
 
 void refuse(const std::string& what) { throw std::invalid_argument("treeform::align: " + what); }
 
 void check(points_view moving, mesh_view fixed, const align_options& o) {
-    detail::place::check_finite("align", moving, "moving point");
-    detail::place::check_finite("align", fixed.points, "fixed point");
-    detail::base::check_faces("align", fixed.points.size(), fixed.faces);
+    check_finite("align", moving, "moving point");
+    check_finite("align", fixed.points, "fixed point");
+    base::check_faces("align", fixed.points.size(), fixed.faces);
     if (!(o.overlap > 0.0 && o.overlap <= 1.0)) refuse("the overlap is not in (0, 1]");
     if (!(o.max_distance >= 0.0)) refuse("the largest distance is negative or NaN");
     if (!(o.tolerance >= 0.0)) refuse("the tolerance is negative or NaN");
@@ -101,12 +84,11 @@ class alignment {
         if (!std::isfinite(before_.cost))
             throw std::overflow_error("treeform::align: the distances are too large to be squared");
         if (!work_.reach(0.2)) return {.status = status::cancelled};
-        present_ =
-            within_bounds(task_, present_, detail::place::inertia_of(samples_.points).center);
+        present_ = within_bounds(task_, present_, inertia_of(samples_.points).center);
         best_ = search_from(present_, 0.2, 0.5);
         if (task_.scale) take_if_better(as_large_as_fixed(), 0.5, 0.6);
         const auto tried = options_.starts > 1 ? others_than(few_, options_.starts, 0.6, 0.7)
-                                               : std::vector<detail::place::tried_start>{};
+                                               : std::vector<tried_start>{};
         for (std::size_t i = 0; i < std::min(tried.size(), refined) && !work_.cancelled(); ++i)
             if (take_if_better(tried[i].end.map, 0.7, 0.75))
                 best_start_ = static_cast<unsigned>(tried[i].number);
@@ -164,7 +146,7 @@ class alignment {
 
     /// The present place, with the moving side grown to the extent of the fixed one.
     [[nodiscard]] similarity as_large_as_fixed() const {
-        const auto moving = detail::place::inertia_of(samples_.points);
+        const auto moving = inertia_of(samples_.points);
         const auto fixed = inertia_in(frame_, fixed_);
         similarity start = present_;
         if (moving.radius > 0.0 && fixed.radius > 0.0) start.scale = fixed.radius / moving.radius;
@@ -174,12 +156,11 @@ class alignment {
     }
 
     /// Other places than the present one, as few samples find them, the best first.
-    [[nodiscard]] std::vector<detail::place::tried_start> others_than(const moving_points& few,
-                                                                      std::size_t count,
-                                                                      double from, double to) {
+    [[nodiscard]] std::vector<tried_start> others_than(const moving_points& few, std::size_t count,
+                                                       double from, double to) {
         const similarity present = task_.scale ? as_large_as_fixed() : present_;
-        const auto starts = detail::place::starts_of(detail::place::inertia_of(samples_.points),
-                                                     inertia_in(frame_, fixed_), present, count);
+        const auto starts =
+            starts_of(inertia_of(samples_.points), inertia_in(frame_, fixed_), present, count);
         return try_starts(task_, few, starts,
                           [&](std::size_t i) { return work_.step(from, to, i, 20.0); });
     }
@@ -207,9 +188,8 @@ class alignment {
         matching last;
         const quality here = quality_at(task_, few_, best_.map, best_.width, last);
         if (here.rms <= exact) return;
-        const auto starts =
-            detail::place::starts_along(detail::place::freedoms_of(last.partners, best_.map.shift),
-                                        little_held, best_.map, frame_.diagonal);
+        const auto starts = starts_along(freedoms_of(last.partners, best_.map.shift), little_held,
+                                         best_.map, frame_.diagonal);
         const search_task near = without_outliers(last.partners);
         const auto tried = try_starts(
             near, few_, starts, [&](std::size_t i) { return work_.step(0.75, 0.78, i, 10.0); });
@@ -228,11 +208,11 @@ class alignment {
         static_cast<void>(quality_at(task_, all_, best_.map, best_.width, of_all_));
         const evidence found = evidence_here();
         if (found.freedoms.empty() || (is_known(found) && is_noise(found.left))) return;
-        const Vector3d center = detail::place::inertia_of(few_.points).center;
+        const Vector3d center = inertia_of(few_.points).center;
         similarity around = present_;
         around.scale = best_.map.scale;
         around.shift += (present_.scale - around.scale) * (around.rotation * center);
-        const auto starts = detail::place::starts_near(around(center), around, frame_.diagonal);
+        const auto starts = starts_near(around(center), around, frame_.diagonal);
         const auto tried = try_starts(
             task_, few_, starts, [&](std::size_t i) { return work_.step(0.8, 0.82, i, 20.0); });
         for (std::size_t i = 0; i < std::min(tried.size(), refined) && !work_.cancelled(); ++i)
@@ -260,14 +240,13 @@ class alignment {
 
     /// By the last partners of all points.
     [[nodiscard]] evidence evidence_here() const {
-        const auto judges = detail::place::judges_among(of_all_.partners);
+        const auto judges = judges_among(of_all_.partners);
         evidence found;
-        found.left =
-            detail::place::residuals_of(judges.size() < few_samples ? of_all_.partners : judges);
-        found.freedoms = detail::place::freedoms_of(of_all_.partners, best_.map.shift);
-        found.uncertainty = detail::place::uncertainty_of(
-            detail::place::residuals_of(of_all_.partners), found.freedoms, not_held);
-        found.move = detail::place::move_by(judges, task_.scale);
+        found.left = residuals_of(judges.size() < few_samples ? of_all_.partners : judges);
+        found.freedoms = freedoms_of(of_all_.partners, best_.map.shift);
+        found.uncertainty =
+            uncertainty_of(residuals_of(of_all_.partners), found.freedoms, not_held);
+        found.move = move_by(judges, task_.scale);
         return found;
     }
 
@@ -328,7 +307,7 @@ class alignment {
     /// Of all points where they were looked for last, by no weights but those of trimming.
     [[nodiscard]] quality plain_quality() const {
         auto partners = of_all_.partners;
-        const std::size_t count = detail::place::share_of(task_.overlap, partners.size());
+        const std::size_t count = share_of(task_.overlap, partners.size());
         weigh(partners, count, endless);
         return quality_of(partners, count, endless, task_.max_distance);
     }
@@ -342,7 +321,7 @@ class alignment {
     moving_points all_, samples_, few_;
     search_task task_;
     std::optional<both_ways> ways_;  ///< if the scale is looked for
-    detail::base::work_progress work_;
+    base::work_progress work_;
     similarity present_;
     quality before_;  ///< there
     matching of_all_;
@@ -351,7 +330,7 @@ class alignment {
 };
 
 std::uint64_t alignment::inliers() const {
-    const double most = 4.5 * detail::place::median_distance(of_all_.partners) + exact;
+    const double most = 4.5 * median_distance(of_all_.partners) + exact;
     return static_cast<std::uint64_t>(
         std::count_if(of_all_.partners.begin(), of_all_.partners.end(),
                       [most](const partner& p) { return p.distance <= most; }));
@@ -406,36 +385,32 @@ align_result alignment::judged() {
     return result;
 }
 
-align_result found_by_steps(points_view moving, mesh_view fixed, const align_options& options) {
-    if (moving.empty() || fixed.points.empty()) return {.matrix = options.start};
-    return alignment(moving, fixed, options).found();
-}
-
-}  // namespace
-
-namespace {
-
 align_result aligned(points_view moving, mesh_view fixed, const align_options& options) {
     check(moving, fixed, options);
-    align_result result = found_by_steps(moving, fixed, options);
+    align_result result{.matrix = options.start};
+    if (!moving.empty() && !fixed.points.empty())
+        result = alignment(moving, fixed, options).found();
     if (result.status == status::cancelled) return result;
     result.points.reserve(moving.size());
     for (const point3& p : moving) {
         point3& q = result.points.emplace_back(result.matrix(p));
         for (std::size_t k = 0; k < 3 && options.precision == precision::float32; ++k)
-            q[k] = detail::base::nearest_float(q[k]);
+            q[k] = base::nearest_float(q[k]);
     }
-    if (!detail::base::all_finite(result.points))
+    if (!base::all_finite(result.points))
         throw std::overflow_error("treeform::align: the coordinates are too large to be written");
     return result;
 }
 
 }  // namespace
+}  // namespace treeform::detail::place
+
+namespace treeform {
 
 align_result align(const mesh_ref& moving, const mesh_ref& fixed, const align_options& options) {
     mesh_view to = fixed.view();
     if (fixed.prepared() != nullptr && fixed.prepared()->is_cloud()) to.faces = {};
-    return aligned(moving.view().points, to, options);
+    return detail::place::aligned(moving.view().points, to, options);
 }
 
 }  // namespace treeform

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The internal coordinates of an alignment, and both of its sides in them.
+/// The lengths that an alignment computes in, and both of its sides in them; how well these agree
+/// whatever their scale.
 
 #include <libmesh/place/align_search.hpp>
 #include <libmesh/place/align_target.hpp>

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The iterations of an alignment from one start.
+/// The steps of an alignment from one start, and where they end; the places that it may start from,
+/// and which of them are worth it.
 
 #include <libmesh/place/align_steps.hpp>
 #include <libmesh/place/align_target.hpp>

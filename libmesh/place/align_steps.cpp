@@ -72,14 +72,18 @@ void weigh(std::vector<partner>& partners, std::size_t count, double width) {
     });
 }
 
+double median_of(std::vector<double> numbers) {
+    if (numbers.empty()) return 0.0;
+    const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+    std::nth_element(numbers.begin(), middle, numbers.end());
+    return *middle;
+}
+
 double median_distance(const std::vector<partner>& partners) {
     std::vector<double> distances;
     for (const partner& p : partners)
         if (p.weight > 0.0) distances.push_back(p.distance);
-    if (distances.empty()) return 0.0;
-    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-    std::nth_element(distances.begin(), middle, distances.end());
-    return *middle;
+    return median_of(std::move(distances));
 }
 
 quality quality_of(const std::vector<partner>& weighed, std::size_t count, double width,

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The least-squares steps of an alignment, computed from pairs of partners.
+/// The least squares of an alignment: from partners to the step that brings them together. What the
+/// distances that remain say of it: whether they are noise, and what motions they do not tell of.
 
 #include <libmesh/place/solvers.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -65,7 +66,9 @@ template <class Sum, class Of>
 /// finite, the value of Welsch's function of that width; all others get 0.
 void weigh(std::vector<partner>& partners, std::size_t count, double width);
 
-/// The median distance of the partners with a positive weight; 0 if there are none.
+/// The middle one; 0 if there is none.
+[[nodiscard]] double median_of(std::vector<double> numbers);
+/// The same of the distances that count.
 [[nodiscard]] double median_distance(const std::vector<partner>& partners);
 
 /// The quality of an alignment.

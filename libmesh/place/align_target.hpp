@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The fixed side of an alignment: finds the partners of points that move little between calls.
+/// The fixed side of an alignment, which finds the partners of points that move a little each time,
+/// and how the surface that a cloud was taken from lies at its points.
 
 #include <libmesh/nearness/closest_point_query.hpp>
 #include <libmesh/place/align_steps.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// One attempt to put parts on plates, in a given order.
+/// Parts to be packed, each in all its turns; one try to put them on plates, in some order.
 
 #include <libmesh/place/plate.hpp>
 #include <treeform/mesh/mesh.hpp>

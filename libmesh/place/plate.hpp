@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// A plate with parts, each checked against the parts placed before it.
+/// A plate with parts on it, each checked against those that were there before. The cells of a
+/// plate or box that a part covers, and where it finds free ones.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/pack.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Convex hull of points that span space, by Quickhull: the highest point above a facet is added
-/// next.
+/// The convex hull of points that span space, point by point from the highest on; and how firmly a
+/// mesh stands on its sides.
 
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/work_progress.hpp>

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The relation of two placed meshes.
+/// The relation of two meshes, and how they lie to each other, at the places where they are, or may
+/// come to be.
 
 #include <libmesh/base/effort.hpp>
 #include <libmesh/place/shape.hpp>

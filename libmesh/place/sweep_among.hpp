@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// How far a mesh can move among several others.
+/// When a mesh in motion meets another, or comes near it; how far it can be moved among several, or
+/// to the nearest point.
 
 #include <libmesh/base/effort.hpp>
 #include <libmesh/geometry/contact_order.hpp>
