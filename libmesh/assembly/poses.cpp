@@ -1,5 +1,4 @@
 #include <libmesh/assembly/moved_part.hpp>
-#include <libmesh/assembly/part_boxes.hpp>
 #include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/place/shape.hpp>
@@ -87,6 +86,20 @@ void check_pose_input(std::span<const prepared_mesh> parts, std::span<const tran
         detail::place::check_operand("check_poses", "part " + std::to_string(i), parts[i]);
 }
 
+/// What `ask` says of the meshes at each of the positions.
+template <class Answer, class Ask>
+std::vector<Answer> at_positions(const mesh_ref& given_a, const mesh_ref& given_b,
+                                 std::span<const mesh_positions> positions, const Ask& ask) {
+    const detail::base::prepared_ref a(given_a);
+    const detail::base::prepared_ref b(given_b);
+    std::vector<Answer> found(positions.size());
+    for_chunks(positions.size(), positions_per_chunk,
+               [&](std::size_t begin, std::size_t end, std::size_t) {
+                   for (std::size_t i = begin; i < end; ++i) found[i] = ask(*a, *b, positions[i]);
+               });
+    return found;
+}
+
 }  // namespace
 
 pose_result check_poses(const mesh_refs& given_parts, std::span<const transform<3>> poses,
@@ -120,30 +133,16 @@ pose_result check_poses(const mesh_refs& given_parts, std::span<const transform<
     return result;
 }
 
-std::vector<bool> intersects(const mesh_ref& given_a, const mesh_ref& given_b,
+std::vector<bool> intersects(const mesh_ref& a, const mesh_ref& b,
                              std::span<const mesh_positions> positions) {
-    const detail::base::prepared_ref a(given_a);
-    const detail::base::prepared_ref b(given_b);
-    std::vector<std::uint8_t> found(positions.size());
-    for_chunks(positions.size(), positions_per_chunk,
-               [&](std::size_t begin, std::size_t end, std::size_t) {
-                   for (std::size_t i = begin; i < end; ++i)
-                       found[i] = intersects(*a, *b, positions[i]) ? 1 : 0;
-               });
+    const auto found = at_positions<std::uint8_t>(
+        a, b, positions, [](const auto&... at) { return intersects(at...) ? 1 : 0; });
     return {found.begin(), found.end()};
 }
 
-std::vector<double> distance(const mesh_ref& given_a, const mesh_ref& given_b,
+std::vector<double> distance(const mesh_ref& a, const mesh_ref& b,
                              std::span<const mesh_positions> positions) {
-    const detail::base::prepared_ref a(given_a);
-    const detail::base::prepared_ref b(given_b);
-    std::vector<double> found(positions.size());
-    for_chunks(positions.size(), positions_per_chunk,
-               [&](std::size_t begin, std::size_t end, std::size_t) {
-                   for (std::size_t i = begin; i < end; ++i)
-                       found[i] = distance(*a, *b, positions[i]);
-               });
-    return found;
+    return at_positions<double>(a, b, positions, [](const auto&... at) { return distance(at...); });
 }
 
 }  // namespace treeform

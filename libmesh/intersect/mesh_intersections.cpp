@@ -7,7 +7,7 @@
 #include <libmesh/intersect/mesh_intersections.hpp>
 #include <libmesh/intersect/narrow_phase.hpp>
 #include <libmesh/intersect/overlap_trees.hpp>
-#include <libmesh/nearness/face_blocks.hpp>
+#include <libmesh/nearness/bounding_cylinders.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/tree/parallel.hpp>
 #include <treeform/tree/search_pair.hpp>

@@ -101,21 +101,14 @@ HWY_INLINE lanes dot(const vector3& a, const vector3& b) {
 }
 
 /// A row of the map times x, or a column.
+template <bool Back = false>
 HWY_INLINE vector3 mapped(const cylinder_map& map, const vector3& x) {
     const floats d;
     vector3 result;
     for (std::size_t k = 0; k < 3; ++k) {
-        const auto entry = [&](std::size_t j) { return hn::Set(d, map.linear[k][j]); };
-        result.of[k] = hn::MulAdd(entry(0), x.of[0],
-                                  hn::MulAdd(entry(1), x.of[1], hn::Mul(entry(2), x.of[2])));
-    }
-    return result;
-}
-HWY_INLINE vector3 mapped_back(const cylinder_map& map, const vector3& x) {
-    const floats d;
-    vector3 result;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const auto entry = [&](std::size_t j) { return hn::Set(d, map.linear[j][k]); };
+        const auto entry = [&](std::size_t j) {
+            return hn::Set(d, Back ? map.linear[j][k] : map.linear[k][j]);
+        };
         result.of[k] = hn::MulAdd(entry(0), x.of[0],
                                   hn::MulAdd(entry(1), x.of[1], hn::Mul(entry(2), x.of[2])));
     }
@@ -140,7 +133,7 @@ HWY_INLINE lanes split(const vector3& normal, const vector3& x, vector3& across)
 /// any point will do. Both from the center, in the common frame.
 HWY_INLINE vector3 near_point(const cylinder_lanes& cylinder, const vector3& to) {
     const floats d;
-    vector3 back = mapped_back(cylinder.map, to);
+    vector3 back = mapped<true>(cylinder.map, to);
     for (auto& axis : back.of) axis = hn::Mul(axis, hn::Set(d, cylinder.map.square));
     vector3 across;
     const lanes along = split(cylinder.normal, back, across);
@@ -156,7 +149,7 @@ HWY_INLINE vector3 near_point(const cylinder_lanes& cylinder, const vector3& to)
 /// How far a cylinder reaches along `direction` from its center.
 HWY_INLINE lanes reach_along(const cylinder_lanes& cylinder, const vector3& direction) {
     vector3 across;
-    const lanes along = split(cylinder.normal, mapped_back(cylinder.map, direction), across);
+    const lanes along = split(cylinder.normal, mapped<true>(cylinder.map, direction), across);
     return hn::MulAdd(cylinder.half, hn::Abs(along),
                       hn::Mul(cylinder.radius, hn::Sqrt(dot(across, across))));
 }

@@ -2,8 +2,8 @@
 #include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/prepared_slots.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
+#include <libmesh/nearness/bounding_cylinders.hpp>
 #include <libmesh/nearness/closest_points.hpp>
-#include <libmesh/nearness/face_blocks.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/tree/detail/near_pair_walk.hpp>
 #include <treeform/tree/detail/squared_radius.hpp>
