@@ -1,5 +1,6 @@
 #include <libmesh/assembly/moved_part.hpp>
 #include <libmesh/base/build_face_tree.hpp>
+#include <libmesh/base/for_numbers.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/intersect/point_locator.hpp>
 #include <libmesh/nearness/closest_point_query.hpp>
@@ -66,9 +67,8 @@ bool is_motion(const transform<3>& move) {
 
 std::vector<std::optional<box3>> boxes_of(std::span<const prepared_mesh> parts) {
     std::vector<std::optional<box3>> boxes(parts.size());
-    for_chunks(parts.size(), 16, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) boxes[i] = place::box_of_faces(parts[i].view());
-    });
+    base::for_numbers(parts.size(), 16,
+                      [&](std::size_t i) { boxes[i] = place::box_of_faces(parts[i].view()); });
     return boxes;
 }
 

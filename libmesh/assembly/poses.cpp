@@ -1,4 +1,5 @@
 #include <libmesh/assembly/moved_part.hpp>
+#include <libmesh/base/for_numbers.hpp>
 #include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/place/shape.hpp>
@@ -93,10 +94,8 @@ std::vector<Answer> at_positions(const mesh_ref& given_a, const mesh_ref& given_
     const detail::base::prepared_ref a(given_a);
     const detail::base::prepared_ref b(given_b);
     std::vector<Answer> found(positions.size());
-    for_chunks(positions.size(), positions_per_chunk,
-               [&](std::size_t begin, std::size_t end, std::size_t) {
-                   for (std::size_t i = begin; i < end; ++i) found[i] = ask(*a, *b, positions[i]);
-               });
+    detail::base::for_numbers(positions.size(), positions_per_chunk,
+                              [&](std::size_t i) { found[i] = ask(*a, *b, positions[i]); });
     return found;
 }
 
@@ -136,7 +135,7 @@ pose_result check_poses(const mesh_refs& given_parts, std::span<const transform<
 std::vector<bool> intersects(const mesh_ref& a, const mesh_ref& b,
                              std::span<const mesh_positions> positions) {
     const auto found = at_positions<std::uint8_t>(
-        a, b, positions, [](const auto&... at) { return intersects(at...) ? 1 : 0; });
+        a, b, positions, [](const auto&... at) { return std::uint8_t{intersects(at...)}; });
     return {found.begin(), found.end()};
 }
 

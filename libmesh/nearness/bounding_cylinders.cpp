@@ -1,7 +1,7 @@
+#include <libmesh/base/for_numbers.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/nearness/bounding_cylinders.hpp>
 #include <treeform/tree/detail/near_query.hpp>
-#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -384,9 +384,8 @@ bounding_cylinders::bounding_cylinders(const tree<3>& tree,
     }
     cylinders_.resize(total);
     std::vector<point3> normals(tree.nodes_in_level(last));
-    for_chunks(normals.size(), 512, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i)
-            normals[i] = normal_of(triangles[i], tree.children(last, i));
+    base::for_numbers(normals.size(), 512, [&](std::size_t i) {
+        normals[i] = normal_of(triangles[i], tree.children(last, i));
     });
     // From the triangles themselves while they stay in the cache; far above, where surfaces are
     // round, from the cylinders below.
@@ -396,29 +395,27 @@ bounding_cylinders::bounding_cylinders(const tree<3>& tree,
         const std::size_t blocks_of_child = tree.capacity(level + 1) / 8;
         std::vector<point3> sums(nodes);
         const std::size_t grain = std::max<std::size_t>(1, 64 / blocks_of_child);
-        for_chunks(nodes, grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t node = begin; node < end; ++node) {
-                eight_cylinders& cylinders = cylinders_[begin_[level] + node];
-                cylinders = {};
-                for (std::size_t slot = 0; slot < tree.children(level, node); ++slot) {
-                    const std::size_t child = node * 8 + slot;
-                    const point3& normal = normals[child];
-                    for (std::size_t k = 0; k < 3; ++k) sums[node][k] += normal[k];
-                    const cylinder_axis axis = axis_of(tree.level(level)[node], slot, normal);
-                    axial_extent extent;
-                    if (blocks_of_child <= most_measured) {
-                        const std::size_t first = child * blocks_of_child;
-                        const std::size_t end_block =
-                            std::min(first + blocks_of_child, triangles.size());
-                        HWY_DYNAMIC_DISPATCH(measure_blocks)
-                        (triangles.data() + first, triangles.data() + end_block, tree.frame(), axis,
-                         extent);
-                    } else {
-                        for (std::size_t i = 0; i < tree.children(level + 1, child); ++i)
-                            measure_disc(cylinders_[begin_[level + 1] + child], i, axis, extent);
-                    }
-                    put_disc(axis, extent, cylinders, slot);
+        base::for_numbers(nodes, grain, [&](std::size_t node) {
+            eight_cylinders& cylinders = cylinders_[begin_[level] + node];
+            cylinders = {};
+            for (std::size_t slot = 0; slot < tree.children(level, node); ++slot) {
+                const std::size_t child = node * 8 + slot;
+                const point3& normal = normals[child];
+                for (std::size_t k = 0; k < 3; ++k) sums[node][k] += normal[k];
+                const cylinder_axis axis = axis_of(tree.level(level)[node], slot, normal);
+                axial_extent extent;
+                if (blocks_of_child <= most_measured) {
+                    const std::size_t first = child * blocks_of_child;
+                    const std::size_t end_block =
+                        std::min(first + blocks_of_child, triangles.size());
+                    HWY_DYNAMIC_DISPATCH(measure_blocks)
+                    (triangles.data() + first, triangles.data() + end_block, tree.frame(), axis,
+                     extent);
+                } else {
+                    for (std::size_t i = 0; i < tree.children(level + 1, child); ++i)
+                        measure_disc(cylinders_[begin_[level + 1] + child], i, axis, extent);
                 }
+                put_disc(axis, extent, cylinders, slot);
             }
         });
         normals = std::move(sums);

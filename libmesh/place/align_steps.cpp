@@ -1,3 +1,4 @@
+#include <libmesh/base/for_numbers.hpp>
 #include <libmesh/place/align_steps.hpp>
 
 #include <algorithm>
@@ -63,12 +64,10 @@ void weigh(std::vector<partner>& partners, std::size_t count, double width) {
         last = *end;
     }
     const double per = width < endless ? -0.5 / (width * width) : 0.0;
-    for_chunks(partners.size(), block, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) {
-            partner& p = partners[i];
-            const bool counts = p.distance < endless && std::pair(p.distance, i) < last;
-            p.weight = counts ? std::exp(per * p.distance * p.distance) : 0.0;
-        }
+    base::for_numbers(partners.size(), block, [&](std::size_t i) {
+        partner& p = partners[i];
+        const bool counts = p.distance < endless && std::pair(p.distance, i) < last;
+        p.weight = counts ? std::exp(per * p.distance * p.distance) : 0.0;
     });
 }
 

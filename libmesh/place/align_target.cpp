@@ -1,6 +1,6 @@
+#include <libmesh/base/for_numbers.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/place/align_target.hpp>
-#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <array>
@@ -97,9 +97,8 @@ std::vector<surfel> searched_cloud::surfels_at(std::span<const point3> places) c
         queries.reserve(open.size());
         for (const std::uint32_t i : open) queries.push_back(array_of(places[i]));
         const auto near = search_.k_nearest(queries, k);
-        for_chunks(open.size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t i = begin; i < end; ++i)
-                fits[open[i]] = fit_plane(points_, near[i], found[open[i]]) ? 1 : 0;
+        base::for_numbers(open.size(), 256, [&](std::size_t i) {
+            fits[open[i]] = fit_plane(points_, near[i], found[open[i]]) ? 1 : 0;
         });
         std::erase_if(open, [&](std::uint32_t i) { return fits[i] != 0; });
     }
@@ -130,11 +129,9 @@ void align_target::match(const moving_points& points, const similarity& map, dou
                          matching& last) const {
     const std::size_t count = points.size();
     last.moved.resize(count);
-    for_chunks(count, block, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const Vector3d p = map(points.points[i]);
-            last.moved[i] = {p.x(), p.y(), p.z()};
-        }
+    base::for_numbers(count, block, [&](std::size_t i) {
+        const Vector3d p = map(points.points[i]);
+        last.moved[i] = {p.x(), p.y(), p.z()};
     });
     if (!base::all_finite(last.moved))
         throw std::overflow_error("treeform::align: the moving points are too far away");
@@ -148,26 +145,22 @@ void align_target::match(const moving_points& points, const similarity& map, dou
 void align_target::match_mesh(double radius, matching& last) const {
     const std::size_t count = last.moved.size();
     last.radii.resize(count);
-    for_chunks(count, block, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const partner& before = last.partners[i];
-            last.radii[i] = radius;
-            if (before.distance < endless)
-                last.radii[i] = std::min(
-                    radius, (vector_of(last.moved[i]) - before.to).norm() * (1 + 1e-12) + 1e-12);
-        }
+    base::for_numbers(count, block, [&](std::size_t i) {
+        const partner& before = last.partners[i];
+        last.radii[i] = radius;
+        if (before.distance < endless)
+            last.radii[i] = std::min(
+                radius, (vector_of(last.moved[i]) - before.to).norm() * (1 + 1e-12) + 1e-12);
     });
     const auto found = on_faces_.nearest_in_order(last.moved, last.radii);
-    for_chunks(count, block, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) {
-            partner& p = last.partners[i];
-            p = {};
-            p.from = vector_of(last.moved[i]);
-            if (!found[i]) continue;
-            p.to = vector_of(found[i]->point);
-            p.distance = found[i]->distance;
-            p.normal = normal_between(p.from, p.to, p.distance, normal_of_face(found[i]->face));
-        }
+    base::for_numbers(count, block, [&](std::size_t i) {
+        partner& p = last.partners[i];
+        p = {};
+        p.from = vector_of(last.moved[i]);
+        if (!found[i]) return;
+        p.to = vector_of(found[i]->point);
+        p.distance = found[i]->distance;
+        p.normal = normal_between(p.from, p.to, p.distance, normal_of_face(found[i]->face));
     });
 }
 
@@ -209,14 +202,12 @@ void align_target::match_cloud(const moving_points& points, const similarity& ma
     const std::size_t count = last.moved.size();
     last.last.resize(count);
     last.near.resize(count);
-    for_chunks(count, block, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) {
-            partner& p = last.partners[i];
-            p = {};
-            p.from = vector_of(last.moved[i]);
-            const auto nearest = still_nearest(cloud_.points(), last.last[i], p.from);
-            last.near[i] = nearest.value_or(near_point{0, endless});
-        }
+    base::for_numbers(count, block, [&](std::size_t i) {
+        partner& p = last.partners[i];
+        p = {};
+        p.from = vector_of(last.moved[i]);
+        const auto nearest = still_nearest(cloud_.points(), last.last[i], p.from);
+        last.near[i] = nearest.value_or(near_point{0, endless});
     });
     last.searched.clear();
     for (std::size_t i = 0; i < count; ++i)
@@ -227,21 +218,18 @@ void align_target::match_cloud(const moving_points& points, const similarity& ma
     for (const std::uint32_t i : last.searched) queries.push_back(array_of(last.moved[i]));
     constexpr std::size_t wanted = std::tuple_size_v<decltype(matching::last_search::near)>;
     const auto found = cloud_.search().k_nearest(queries, wanted, radius);
-    for_chunks(queries.size(), block, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t q = begin; q < end; ++q) {
-            const auto near = found[q];
-            auto& entry = last.last[last.searched[q]];
-            entry.at = last.partners[last.searched[q]].from;
-            entry.count = static_cast<std::uint32_t>(near.size());
-            for (std::size_t k = 0; k < near.size(); ++k) entry.near[k] = near[k].id;
-            entry.others = near.size() == wanted ? near.back().distance : radius;
-            if (!near.empty()) last.near[last.searched[q]] = near[0];
-        }
+    base::for_numbers(queries.size(), block, [&](std::size_t q) {
+        const auto near = found[q];
+        auto& entry = last.last[last.searched[q]];
+        entry.at = last.partners[last.searched[q]].from;
+        entry.count = static_cast<std::uint32_t>(near.size());
+        for (std::size_t k = 0; k < near.size(); ++k) entry.near[k] = near[k].id;
+        entry.others = near.size() == wanted ? near.back().distance : radius;
+        if (!near.empty()) last.near[last.searched[q]] = near[0];
     });
-    for_chunks(count, block, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i)
-            if (last.near[i].distance <= radius && last.near[i].distance < endless)
-                meet(points, map, i, last.near[i], last.partners[i]);
+    base::for_numbers(count, block, [&](std::size_t i) {
+        if (last.near[i].distance <= radius && last.near[i].distance < endless)
+            meet(points, map, i, last.near[i], last.partners[i]);
     });
 }
 

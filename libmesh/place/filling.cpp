@@ -1,3 +1,4 @@
+#include <libmesh/base/for_numbers.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/place/filling.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -142,9 +143,7 @@ bool plate_filling::put(std::uint32_t part) {
     std::vector<search> searches;
     for (std::size_t c = 0; c < turns.size(); ++c)
         if (only == 0 || only % turns.size() == c) searches.push_back(begin(turns[c], c));
-    for_chunks(searches.size(), 1, [&](std::size_t first, std::size_t end, std::size_t) {
-        for (std::size_t i = first; i < end; ++i) find(searches[i]);
-    });
+    base::for_numbers(searches.size(), 1, [&](std::size_t i) { find(searches[i]); });
     // Nothing that is taken gets free again: the next part of that shape starts from here.
     for (const search& s : searches)
         searched_[s.what->kind] = s.found.value_or(cell_place{s.last.layer + 1, 0, 0});

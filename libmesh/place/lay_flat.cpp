@@ -1,4 +1,5 @@
 #include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/for_numbers.hpp>
 #include <libmesh/base/max_displacement.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/point_math.hpp>
@@ -371,11 +372,10 @@ void look_at_stability(laid_flat& laid, mesh_view mesh, const std::vector<std::u
     double size = 0.0;
     for (const point3& p : found.points) size = std::max(size, detail::base::largest_of(p));
     const double flat = std::max(options.tolerance, size * 0x1p-40);
-    for_chunks(laid.sides.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i)
-            if (i < options.overhang_sides || i == laid.chosen)
-                laid.overhangs[i] =
-                    detail::place::overhang_of(mesh, laid.sides[i], options.overhang_angle, flat);
+    detail::base::for_numbers(laid.sides.size(), 1, [&](std::size_t i) {
+        if (i < options.overhang_sides || i == laid.chosen)
+            laid.overhangs[i] =
+                detail::place::overhang_of(mesh, laid.sides[i], options.overhang_angle, flat);
     });
 }
 

@@ -1,3 +1,4 @@
+#include <libmesh/base/for_numbers.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/convex_hull.hpp>
 
@@ -168,12 +169,10 @@ std::optional<oriented_box> find_oriented_box(points_view points) {
     }
     std::vector<oriented_box> boxes(sides.size());
     boxes.push_back(box_along(corners, oriented_box{}.axes));
-    for_chunks(sides.size(), 16, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const point3& n = hull.sides[sides[i]].normal;
-            const point3 x = best_side(corners, n);
-            boxes[i] = box_along(corners, {x, of_length_one(cross(n, x)), n});
-        }
+    detail::base::for_numbers(sides.size(), 16, [&](std::size_t i) {
+        const point3& n = hull.sides[sides[i]].normal;
+        const point3 x = best_side(corners, n);
+        boxes[i] = box_along(corners, {x, of_length_one(cross(n, x)), n});
     });
     const auto best = std::ranges::min_element(
         boxes, {}, [](const oriented_box& box) { return std::pair(volume_of(box), rim_of(box)); });

@@ -1,3 +1,4 @@
+#include <libmesh/base/for_numbers.hpp>
 #include <libmesh/base/max_displacement.hpp>
 #include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
@@ -85,9 +86,8 @@ class trying {
         for (unsigned first = 0; first < options_.tries && !satisfied() && !work_.cancelled();) {
             const unsigned end = first == 0 ? 1 : std::min(options_.tries, first + tries_at_once);
             known_ = best_;
-            for_chunks(end - first, 1, [&](std::size_t from, std::size_t to, std::size_t) {
-                for (std::size_t i = from; i < to; ++i)
-                    if (first == 0 || !late()) make(first + static_cast<unsigned>(i));
+            detail::base::for_numbers(end - first, 1, [&](std::size_t i) {
+                if (first == 0 || !late()) make(first + static_cast<unsigned>(i));
             });
             if (first > 0 && late()) break;
             first = end;

@@ -1,6 +1,7 @@
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/first_bad.hpp>
 #include <libmesh/base/flattened.hpp>
+#include <libmesh/base/for_numbers.hpp>
 #include <libmesh/base/prepared_slots.hpp>
 #include <libmesh/base/resize_all.hpp>
 #include <libmesh/weld/equal_points.hpp>
@@ -226,9 +227,7 @@ class hash_marks {
 /// The points whose marks are shared, ascending: all that equal another are among them.
 std::vector<std::uint32_t> points_in_doubt(points_view points) {
     hash_marks marks(points.size());
-    for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) marks.set(hash_of(points[i]));
-    });
+    base::for_numbers(points.size(), [&](std::size_t i) { marks.set(hash_of(points[i])); });
     std::vector<std::vector<std::uint32_t>> found(chunk_count(points.size(), light_grain));
     for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         for (std::size_t i = begin; i < end; ++i)
@@ -243,9 +242,8 @@ std::vector<std::uint32_t> points_in_doubt(points_view points) {
 std::vector<std::uint32_t> equal_firsts(points_view points, std::span<const std::uint32_t> label) {
     std::vector<std::uint32_t> hash_then_first;
     base::resize_all(points.size(), hash_then_first);
-    for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i)
-            hash_then_first[i] = hash_of(points[i], label.empty() ? 0 : label[i]);
+    base::for_numbers(points.size(), [&](std::size_t i) {
+        hash_then_first[i] = hash_of(points[i], label.empty() ? 0 : label[i]);
     });
     find_firsts(points, label, hash_then_first);
     return hash_then_first;
@@ -275,9 +273,7 @@ std::vector<std::uint32_t> number_groups(std::vector<std::uint32_t>& group_of_po
             number_of[i] = n++;
         }
     });
-    for_chunks(first.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) first[i] = number_of[first[i]];
-    });
+    base::for_numbers(first.size(), grain, [&](std::size_t i) { first[i] = number_of[first[i]]; });
     return first_of_group;
 }
 
@@ -285,9 +281,7 @@ std::optional<point_groups> few_equal_points(points_view points) {
     check_count(points);
     const std::vector<std::uint32_t> doubted = points_in_doubt(points);
     std::vector<point3> at(doubted.size());
-    for_chunks(at.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) at[i] = points[doubted[i]];
-    });
+    base::for_numbers(at.size(), [&](std::size_t i) { at[i] = points[doubted[i]]; });
     const std::vector<std::uint32_t> first = equal_firsts(at, {});
     const auto is_equal = [&](std::size_t i) { return first[i] != i; };
     if (base::first_bad(first.size(), is_equal) == first.size()) return std::nullopt;
@@ -306,10 +300,9 @@ joined_faces join_faces(mesh_view mesh) {
     result.changed = true;
     result.faces.resize(mesh.faces.size());
     constexpr std::size_t grain = std::size_t{1} << 15;
-    for_chunks(mesh.faces.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t f = begin; f < end; ++f)
-            for (std::size_t i = 0; i < 3; ++i)
-                result.faces[f][i] = equal->first_of_group[equal->group_of_point[mesh.faces[f][i]]];
+    base::for_numbers(mesh.faces.size(), grain, [&](std::size_t f) {
+        for (std::size_t i = 0; i < 3; ++i)
+            result.faces[f][i] = equal->first_of_group[equal->group_of_point[mesh.faces[f][i]]];
     });
     return result;
 }
@@ -336,18 +329,14 @@ mesh join_equal_points(mesh_view mesh) {
     const point_groups joined = find_equal_points(mesh.points);
     treeform::mesh result;
     detail::base::resize_all(joined.first_of_group.size(), result.points);
-    for_chunks(result.points.size(), light_grain,
-               [&](std::size_t begin, std::size_t end, std::size_t) {
-                   for (std::size_t i = begin; i < end; ++i)
-                       result.points[i] = mesh.points[joined.first_of_group[i]];
-               });
+    detail::base::for_numbers(result.points.size(), [&](std::size_t i) {
+        result.points[i] = mesh.points[joined.first_of_group[i]];
+    });
     detail::base::resize_all(mesh.faces.size(), result.faces);
-    for_chunks(result.faces.size(), light_grain,
-               [&](std::size_t begin, std::size_t end, std::size_t) {
-                   for (std::size_t i = begin; i < end; ++i)
-                       for (std::size_t k = 0; k < 3; ++k)
-                           result.faces[i][k] = joined.group_of_point[mesh.faces[i][k]];
-               });
+    detail::base::for_numbers(result.faces.size(), [&](std::size_t i) {
+        for (std::size_t k = 0; k < 3; ++k)
+            result.faces[i][k] = joined.group_of_point[mesh.faces[i][k]];
+    });
     return result;
 }
 

@@ -1,11 +1,11 @@
 #include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/for_numbers.hpp>
 #include <libmesh/weld/equal_points.hpp>
 #include <libmesh/weld/group_points.hpp>
 #include <libmesh/weld/lattice.hpp>
 #include <libmesh/weld/reach.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/weld.hpp>
-#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -78,10 +78,9 @@ void split_by_agreement(const weld_options& options, numbers& first_of) {
 
 numbers by_equality(points_view points, const weld_options& options) {
     numbers first_of = detail::weld::equal_firsts(points, options.label);
-    for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i)
-            if (first_of[i] != i && !detail::base::is_finite(points[i]))
-                first_of[i] = static_cast<std::uint32_t>(i);
+    detail::base::for_numbers(points.size(), [&](std::size_t i) {
+        if (first_of[i] != i && !detail::base::is_finite(points[i]))
+            first_of[i] = static_cast<std::uint32_t>(i);
     });
     if (options.may_merge) split_by_agreement(options, first_of);
     return first_of;
@@ -141,10 +140,9 @@ point_groups detail::weld::find_groups(const char* called, points_view points,
 std::uint64_t detail::weld::count_groups_of_several(const point_groups& groups) {
     const std::vector<std::uint32_t>& group_of = groups.group_of_point;
     std::vector<std::uint8_t> has_several(groups.first_of_group.size(), 0);
-    for_chunks(group_of.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i)
-            if (groups.first_of_group[group_of[i]] != i)
-                std::atomic_ref(has_several[group_of[i]]).store(1, std::memory_order_relaxed);
+    detail::base::for_numbers(group_of.size(), [&](std::size_t i) {
+        if (groups.first_of_group[group_of[i]] != i)
+            std::atomic_ref(has_several[group_of[i]]).store(1, std::memory_order_relaxed);
     });
     return static_cast<std::uint64_t>(std::ranges::count(has_several, 1));
 }

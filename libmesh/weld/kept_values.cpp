@@ -1,10 +1,10 @@
+#include <libmesh/base/for_numbers.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/weld/equal_points.hpp>
 #include <libmesh/weld/group_points.hpp>
 #include <libmesh/weld/kept_values.hpp>
 #include <libmesh/weld/vertex_values.hpp>
 #include <treeform/tree/detail/buffer.hpp>
-#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <compare>
@@ -28,9 +28,7 @@ struct keyed_point {
 template <class T, class Values>
 [[nodiscard]] buffer<T> in_order(const Values& values, std::span<const std::uint32_t> order) {
     buffer<T> sorted(order.size());
-    for_chunks(order.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t k = begin; k < end; ++k) sorted[k] = values[order[k]];
-    });
+    base::for_numbers(order.size(), [&](std::size_t k) { sorted[k] = values[order[k]]; });
     return sorted;
 }
 
@@ -43,9 +41,8 @@ double mean(std::span<const std::uint32_t> members, const Value& value) {
 
 template <class Body>
 void for_groups_of_several(const group_members& members, const Body& body) {
-    for_chunks(members.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t g = begin; g < end; ++g)
-            if (members[g].size() > 1) body(g, members[g]);
+    base::for_numbers(members.size(), [&](std::size_t g) {
+        if (members[g].size() > 1) body(g, members[g]);
     });
 }
 
@@ -74,10 +71,9 @@ std::vector<std::uint32_t> points_in_order(points_view points, const attributes&
     if (points.size() > std::numeric_limits<std::uint32_t>::max())
         throw std::invalid_argument("treeform::weld: more than 2^32 - 2 points");
     buffer<keyed_point> keyed(points.size());
-    for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i)
-            keyed[i] = {options.highest_first ? values.descending_key(i) : values.ascending_key(i),
-                        static_cast<std::uint32_t>(i)};
+    base::for_numbers(points.size(), [&](std::size_t i) {
+        keyed[i] = {options.highest_first ? values.descending_key(i) : values.ascending_key(i),
+                    static_cast<std::uint32_t>(i)};
     });
     // No two compare equal, so the order is the only one there is.
     std::sort(keyed.data(), keyed.data() + keyed.size());

@@ -1,3 +1,4 @@
+#include <libmesh/base/for_numbers.hpp>
 #include <libmesh/base/stars.hpp>
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/weld/edge_uses.hpp>
@@ -23,14 +24,12 @@ using numbers = std::vector<std::uint32_t>;
 /// The faces with point v called name[v]; of those that repeated a corner before nothing is left.
 std::vector<face> renamed(std::span<const face> faces, const numbers& name) {
     std::vector<face> result(faces.size());
-    for_chunks(faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const face& f = faces[i];
-            if (base::has_three_corners(f))
-                result[i] = {name[f[0]], name[f[1]], name[f[2]]};
-            else
-                result[i] = {name[f[0]], name[f[0]], name[f[0]]};
-        }
+    base::for_numbers(faces.size(), [&](std::size_t i) {
+        const face& f = faces[i];
+        if (base::has_three_corners(f))
+            result[i] = {name[f[0]], name[f[1]], name[f[2]]};
+        else
+            result[i] = {name[f[0]], name[f[0]], name[f[0]]};
     });
     return result;
 }
@@ -97,12 +96,10 @@ class splitter {
     /// [V] the lowest point that may be merged with each as things stand.
     [[nodiscard]] numbers mergeable() const {
         numbers name(point_count());
-        for_chunks(name.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t v = begin; v < end; ++v) {
-                const std::uint32_t group = given_.group_of_point[v];
-                name[v] = single_[group] != 0 ? static_cast<std::uint32_t>(v)
-                                              : given_.first_of_group[group];
-            }
+        base::for_numbers(name.size(), [&](std::size_t v) {
+            const std::uint32_t group = given_.group_of_point[v];
+            name[v] =
+                single_[group] != 0 ? static_cast<std::uint32_t>(v) : given_.first_of_group[group];
         });
         return name;
     }
@@ -126,9 +123,8 @@ class splitter {
                                    end_of(faces, edge.face(i), end));
             });
         numbers part(point_count());
-        for_chunks(part.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t v = begin; v < end; ++v)
-                part[v] = parts.root(static_cast<std::uint32_t>(v));
+        base::for_numbers(part.size(), [&](std::size_t v) {
+            part[v] = parts.root(static_cast<std::uint32_t>(v));
         });
         return part;
     }
@@ -252,10 +248,9 @@ bool all_equal(points_view points, const point_groups& given) {
 point_groups with_equal_coordinates(points_view points, const point_groups& given) {
     const numbers place = find_equal_points(points).group_of_point;
     buffer<point3> keys(points.size());
-    for_chunks(keys.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t v = begin; v < end; ++v)
-            keys[v] = {static_cast<double>(given.group_of_point[v]), static_cast<double>(place[v]),
-                       0.0};
+    base::for_numbers(keys.size(), [&](std::size_t v) {
+        keys[v] = {static_cast<double>(given.group_of_point[v]), static_cast<double>(place[v]),
+                   0.0};
     });
     return find_equal_points(keys.span());
 }

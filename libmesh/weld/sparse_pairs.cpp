@@ -1,3 +1,4 @@
+#include <libmesh/base/for_numbers.hpp>
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/weld/group_points.hpp>
 #include <libmesh/weld/near_pairs.hpp>
@@ -186,9 +187,8 @@ std::vector<std::uint32_t> sparse_chains(points_view points, const weld_options&
                                add_copy, add_pairs};
     if (!find_pairs(task, search)) return {};
     std::vector<std::uint32_t> root_of(points.size());
-    for_chunks(points.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i)
-            root_of[i] = sets.root(static_cast<std::uint32_t>(i));
+    base::for_numbers(points.size(), [&](std::size_t i) {
+        root_of[i] = sets.root(static_cast<std::uint32_t>(i));
     });
     return root_of;
 }

@@ -1,5 +1,5 @@
+#include <libmesh/base/for_numbers.hpp>
 #include <libmesh/weld/vertex_values.hpp>
-#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -16,9 +16,7 @@ namespace {
 template <class T, class Value>
 buffer<T> filled(std::size_t count, const Value& value) {
     buffer<T> values(count);
-    for_chunks(count, light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) values[i] = value(i);
-    });
+    base::for_numbers(count, [&](std::size_t i) { values[i] = value(i); });
     return values;
 }
 

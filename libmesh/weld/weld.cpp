@@ -1,4 +1,5 @@
 #include <libmesh/base/check_faces.hpp>
+#include <libmesh/base/for_numbers.hpp>
 #include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/resize_all.hpp>
@@ -192,9 +193,8 @@ void carry_points(points_view points, const attributes& properties, const weld_o
                   weld_result& result) {
     std::vector<point3>& places = result.mesh.points;
     detail::base::resize_all(result.point_of_group.size(), places);
-    for_chunks(places.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t g = begin; g < end; ++g) places[g] = points[result.point_of_group[g]];
-    });
+    detail::base::for_numbers(places.size(),
+                              [&](std::size_t g) { places[g] = points[result.point_of_group[g]]; });
     result.attributes = detail::weld::carry_rows(properties, result);
     if (options.keep != weld_keep::mean) return;
     const detail::weld::group_members members(result.groups);
