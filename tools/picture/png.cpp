@@ -1,5 +1,4 @@
-#include "tools/picture/png.hpp"
-
+#include "tools/picture/sheet.hpp"
 #include <treeform/tf.hpp>
 #include <treeform/tree/parallel.hpp>
 

@@ -151,4 +151,19 @@ struct scene {
 /// Of each class, whether all that has it is colored by values instead.
 [[nodiscard]] std::vector<bool> mapped_classes(const scene& shown);
 
+using scene_segment = std::array<tf::point3, 2>;
+
+/// Edges of one face. Those that are linked by points bound one hole, or border one sheet.
+struct open_edges {
+    std::vector<scene_segment> ends{};
+    std::vector<std::uint32_t> hole{};  ///< [E] its number, from 0, in the order of first edges
+    std::uint32_t holes = 0;
+};
+
+/// The edges of one face; points with equal coordinates are one.
+///
+/// \pre  coordinates of faces are finite
+/// \cost O(V + F log F)
+[[nodiscard]] open_edges find_open_edges(tf::mesh_view mesh);
+
 }  // namespace tools

@@ -3,7 +3,6 @@
 #include "tools/manual/manual.hpp"
 #include "tools/shell/exit_status.hpp"
 #include "tools/shell/file_names.hpp"
-#include "tools/shell/folder_files.hpp"
 #include "tools/shell/parse_value.hpp"
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tf.hpp>

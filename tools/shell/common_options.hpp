@@ -2,7 +2,7 @@
 /// \file
 /// The options that all tools share.
 
-#include "tools/picture/options.hpp"
+#include "tools/picture/view.hpp"
 #include "tools/shell/command_line.hpp"
 #include <treeform/mesh/read.hpp>
 #include <treeform/tf.hpp>

@@ -1,7 +1,11 @@
 #include "tools/shell/file_names.hpp"
 
+#include "tools/shell/common_options.hpp"
+
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <system_error>
 
@@ -31,6 +35,22 @@ std::optional<file_identity> identity_of(const fs::path& path) {
     return file_identity{whole_name(path), std::pair{there.st_dev, there.st_ino}};
 }
 
+namespace fs = std::filesystem;
+
+/// Ascending; none where the folder cannot be looked into, which reading it will say.
+[[nodiscard]] std::vector<std::string> files_in(const fs::path& folder,
+                                                std::span<const std::string> extensions) {
+    std::vector<std::string> files;
+    std::error_code error;
+    fs::directory_iterator at(folder, error);
+    for (; !error && at != fs::directory_iterator(); at.increment(error))
+        if (std::ranges::count(extensions, extension_of(at->path())) > 0 &&
+            !at->is_directory(error))
+            files.push_back(at->path().string());
+    std::ranges::sort(files);
+    return files;
+}
+
 }  // namespace
 
 bool file_names::add(const fs::path& path) {
@@ -45,6 +65,19 @@ bool file_names::holds(const fs::path& path) const {
     const auto file = identity_of(path);
     return file &&
            (names_.contains(file->name) || (file->on_disk && on_disk_.contains(*file->on_disk)));
+}
+
+std::vector<std::string> files_of(std::span<const std::string> paths,
+                                  std::span<const std::string> extensions) {
+    std::vector<std::string> all;
+    for (const std::string& path : paths) {
+        std::error_code ignored;
+        const bool folder = path != "-" && fs::is_directory(path, ignored);
+        std::vector<std::string> files = folder ? files_in(path, extensions) : std::vector{path};
+        if (files.empty()) files.push_back(path);
+        all.insert(all.end(), files.begin(), files.end());
+    }
+    return all;
 }
 
 }  // namespace tools

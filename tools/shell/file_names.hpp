@@ -1,12 +1,15 @@
 #pragma once
 /// \file
-/// Which names are names of one file.
+/// Which names are names of one file; the files of a folder.
 
 #include <sys/types.h>
 
 #include <filesystem>
 #include <set>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace tools {
 
@@ -22,5 +25,10 @@ class file_names {
     std::set<std::filesystem::path> names_;        ///< absolute, without links
     std::set<std::pair<dev_t, ino_t>> on_disk_{};  ///< a file may have several names
 };
+
+/// `paths` with each folder replaced by its files with one of `extensions`, in the order of their
+/// names. Subfolders are not searched. A folder without such files is kept, and so is "-".
+[[nodiscard]] std::vector<std::string> files_of(std::span<const std::string> paths,
+                                                std::span<const std::string> extensions);
 
 }  // namespace tools

@@ -1,7 +1,6 @@
 #include "tools/shell/shown.hpp"
 
 #include "tools/picture/page.hpp"
-#include "tools/picture/png.hpp"
 #include "tools/picture/sheet.hpp"
 #include "tools/shell/output_file.hpp"
 #include <treeform/tf.hpp>

@@ -1,6 +1,8 @@
 #pragma once
 /// \file
-/// Options and errors of tools that work in tiles on the disk where memory is short.
+/// Options and errors of tools that work in tiles on the disk where memory is short. The processes
+/// that mpirun has started, as a team: MPI itself is in a library of its own, which is loaded where
+/// there is such a team and nowhere else.
 
 #include "tools/shell/command_line.hpp"
 #include "tools/shell/common_options.hpp"
@@ -87,5 +89,15 @@ void say_tiles(job& work);
 
 /// What the library says of its files, for the person and the shell.
 [[nodiscard]] failure failure_of(const job& work, const tf::io_error& error);
+
+struct team_member {
+    tf::communicator communicator{};
+    std::string error{};  ///< to be set by a tool that fails: what it says of it
+};
+
+/// Runs a tool: as one of the team that mpirun has started, or alone. Only the first one is heard.
+/// A failure of one ends all: where they meet next, `exchange` throws it, or else after some
+/// seconds. Returns the exit status.
+[[nodiscard]] int run_in_team(const std::function<int(team_member&)>& tool);
 
 }  // namespace tools

@@ -1,4 +1,4 @@
-#include "tools/picture/edges.hpp"
+#include "tools/picture/scene.hpp"
 #include "tools/shell/console.hpp"
 #include "tools/shell/shown.hpp"
 #include "tools/tf-boolean/outputs.hpp"

@@ -1,8 +1,8 @@
 #include "tools/tf-boolean/solids.hpp"
 
-#include "tools/shell/arrangeable.hpp"
 #include "tools/shell/console.hpp"
-#include "tools/shell/matrix_file.hpp"
+#include "tools/shell/curve_file.hpp"
+#include "tools/shell/usable_input.hpp"
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/measure.hpp>

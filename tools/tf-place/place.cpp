@@ -1,7 +1,7 @@
 #include "tools/tf-place/place.hpp"
 
 #include "tools/shell/console.hpp"
-#include "tools/shell/matrix_file.hpp"
+#include "tools/shell/curve_file.hpp"
 #include "tools/shell/mesh_output.hpp"
 #include <treeform/mesh/slide.hpp>
 #include <treeform/tf.hpp>

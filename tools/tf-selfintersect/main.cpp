@@ -6,7 +6,7 @@
 #include "tools/shell/curve_file.hpp"
 #include "tools/shell/mesh_output.hpp"
 #include "tools/shell/run.hpp"
-#include "tools/shell/team.hpp"
+#include "tools/shell/tile_options.hpp"
 #include "tools/tf-selfintersect/in_tiles.hpp"
 #include "tools/tf-selfintersect/outputs.hpp"
 #include <treeform/tf.hpp>

@@ -1,6 +1,6 @@
-#include "tools/shell/arrangeable.hpp"
 #include "tools/shell/console.hpp"
 #include "tools/shell/mesh_output.hpp"
+#include "tools/shell/usable_input.hpp"
 #include "tools/tf-selfintersect/outputs.hpp"
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/carry.hpp>

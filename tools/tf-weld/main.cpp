@@ -5,7 +5,7 @@
 #include "tools/shell/common_options.hpp"
 #include "tools/shell/output_file.hpp"
 #include "tools/shell/run.hpp"
-#include "tools/shell/team.hpp"
+#include "tools/shell/tile_options.hpp"
 #include "tools/tf-weld/out_of_core.hpp"
 #include "tools/tf-weld/outputs.hpp"
 #include "tools/tf-weld/settings.hpp"

@@ -2,7 +2,7 @@
 
 #include "tools/shell/console.hpp"
 #include "tools/shell/mesh_output.hpp"
-#include "tools/shell/spooled_input.hpp"
+#include "tools/shell/usable_input.hpp"
 #include "tools/tf-weld/in_memory.hpp"
 #include "tools/tf-weld/in_tiles.hpp"
 #include <treeform/mesh/mesh_file.hpp>

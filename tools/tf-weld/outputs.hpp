@@ -2,8 +2,8 @@
 /// \file
 /// What tf-weld writes: the welded set, the map, the points removed, the report.
 
+#include "tools/shell/mesh_output.hpp"
 #include "tools/shell/output_file.hpp"
-#include "tools/shell/written_form.hpp"
 #include "tools/tf-weld/welding.hpp"
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/write.hpp>

@@ -1,4 +1,4 @@
-#include "tools/shell/folder_files.hpp"
+#include "tools/shell/file_names.hpp"
 
 #include <doctest/doctest.h>
 #include <unistd.h>

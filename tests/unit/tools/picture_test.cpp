@@ -1,5 +1,4 @@
 #include "tools/picture/font.hpp"
-#include "tools/picture/png.hpp"
 #include "tools/picture/scene.hpp"
 #include "tools/picture/sheet.hpp"
 #include <treeform/mesh/mesh.hpp>

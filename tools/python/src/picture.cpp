@@ -1,6 +1,5 @@
 #include "bindings.hpp"
 #include "tools/picture/page.hpp"
-#include "tools/picture/png.hpp"
 #include "tools/picture/scene.hpp"
 #include "tools/picture/sheet.hpp"
 
