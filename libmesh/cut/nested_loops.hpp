@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which loops of a plane lie in which, exactly.
+/// The exact nesting of the loops of a plane.
 
 #include <libmesh/cut/layer_loops.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -11,7 +11,7 @@
 
 namespace treeform::detail::cut {
 
-/// Of a loop: as `section_loop`, by numbers in the layer.
+/// The nesting of a loop, as in `section_loop`, with loop numbers of the layer.
 struct nesting {
     std::uint32_t parent;
     std::uint32_t depth;

@@ -1,7 +1,6 @@
 #pragma once
 /// \file
-/// The faces of a mesh cut by parallel planes, and the caps that close what is between them,
-/// exactly.
+/// Cuts the faces of a mesh by parallel planes, exactly, with caps that close the slabs.
 
 #include <libmesh/cut/plane_levels.hpp>
 #include <libmesh/round/round_surface.hpp>
@@ -12,19 +11,19 @@
 
 namespace treeform::detail::cut {
 
-/// What is between two planes, before rounding.
+/// The part of a mesh between two planes, before rounding.
 struct slab {
     exact_surface surface;
     std::vector<std::uint32_t>
-        face_of;  ///< [F] face of the mesh, or its face count + the plane of a cap
-    std::vector<std::uint32_t> point_of;  ///< [given] point of the mesh
+        face_of;  ///< [F] source face; for a cap, number of faces of the mesh + number of its plane
+    std::vector<std::uint32_t> point_of;  ///< [given] source points in the mesh
 };
 
-/// [K + 1] Slabs below, between and above the planes of `levels`.
+/// [K + 1] The slabs below, between and above the planes of `levels`.
 ///
 /// \pre    any two faces have a corner, an edge or nothing in common, none is degenerate; with
 ///         `caps`, they bound a solid
-/// \cost   O(F + n log n) for n faces that are cut; caps as `triangles_of`
+/// \cost   O(F + n log n) for n cut faces; caps as `triangles_of`
 /// \same   on any number of threads
 [[nodiscard]] std::vector<slab> slabs_of(mesh_view mesh, const plane_levels& levels, bool caps);
 

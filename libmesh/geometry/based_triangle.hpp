@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A triangle put on its longest edge: what the distance from many points to it is computed from.
+/// A triangle in a frame on its longest edge, precomputed for distances from many points.
 
 #include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/predicates.hpp>
@@ -9,21 +9,21 @@
 
 namespace treeform::detail::geometry {
 
-/// The points of the triangle are corner + s base + t height with 0 <= t <= 1 and
-/// t apex <= s <= 1 - t (1 - apex): `height` is at a right angle to `base`, and meets it below the
-/// third corner at `apex`, which lies in [0, 1] because the base is the longest edge.
+/// The points of the triangle are corner + s base + t height with 0 <= t <= 1 and t apex <= s <= 1
+/// - t (1 - apex): `height` is perpendicular to `base`, from its foot at `apex` to the third
+/// corner; `apex` is in [0, 1] because the base is the longest edge.
 ///
-/// Why this and not barycentric coordinates, which divide by the normal: the distance along the
-/// base is right to a rounding of the lengths whatever the aspect of the triangle. And a wrong
-/// direction of `height`, which is short where rounding turns it far, moves no point of the
-/// triangle by more than a few roundings of the base.
+/// Unlike barycentric coordinates, which divide by the normal, the distance along the base is
+/// correct up to a rounding of the lengths for any aspect ratio. An error in the direction of
+/// `height`, which is large only if `height` is short, moves no point of the triangle by more than
+/// a few roundings of the base.
 struct based_triangle {
     point3 corner;
     point3 base;
     point3 height;
     double apex = 0.0;
-    double per_base = 0.0;    ///< 1 / base^2, 0 for a base of no length
-    double per_height = 0.0;  ///< 1 / height^2, 0 for a height of none
+    double per_base = 0.0;    ///< 1 / base^2; 0 for a base of length 0
+    double per_height = 0.0;  ///< 1 / height^2; 0 for a height of length 0
 
     based_triangle() = default;
     explicit based_triangle(const triangle3& t) {

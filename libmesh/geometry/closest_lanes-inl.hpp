@@ -1,5 +1,6 @@
 /// \file
-/// The nearest points of many triangles at once. Included once for each target of Highway.
+/// Closest points of several triangles at once, in SIMD lanes. Included once for each target of
+/// Highway.
 
 #if defined(TREEFORM_CLOSEST_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef TREEFORM_CLOSEST_LANES_INL
@@ -18,7 +19,8 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A triangle a lane: the members of `based_triangle`, and p - corner. V is a vector of doubles.
+/// One triangle in each lane: the members of `based_triangle`, and p - corner. V is a vector of
+/// doubles.
 template <class V>
 struct based_lanes {
     V base[3];
@@ -37,7 +39,7 @@ HWY_INLINE V dot_lanes(const V (&a)[3], const V (&b)[3]) {
     return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
 }
 
-/// Where on each triangle the point nearest to p is, and its squared distance from p.
+/// The point of each triangle nearest to p, and its squared distance from p.
 ///
 /// The foot (s, t) of p in the plane is the answer if it lies in the triangle. Else it is the
 /// nearest of the feet on the three edges, each clamped to its edge, in the metric of the plane:
@@ -50,7 +52,8 @@ HWY_INLINE closest_lanes<V> closest_on(D d, const based_lanes<V>& of) {
     const V least = hn::Set(d, 1e-300);
     const auto clamp = [&](V x) { return hn::Min(hn::Max(x, zero), one); };
     const V s = hn::Mul(dot_lanes(of.from, of.base), of.per_base);
-    // Without what lies along the base, as rounding leaves a short height at no right angle to it.
+    // Remove the component along the base: after rounding, a short height is not perpendicular to
+    // it.
     V across[3];
     for (std::size_t k = 0; k < 3; ++k) across[k] = hn::Sub(of.from[k], hn::Mul(s, of.base[k]));
     const V t = hn::Mul(dot_lanes(across, of.height), of.per_height);

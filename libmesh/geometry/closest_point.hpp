@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The point of a triangle that is nearest to a given point.
+/// The point of a triangle nearest to a given point.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
@@ -10,25 +10,25 @@ namespace treeform {
 
 struct closest_on_triangle {
     point3 point;                   ///< on the triangle, rounded
-    double squared_distance = 0.0;  ///< from the query to it
+    double squared_distance = 0.0;  ///< squared distance from the query to `point`
 };
 
 /// The point of the closed triangle `t` that is nearest to `p`, computed in double.
 ///
 /// With u = 2^-53 and L the largest distance between any two of the four points, the square root of
-/// `squared_distance` is within 8 u L of the true distance: also for slivers and needles of any
-/// aspect, and for degenerate triangles, which are the segment or point that their corners span.
-/// No decision in it is exact, none is needed: a wrong one costs a rounding error.
+/// `squared_distance` is within 8 u L of the true distance. This holds for slivers and needles of
+/// any aspect ratio, and for degenerate triangles, which are the segment or point that their
+/// corners span. No exact decisions are needed: a wrong one causes only a rounding error.
 ///
 /// \pre    coordinates are finite; squares of L are neither denormal nor infinite
-/// \cost   some 70 operations, no allocation
+/// \cost   about 70 operations, no allocation
 [[nodiscard]] TREEFORM_API closest_on_triangle closest_point(const triangle3& t, const point3& p);
 
 namespace detail::geometry {
 
 struct based_triangle;
 
-/// As `closest_point`, of a triangle that is asked for often.
+/// The squared distance of `closest_point`, for a triangle with many queries.
 [[nodiscard]] double squared_distance(const based_triangle& t, const point3& p);
 
 }  // namespace detail::geometry

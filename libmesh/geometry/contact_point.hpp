@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where a named contact of two triangles is, for pictures and reports.
+/// Approximate coordinates of a contact of two triangles, for display and reports.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
@@ -10,13 +10,14 @@ namespace treeform {
 
 /// Coordinates of the contact `c` of `a` and `b`, rounded.
 ///
-/// A corner comes out bit for bit (that of `a` where both are corners). Any other point is computed
-/// in double: to a few units in the last place of the edge's length where edge and plane, or
-/// edge and edge, meet at a fair angle; less well when they are nearly parallel. Always finite, and
-/// always inside the box of each feature named, hence inside the boxes of both triangles. Decides
-/// nothing: two contacts may round to one point, and the point need not lie on either triangle.
+/// A corner is returned unchanged (that of `a` if both features are corners). Any other point is
+/// computed in double: with an error of a few units in the last place of the edge length, or more
+/// if edge and plane, or the two edges, are nearly parallel. The result is finite and inside the
+/// box of each feature named, hence inside the boxes of both triangles. Do not use it for
+/// decisions: two contacts may round to the same point, and the point need not be on either
+/// triangle.
 ///
-/// \pre every coordinate is finite and `c` is an end that `intersect(a, b)` names
+/// \pre every coordinate is finite; `c` is an end of the result of `intersect(a, b)`
 [[nodiscard]] TREEFORM_API point3 approximate_point(const triangle3& a, const triangle3& b,
                                                     contact c);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Two triangles in one plane: the corners of what they share, in order.
+/// Intersection of two coplanar triangles: the corners of the common polygon, in order.
 
 #include <libmesh/geometry/view_axis.hpp>
 #include <treeform/mesh/predicates.hpp>

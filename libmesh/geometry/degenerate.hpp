@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Pairs of triangles of which at least one is only a segment or a point.
+/// Intersection of two triangles of which at least one is a segment or a point.
 
 #include <libmesh/geometry/view_axis.hpp>
 #include <treeform/mesh/predicates.hpp>

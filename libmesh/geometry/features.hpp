@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Arithmetic on the names of a triangle's parts, and the list contacts are gathered in.
+/// Arithmetic on the features of a triangle, and the list in which contacts are collected.
 
 #include <treeform/mesh/predicates.hpp>
 
@@ -21,12 +21,13 @@ constexpr bool is_corner(feature f) { return f <= feature::v2; }
 constexpr bool is_edge(feature f) { return f >= feature::e0 && f <= feature::e2; }
 constexpr int index_of(feature f) { return static_cast<int>(f) % 3; }
 
-/// Whether the closed edge `i` holds the points named `f`.
+/// Whether the closed edge `i` contains the points of feature `f`.
 constexpr bool holds(int i, feature f) {
     return f == edge(i) || f == corner(i) || f == corner(next(i));
 }
 
-/// The ends found so far, each name once. In one pair of triangles equal names are equal points.
+/// The ends found so far, without duplicates: for one pair of triangles, equal names are equal
+/// points.
 class contact_list {
   public:
     void add(feature on_a, feature on_b) {
@@ -54,7 +55,7 @@ class contact_list {
     int size_ = 0;
 };
 
-/// The answer whose ends are `ends`: a point, a segment or an area by their number.
+/// The contact with the given ends: a point, a segment or an area, by their number.
 inline triangle_contact contact_of(const contact_list& ends, bool coplanar) {
     assert(ends.size() <= 6);
     triangle_contact result;

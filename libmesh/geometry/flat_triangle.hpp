@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A degenerate triangle as the segment or point that it is.
+/// A degenerate triangle as a segment or point.
 
 #include <treeform/mesh/predicates.hpp>
 
@@ -9,8 +9,8 @@
 
 namespace treeform::detail::geometry {
 
-/// A closed segment and the names of its points: `inside` are those between the ends. A segment
-/// whose ends are equal is a point, named as its ends are.
+/// A closed segment and the features of its points; `inside` is the feature of the points between
+/// the ends. A segment with equal ends is a point with the feature of its ends.
 struct named_segment {
     point3 from;
     point3 to;
@@ -19,8 +19,8 @@ struct named_segment {
     feature inside;
 };
 
-/// A degenerate triangle cut at the corner between the other two, if there is one: each part
-/// lies on the same edges throughout, so its inner points have one name.
+/// A degenerate triangle, split at the corner between the other two, if there is one: each part is
+/// on the same edges throughout, so its inner points have one feature.
 struct flat_triangle {
     std::array<named_segment, 2> parts;
     int part_count = 1;
@@ -41,12 +41,13 @@ struct flat_triangle {
     }
 };
 
-/// `t` from its lexicographically least corner to its greatest; along a line that order is the
-/// line's. Points have the lowest-numbered name that fits: equal corners that of the first.
+/// `t` from its lexicographically least corner to its greatest; for points on a line, that is the
+/// order along the line. Points have the lowest-numbered feature that applies: equal corners have
+/// that of the first.
 /// \pre the corners are collinear
 [[nodiscard]] flat_triangle flatten(const triangle3& t);
 
-/// Order by x, then y, then z; on one line, from one end to the other. Right even where a processor
+/// Order by x, then y, then z; on a line, the order along it. Correct even on a processor that
 /// flushes denormals to zero.
 [[nodiscard]] bool lexicographically_less(const point3& p, const point3& q);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where a triangle meets the plane of another, by the signs of its corners alone.
+/// The intersection of a triangle with the plane of another, from the signs of its corners only.
 
 #include <libmesh/geometry/features.hpp>
 
@@ -8,22 +8,22 @@
 
 namespace treeform::detail::geometry {
 
-/// An end of the segment that a plane cuts from a triangle: the point where the triangle's side
-/// from corner `below` to corner `above` meets the plane. One of the two may lie on the plane, and
-/// is the end itself then.
+/// An end of the intersection of a triangle with a plane: the point where the side from corner
+/// `below` to corner `above` meets the plane. If one of the two corners is on the plane, it is the
+/// end.
 struct interval_end {
     int below = 0;
     int above = 0;
     feature name = feature::interior;
 };
 
-/// The common segment of a triangle and a plane that it meets without lying in it. Seen along the
-/// triangle's normal with the plane's normal pointing up, `west` is its left end and `east` its
-/// right one; both are the same corner where that is all that meets.
+/// The common segment of a triangle and a plane that meets but does not contain it. Seen along the
+/// triangle's normal with the plane's normal pointing up, `west` is the left end and `east` the
+/// right end; both are the same corner if only that corner is on the plane.
 struct plane_interval {
     interval_end west;
     interval_end east;
-    feature inside = feature::interior;  ///< name of the points between the ends
+    feature inside = feature::interior;  ///< feature of the points between the ends
 };
 
 constexpr interval_end end_at_corner(const std::array<int, 3>& side, int i) {
@@ -32,9 +32,9 @@ constexpr interval_end end_at_corner(const std::array<int, 3>& side, int i) {
     return {rises ? i : partner, rises ? partner : i, corner(i)};
 }
 
-/// The boundary runs counter-clockwise, so where it comes down through the plane the triangle lies
-/// to the east of it: that is the west end. A corner on the plane is passed on the way down when
-/// the corner before it is no lower than the one after, and on the way up when it is no higher.
+/// The boundary is counter-clockwise, so where it passes down through the plane, the triangle is to
+/// the east: that is the west end. A corner on the plane is passed downward if the previous corner
+/// is not lower than the next one, and upward if it is not higher.
 constexpr plane_interval make_plane_interval(const std::array<int, 3>& side) {
     plane_interval result;
     for (int i = 0; i < 3; ++i) {
@@ -59,7 +59,7 @@ constexpr std::size_t side_key(const std::array<int, 3>& side) {
     return static_cast<std::size_t>(key);
 }
 
-/// All 27 patterns of signs, by `side_key`; those without a common segment are never read.
+/// All 27 patterns of signs, by `side_key`. Entries without a common segment are not used.
 inline constexpr std::array<plane_interval, 27> plane_intervals = [] {
     std::array<plane_interval, 27> table{};
     for (int x = -1; x <= 1; ++x)

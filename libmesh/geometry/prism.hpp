@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Prisms around an axis.
+/// Regular prisms.
 
 #include <libmesh/base/point_math.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -12,10 +12,12 @@
 
 namespace treeform::detail::geometry {
 
-/// A regular prism of `sides` sides between two points, with corners `radius` from the line through
-/// them; the first lies towards `across[0]`. Faces look outward.
+/// A regular prism with `sides` sides between two points, with corners at a distance of `radius`
+/// from the line through them; the first corner is in the direction `across[0]`. Faces are oriented
+/// outward.
 ///
-/// \pre the way between the points and `across` are a right-handed frame; those of length 1
+/// \pre the vector between the points and the two unit vectors `across` are a right-handed
+///      orthogonal frame
 [[nodiscard]] inline mesh prism(const std::array<point3, 2>& ends,
                                 const std::array<point3, 2>& across, double radius,
                                 std::uint32_t sides) {

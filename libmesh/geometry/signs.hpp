@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The predicates as the triangle tests call them: filter inlined, so that calls with common
-/// arguments share work, and equal points recognized before anything is computed exactly.
+/// The predicates as used by the triangle tests: with an inlined filter, so that calls with common
+/// arguments share work, and a test for equal points before exact computation.
 
 #include <libmesh/exact/filter.hpp>
 #include <libmesh/exact/stages.hpp>
@@ -9,7 +9,8 @@
 
 namespace treeform::detail::geometry {
 
-/// Whether two points are equal; unlike ==, also where a processor flushes denormals to zero.
+/// Whether two points are equal; unlike ==, correct even on a processor that flushes denormals to
+/// zero.
 [[nodiscard]] inline bool equal_points(const point3& p, const point3& q) {
     const auto same = [](double x, double y) {
         return (exact::bit_pattern(x) - exact::bit_pattern(y)).zero;
@@ -17,14 +18,14 @@ namespace treeform::detail::geometry {
     return same(p.x, q.x) && same(p.y, q.y) && same(p.z, q.z);
 }
 
-/// Whether two of four points are equal: neighbors in a mesh ask about their common corners.
+/// Whether two of four points are equal, which is common for neighbors in a mesh.
 [[nodiscard, gnu::noinline]] inline bool some_equal(const point3& a, const point3& b,
                                                     const point3& c, const point3& d) {
     return equal_points(d, a) || equal_points(d, b) || equal_points(d, c) || equal_points(a, b) ||
            equal_points(a, c) || equal_points(b, c);
 }
 
-/// What is left of `orient3d_sign` when the filter is not enough.
+/// The rest of `orient3d_sign` when the filter is undecided.
 [[nodiscard, gnu::noinline]] inline int orient3d_undecided(const point3& a, const point3& b,
                                                            const point3& c, const point3& d,
                                                            predicate_counters* counters) {

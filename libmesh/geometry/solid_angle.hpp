@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Solid angles, by nothing but the four operations and square roots: of fixed order, so that they
-/// are the same to the last bit wherever doubles are.
+/// Solid angles, computed only with the four basic operations and square roots in a fixed order, so
+/// that results are bitwise equal on every platform with IEEE doubles.
 
 #include <treeform/mesh/mesh.hpp>
 
@@ -9,13 +9,13 @@ namespace treeform::detail::geometry {
 
 inline constexpr double full_solid_angle = 12.566370614359172;  ///< 4 pi
 
-/// The angle of the vector (x, y) against the direction x, in [-pi, pi]; 0 of the vector 0. As
-/// `atan2`, except for an error of up to 2e-11, and without the signs of zeros.
+/// The angle of the vector (x, y) to the x axis, in [-pi, pi]; 0 for the zero vector. Like `atan2`,
+/// with an error of up to 2e-11, and ignoring the signs of zeros.
 [[nodiscard]] double angle_of(double y, double x);
 
-/// The solid angle of a triangle as seen from the origin, in [-2 pi, 2 pi], up to an error of 1e-10
-/// where the origin is not next to its plane: positive where its corners are seen clockwise, as
-/// from behind it.
+/// The solid angle of a triangle as seen from the origin, in [-2 pi, 2 pi], with an error of up to
+/// 1e-10 if the origin is not close to its plane. Positive if its corners appear clockwise, that
+/// is, from behind.
 ///
 /// \pre    coordinates are below 1e90
 /// \source van Oosterom and Strackee, The Solid Angle of a Plane Triangle, IEEE Transactions on

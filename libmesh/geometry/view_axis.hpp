@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Along which axis a triangle can be looked at without losing a dimension.
+/// Projection of a triangle along a coordinate axis without degeneration.
 
 #include <treeform/mesh/predicates.hpp>
 
@@ -9,19 +9,19 @@
 namespace treeform::detail::geometry {
 
 struct view_axis {
-    int axis = 0;  ///< 0, 1 or 2: the coordinate left out
-    int turn = 0;  ///< orient2d of the triangle's corners along it: +1 or -1
+    int axis = 0;  ///< 0, 1 or 2: the coordinate that is dropped
+    int turn = 0;  ///< sign of orient2d of the projected corners: +1 or -1
 };
 
-/// An axis to which the plane of `t` is not parallel, or nothing when `t` is degenerate. Any such
-/// axis keeps the order of points in the plane; of several, the one is taken that the plane faces
-/// most, up to rounding, since predicates decide fastest there.
+/// An axis that is not parallel to the plane of `t`; empty if `t` is degenerate. Projection along
+/// any such axis preserves the orientation of points in the plane up to a common sign. Of several,
+/// the one closest to the normal, up to rounding, is returned, since predicates are fastest there.
 [[nodiscard]] std::optional<view_axis> find_view_axis(const triangle3& t,
                                                       predicate_counters* counters);
 
-/// Where a point lies in a triangle, from the signs of its orientation about the three edges,
-/// which are taken in one plane and not all zero. Nothing when it lies outside: then, and only
-/// then, two of the signs are opposite.
+/// The feature of a triangle that contains a point of its plane, from the signs of the point's
+/// orientations relative to the three edges, which are not all zero. Empty if the point is outside:
+/// if and only if two of the signs are opposite.
 [[nodiscard]] constexpr std::optional<feature> locate(const std::array<int, 3>& about) {
     const bool left = about[0] > 0 || about[1] > 0 || about[2] > 0;
     const bool right = about[0] < 0 || about[1] < 0 || about[2] < 0;

@@ -1,13 +1,13 @@
 #pragma once
 /// \file
-/// Edges collapsed as long as all checks are passed.
+/// Edge collapses, each subject to all checks.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/simplify.hpp>
 
 namespace treeform::detail::simplify {
 
-/// As `treeform::simplify`, of which solids are not looked at.
+/// Like `treeform::simplify`, without the treatment of solids.
 [[nodiscard]] simplify_result collapse_edges(mesh_view given, double distance,
                                              const simplify_options& options);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Proof that a triangle is within a distance of others.
+/// Proves that a triangle is within a distance of other triangles.
 
 #include <libmesh/geometry/based_triangle.hpp>
 #include <treeform/mesh/predicates.hpp>
@@ -14,7 +14,7 @@
 
 namespace treeform::detail::simplify {
 
-/// A triangle that others may be near, made ready for distances.
+/// A target triangle, prepared for distance computations.
 struct target {
     triangle3 corners;
     geometry::based_triangle based;
@@ -26,26 +26,28 @@ struct target {
     }
 };
 
-/// Cuts a triangle into pieces, each of which is within a distance of a single one of others: as
-/// distance from a convex set is convex, corners of a piece tell.
+/// Divides a triangle into pieces, each within a distance of a single target. The distance to a
+/// convex set is convex, so it suffices to test the corners of a piece.
 class covering {
   public:
     struct use {
-        std::uint32_t number = 0;  ///< of the other
-        double at_most = 0.0;      ///< no point that it stands for is further from it
+        std::uint32_t number = 0;  ///< number of the target
+        /// bound of the distance to the target, for the pieces assigned to it
+        double at_most = 0.0;
     };
 
     /// \param largest no coordinate of a triangle has a larger magnitude
     explicit covering(double largest) : unit_(0x1p-53 * largest) {}
 
-    /// Whether it is proven: else it is further away, or takes too many pieces. What is proven is
-    /// in `used` then.
+    /// Returns whether every point of `t` is proven to be within `distance` of one of `by`. If so,
+    /// `used` has the targets and their bounds. Otherwise `t` is farther away, or the proof takes
+    /// too many pieces.
     ///
-    /// Numbers that corners of pieces have within the triangle are taken as exact, whatever they
-    /// are: pieces cover it. With M the largest coordinate and u = 2^-53, a corner is where they
-    /// say to 9 u M for each cut that it comes of: a difference, a product and a sum of at most 2,
-    /// 2 and 1 M on each axis. `closest_point` is off by 8 u times 2 sqrt(3) M, root and square of
-    /// the distance by less than 12 u M.
+    /// Barycentric coordinates of the corners of pieces are regarded as exact, since pieces cover
+    /// the triangle in any case. With M the largest coordinate and u = 2^-53, the computed position
+    /// of a corner is off by at most 9 u M for each cut that it results from: a difference, a
+    /// product and a sum of at most 2, 2 and 1 M on each axis. `closest_point` is off by 8 u times
+    /// 2 sqrt(3) M; root and square of the distance by less than 12 u M.
     [[nodiscard]] bool cover(const triangle3& t, std::span<const target> by, double distance);
 
     [[nodiscard]] const std::vector<use>& used() const { return used_; }
@@ -54,8 +56,9 @@ class covering {
     struct piece {
         std::array<point3, 12> corners{};
         std::uint32_t count = 0;
-        std::uint32_t cuts = 0;                      ///< that a corner comes of, at most
-        std::uint32_t near_begin = 0, near_end = 0;  ///< in `near_`, what it is near
+        std::uint32_t cuts = 0;  ///< maximum number of cuts that a corner results from
+        /// range in `near_`: the targets near the piece
+        std::uint32_t near_begin = 0, near_end = 0;
     };
     struct halves {
         piece behind, before;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// That a surface which changes stays within a distance of what it was, both ways.
+/// Proves that a changing surface and its original stay within a distance of each other.
 
 #include <libmesh/simplify/connected_faces.hpp>
 #include <libmesh/simplify/covering.hpp>
@@ -17,13 +17,13 @@
 
 namespace treeform::detail::simplify {
 
-/// Faces that others are to take the place of.
+/// A replacement of faces by others.
 struct change {
     ids old;                        ///< ascending
     std::vector<triangle3> before;  ///< [old]
-    ids kept;                       ///< of `old`, those that stay with another corner, ascending
-    std::vector<triangle3> after;   ///< [kept]
-    bool same_rim = true;           ///< `before` and `after` are disks with the same border
+    ids kept;  ///< the faces of `old` that remain, with a changed corner; ascending
+    std::vector<triangle3> after;  ///< [kept]
+    bool same_rim = true;          ///< `before` and `after` are disks with the same border
 
     void clear() {
         for (ids* all : {&old, &kept}) all->clear();
@@ -31,24 +31,24 @@ struct change {
     }
 };
 
-/// Bounds for each face: `there`, of points of the input that are near it, and `back`, of its
-/// points from the input.
+/// Two bounds for each face: `there`, of the distance of the input points assigned to it, and
+/// `back`, of the distance of its points to the input.
 ///
-/// Each point of the input belongs to a face now that it is near to, and that face has the triangle
-/// of the point in its list. When faces change, their points go to the new ones. The two surfaces
-/// before and after, seen along a direction in which both face the eye and have one rim, cover each
-/// other: so bounds grow by the gap between them (a step). Where that is too much, both bounds are
-/// made anew from the input: points of all triangles in lists are covered by faces, and faces by
-/// the input, seen along their normals or in pieces.
+/// Each point of the input is assigned to a nearby current face, and that face lists the triangle
+/// of the point. When faces are replaced, their points are assigned to the new ones. If the old and
+/// the new faces all face the viewer along some direction and have the same rim, they cover each
+/// other in that view; so the bounds grow by the gap between them (a step). If that is too much,
+/// both bounds are recomputed from the input: the listed triangles are covered by faces, and faces
+/// by the input, in views along their normals or in pieces.
 class distance_proof {
   public:
-    /// \param largest no coordinate has a larger magnitude, nor will
+    /// \param largest bound of the magnitude of all coordinates, also of future ones
     distance_proof(mesh_view given, const connected_faces& now, double largest, double limit);
 
     [[nodiscard]] bool holds_by_step(const change& c);
-    /// \param tree of faces as they are before
+    /// \param tree the faces before the change
     [[nodiscard]] bool holds_anew(const change& c, const dynamic_tree<3>& tree);
-    /// Makes the change that was last asked for, and holds.
+    /// Applies the change that was tested last. \pre that test returned true
     void accept(const change& c);
 
     [[nodiscard]] const triangle3& given(std::uint32_t t) const { return given_[t].corners; }
@@ -66,14 +66,14 @@ class distance_proof {
     struct bounded {
         triangle3 now{};
         double there = 0.0, back = 0.0;
-        /// triangles of the input some of whose points belong to it, or that it is near
+        /// triangles of the input with points assigned to the face, or near it
         ids near{};
     };
     struct input_triangle {
         triangle3 corners{};
         aabb<double, 3> box{};
         std::array<std::uint32_t, 3> mates{};
-        std::uint32_t visited = 0;  ///< the last visit
+        std::uint32_t visited = 0;  ///< mark of the last visit
     };
     struct raised {
         std::uint32_t face, given;
@@ -88,16 +88,16 @@ class distance_proof {
 
     std::vector<input_triangle> given_{};
     double limit_;
-    double rounding_;  ///< of boxes
+    double rounding_;  ///< rounding margin of boxes
     std::vector<bounded> faces_{};
     covering covering_;
-    ids affected_{};                ///< triangles of the input in lists of old faces
-    std::vector<bounded> made_{};   ///< [kept] of the change
-    std::vector<raised> raised_{};  ///< other faces that points went to
+    ids affected_{};                ///< triangles of the input listed by old faces
+    std::vector<bounded> made_{};   ///< [kept] new faces of the change
+    std::vector<raised> raised_{};  ///< other faces to which points were assigned
     std::vector<target> targets_{};
-    ids others_{};  ///< faces that targets are, after those made
+    ids others_{};  ///< face numbers of the targets after the new faces
     std::vector<seen_triangle> seen_before_{}, seen_after_{};
-    std::uint32_t too_far_ = 0;  ///< triangle of the input where the last proof failed, or ended
+    std::uint32_t too_far_ = 0;  ///< triangle of the input at which the last proof failed or ended
     ids waiting_{};
     std::uint32_t visit_ = 0;
 };

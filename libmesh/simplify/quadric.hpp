@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Sums of squared distances from planes: which places change a surface least.
+/// Quadric error metric: the positions that change a surface least.
 
 #include <libmesh/base/point_math.hpp>
 
@@ -27,7 +27,7 @@ struct quadric {
                p.y * (of[4] * p.y + 2 * (of[5] * p.z + of[6])) + p.z * (of[7] * p.z + 2 * of[8]) +
                of[9];
     }
-    /// Where it is least; not finite where that is no single point.
+    /// The position of the minimum; not finite if it is not unique.
     [[nodiscard]] point3 lowest() const {
         const point3 a{of[0], of[1], of[2]}, b{of[1], of[4], of[5]}, c{of[2], of[5], of[7]};
         const point3 bc = base::cross(b, c), ca = base::cross(c, a), ab = base::cross(a, b);
