@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The pairs of parts of an assembly that may meet; a part, moved, against another one.
+/// Relations of moved parts of an assembly.
 
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/clash.hpp>
@@ -15,21 +15,7 @@
 
 namespace treeform::detail::assembly {
 
-/// The box of the points that faces use, by part; none without faces.
-[[nodiscard]] std::vector<std::optional<box3>> boxes_of(std::span<const prepared_mesh> parts);
-
-/// Pairs of parts whose boxes are within `distance` of each other along each axis; ascending, the
-/// lower number first.
-[[nodiscard]] std::vector<part_pair> near_pairs(const std::vector<std::optional<box3>>& boxes,
-                                                double distance);
-
-/// The pairs, ascending, each once, the lower number first.
-/// \throws std::invalid_argument for a number of `count` or more; `function` is "clash"
-[[nodiscard]] std::vector<part_pair> sorted_pairs(const char* function,
-                                                  std::span<const part_pair> pairs,
-                                                  std::size_t count);
-
-/// What is known of a part before it is moved.
+/// Data of a part that does not depend on its motion.
 class resting_part {
   public:
     resting_part(const prepared_mesh& mesh, vertex_identity vertices);
@@ -37,7 +23,8 @@ class resting_part {
     [[nodiscard]] const place::shape& shape() const { return shape_; }
     [[nodiscard]] const std::optional<box3>& box() const { return box_; }
     [[nodiscard]] bool solid() const { return solid_; }
-    /// A corner of each component: no face of another mesh meets it, so all of it is where that is.
+    /// One corner of each component, which represents its component when no faces meet: then the
+    /// whole component is on the side of that corner.
     [[nodiscard]] const std::vector<point3>& corners() const { return corners_; }
 
   private:
@@ -52,15 +39,15 @@ struct part_relation {
     double distance = 0.0;
 };
 
-/// \pre the part outlives it, the transform is finite
+/// \pre the part outlives this; the transform is finite
 class moved_part {
   public:
     moved_part(const resting_part& part, const transform<3>& move);
 
-    /// Whether the boxes are within `distance` along each axis.
+    /// Whether the boxes are within `distance` of each other along each axis.
     [[nodiscard]] bool near(const moved_part& other, double distance) const;
 
-    /// Exactly, for the corners as moved; a distance only with a clearance.
+    /// The exact relation for the moved corners; computes a distance only with a clearance.
     [[nodiscard]] part_relation relation_to(const moved_part& other, double clearance) const;
 
   private:
@@ -71,7 +58,7 @@ class moved_part {
 
     const resting_part* part_;
     transform<3> move_;
-    std::optional<box3> box_{};  ///< around the corners as moved
+    std::optional<box3> box_{};  ///< box of the moved corners
 };
 
 }  // namespace treeform::detail::assembly

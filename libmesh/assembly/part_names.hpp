@@ -1,13 +1,14 @@
 #pragma once
 /// \file
-/// Which names a pattern stands for.
+/// Matching of part names by patterns.
 
 #include <string_view>
 
 namespace treeform::detail::assembly {
 
-/// Whether `name` is what `pattern` says: `*` stands for any characters, also none, `?` for one.
-/// \cost O(pattern times name)
+/// Whether `name` matches `pattern`: `*` matches any number of characters, including none; `?`
+/// matches one.
+/// \cost O(length of `pattern` * length of `name`)
 [[nodiscard]] bool matches(std::string_view pattern, std::string_view name);
 
 }  // namespace treeform::detail::assembly

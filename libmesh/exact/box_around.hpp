@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A box around a point that is known exactly.
+/// Bounding box of an implicit point.
 
 #include <libmesh/exact/implicit_point.hpp>
 #include <treeform/tree/aabb.hpp>
@@ -10,7 +10,7 @@
 
 namespace treeform::detail::exact {
 
-/// Rounded outward.
+/// The box of all positions within the error bound of `p`, rounded outward.
 [[nodiscard]] inline aabb<double, 3> box_around(const implicit_point& p) {
     aabb<double, 3> box;
     for (std::size_t k = 0; k < 3; ++k) {

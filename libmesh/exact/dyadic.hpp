@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Numbers m 2^(64 e) of any size: what is left when no fixed width is known to do.
+/// Numbers m 2^(64 e) of any size, for values without a fixed width that is known to suffice.
 
 #include <treeform/tree/detail/export.hpp>
 
@@ -12,17 +12,17 @@
 
 namespace treeform::detail::exact {
 
-/// An exact number, a whole multiple of a power of two. Sums and products are exact and never
-/// overflow. Made from finite doubles it takes no memory from the heap below 1536 bits.
+/// An exact number: an integer multiple of a power of two. Sums and products are exact and never
+/// overflow. Values made from finite doubles use no heap memory below 1536 bits.
 class TREEFORM_API dyadic {
   public:
     /// Zero.
     dyadic() = default;
     /// `magnitude` 2^shift, or its negative.
     dyadic(std::uint64_t magnitude, bool negative, int shift);
-    /// The whole number of these limbs, lowest first, or its negative.
+    /// The integer with these limbs, lowest first, or its negative.
     dyadic(std::span<const std::uint64_t> magnitude, bool negative);
-    /// The value of a finite double, denormals included. Bits only.
+    /// The value of a finite double, including denormals. Uses bit operations only.
     explicit dyadic(double x);
 
     dyadic(const dyadic& other);
@@ -32,10 +32,10 @@ class TREEFORM_API dyadic {
 
     /// -1, 0 or +1.
     [[nodiscard]] int sign() const { return size_ == 0 ? 0 : negative_ ? -1 : 1; }
-    /// Of the magnitude, lowest first; neither the first nor the last is zero.
+    /// The limbs of the magnitude, lowest first; neither the first nor the last is zero.
     [[nodiscard]] const std::uint64_t* limbs() const { return heap_ ? heap_.get() : near_.data(); }
     [[nodiscard]] std::size_t size() const { return size_; }
-    /// The lowest limb counts 2^(64 exponent).
+    /// The weight of the lowest limb is 2^(64 exponent).
     [[nodiscard]] int exponent() const { return exponent_; }
 
     friend dyadic operator+(const dyadic& a, const dyadic& b) { return dyadic(a, b, b.negative_); }
@@ -45,9 +45,9 @@ class TREEFORM_API dyadic {
   private:
     static constexpr std::size_t near_limbs = 24;
 
-    /// Room for `size` limbs, not yet set.
+    /// Allocates `size` limbs, uninitialized.
     dyadic(std::size_t size, int exponent, bool negative);
-    /// a + b, with b taken for negative or not, whatever its own sign.
+    /// a + |b|, or a - |b| if `b_negative`; the sign of b is ignored.
     dyadic(const dyadic& a, const dyadic& b, bool b_negative);
 
     [[nodiscard]] std::uint64_t* limbs() { return heap_ ? heap_.get() : near_.data(); }
@@ -68,7 +68,7 @@ class TREEFORM_API dyadic {
 [[nodiscard]] inline int sign_of(const dyadic& a) { return a.sign(); }
 
 /// A binary floating-point format: its bits of precision, the exponent of its least denormal, and
-/// the one of the power of two that it does not reach.
+/// the exponent of the least power of two beyond its range.
 struct float_format {
     int precision;
     int least;
@@ -78,12 +78,12 @@ inline constexpr float_format double_format{53, -1074, 1024};
 inline constexpr float_format float_format_32{24, -149, 128};
 
 struct rounded_quotient {
-    double value;  ///< infinite where it rounds to nothing finite; never -0
-    bool exact;    ///< the value is the quotient
+    double value;  ///< infinite on overflow; never -0
+    bool exact;    ///< the value equals the quotient
 };
 
-/// a / b 2^shift, rounded once to the nearest number of the format, ties to even.
-/// \pre b != 0, and `format` holds no more than a double
+/// (a / b) 2^shift, rounded once to the nearest number of the format, ties to even.
+/// \pre b != 0; every number of `format` is a double
 [[nodiscard]] TREEFORM_API rounded_quotient quotient(const dyadic& a, const dyadic& b, int shift,
                                                      const float_format& format);
 

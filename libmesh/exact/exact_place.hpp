@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Where a constructed point is, as exact quotients, and the predicates' values there: written once
-/// for integers of fixed width, for numbers of any size, and for a type that counts bits.
+/// The coordinates of a constructed point as exact quotients, and the values of predicates on them:
+/// written once for integers of fixed width, numbers of any size, and a type that counts bits.
 ///
 /// Widths. Coordinates are integers of at most m = 64 L - 3 bits on the lattice of the call. With a
 /// coordinate counted as one degree, a value of degree k is kept in k L limbs, a bit of which is
@@ -23,8 +23,8 @@
 
 namespace treeform::detail::exact {
 
-/// What a place is made of for coordinates of a number type: `small` for all points but those where
-/// three planes meet, `large` for all.
+/// The types of places for coordinates of a number type: `small` for all points except
+/// intersections of three planes, `large` for all points.
 template <class Number>
 struct places_of {
     using small = quotient_point<Number, Number>;
@@ -46,7 +46,7 @@ struct one_of<dyadic> {
     static dyadic value() { return dyadic(1, false, 0); }
 };
 
-/// The number in another type that holds it.
+/// The number converted to another type that can represent it.
 template <class To, class From>
 constexpr To widened(From&& a) {
     if constexpr (std::is_same_v<To, std::remove_cvref_t<From>>) {
@@ -82,7 +82,7 @@ constexpr Place place_of_lines(const vector3<Number>* p) {
     const auto other = p[3] - p[2];
     const auto under = cross(along, other);
     const auto over = cross(p[2] - p[0], other);
-    // In a projection where the lines are not parallel.
+    // Use a projection in which the lines are not parallel.
     if (sign_of(under.x) != 0) return place_along<Place>(p[0], along, over.x, under.x);
     if (sign_of(under.y) != 0) return place_along<Place>(p[0], along, over.y, under.y);
     return place_along<Place>(p[0], along, over.z, under.z);
@@ -112,7 +112,7 @@ constexpr Place place_of_planes(const vector3<Number>* p) {
                                 w * p[0].z + way.over.z, w);
 }
 
-/// The point that `p` defines as `kind` says. \pre three planes need `places_of<Number>::large`
+/// The point of the given kind that `p` defines. \pre three planes need `places_of<Number>::large`
 template <class Place, class Number>
 constexpr Place place_of(implicit_point::origin kind, const vector3<Number>* p) {
     using origin = implicit_point::origin;

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The quotient of two polynomials of one degree, computed in integers and rounded once at the end.
+/// The quotient of two polynomials of the same degree, computed in integers and rounded once at the
+/// end.
 
 #include <libmesh/exact/exact_sign.hpp>
 
@@ -17,7 +18,7 @@ struct scaled_double {
     int exponent;
 };
 
-/// The integer to a relative error below 2^-52.
+/// The integer with a relative error below 2^-52.
 template <std::size_t Limbs>
 [[nodiscard]] scaled_double scaled(const integer<Limbs>& a) {
     const integer<Limbs> magnitude = a.negative() ? integer<Limbs>{} - a : a;
@@ -27,7 +28,7 @@ template <std::size_t Limbs>
         const auto x = static_cast<double>(magnitude.limbs[0]);
         return {a.negative() ? -x : x, 0};
     }
-    // At least the 64 bits from the leading one on.
+    // Includes at least the 64 leading bits.
     const double x = std::ldexp(static_cast<double>(magnitude.limbs[top]), 64) +
                      static_cast<double>(magnitude.limbs[top - 1]);
     return {a.negative() ? -x : x, 64 * static_cast<int>(top - 1)};
@@ -45,8 +46,8 @@ template <class Polynomial, std::size_t Class>
     return std::ldexp(num.mantissa / den.mantissa, num.exponent - den.exponent);
 }
 
-/// x / y of the polynomial's value (x, y), with a relative error below 2^-49 but where the quotient
-/// is denormal. \pre y != 0
+/// x / y for the value (x, y) of the polynomial, with a relative error below 2^-49 unless the
+/// quotient is denormal. \pre y != 0
 template <class Polynomial>
 [[nodiscard]] double exact_ratio(const points_of<Polynomial, double>& points) {
     const auto parts = transform(points, odd_part_of);

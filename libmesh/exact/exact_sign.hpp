@@ -23,11 +23,11 @@
 
 namespace treeform::detail::exact {
 
-/// Limbs a coordinate of each width class; class 0 is `word`, with all results in 128 bits.
+/// Limbs for each coordinate in each width class; class 0 is `word`, with all results in 128 bits.
 inline constexpr std::array<std::size_t, predicate_counters::widths> limbs_of_class = {0, 1,  2, 4,
                                                                                        8, 16, 33};
 
-/// Most bits a coordinate may have in a class; see the head of this file.
+/// Maximum number of bits of a coordinate in a class; see the top of this file.
 template <class Polynomial>
 constexpr int most_bits(std::size_t width_class) {
     const int limbs = std::max(1, static_cast<int>(limbs_of_class[width_class]));
@@ -35,7 +35,7 @@ constexpr int most_bits(std::size_t width_class) {
     return std::min(64 * limbs - 2, (value_bits - 1 - Polynomial::growth) / Polynomial::degree - 1);
 }
 
-/// 1 when the vector has a component other than zero.
+/// 1 if the vector has a nonzero component, otherwise 0.
 template <class Number>
 constexpr int sign_of(const vector3<Number>& v) {
     return sign_of(v.x) != 0 || sign_of(v.y) != 0 || sign_of(v.z) != 0;
@@ -57,14 +57,14 @@ template <class Polynomial, std::size_t Class>
     return sign_of(Polynomial::value(Polynomial::differences(transform(points, on_grid))));
 }
 
-/// `sign_at_width`, called: large integers stay out of the caller's stack frame.
+/// `sign_at_width`, not inlined: keeps large integers out of the caller's stack frame.
 template <class Polynomial, std::size_t Class>
 [[gnu::noinline, nodiscard]] int sign_at_large_width(
     const lattice& grid, const points_of<Polynomial, odd_part>& points) {
     return sign_at_width<Polynomial, Class>(grid, points);
 }
 
-/// The first class that is wide enough.
+/// The narrowest class for coordinates of this many bits.
 template <class Polynomial>
 [[nodiscard]] constexpr std::size_t width_class_of(int bits) {
     std::size_t width_class = 0;
@@ -99,7 +99,7 @@ template <class Polynomial>
     }
 }
 
-/// Sign of the polynomial. Counts the width it took.
+/// Sign of the polynomial. Counts the width class used.
 template <class Polynomial>
 [[nodiscard]] inline int exact_sign(const points_of<Polynomial, double>& points,
                                     predicate_counters* counters) {

@@ -35,10 +35,10 @@
 
 namespace treeform::detail::exact {
 
-/// What a filter returns when it does not know the sign.
+/// Returned by a filter when the sign is uncertain.
 inline constexpr int undecided = 2;
 
-/// A double that is its own permanent up to sign: a difference or a product of differences.
+/// A double whose magnitude is its permanent: a difference or a product of differences.
 struct term {
     double value;
     [[nodiscard]] double permanent() const { return std::abs(value); }
@@ -69,7 +69,7 @@ inline sum operator-(Left a, Right b) {
     return {a.value - b.value, a.permanent() + b.permanent()};
 }
 
-/// Whether a polynomial vanishes for want of a product without zero factor.
+/// A number type that tests whether every product of a polynomial has a zero factor.
 struct vanishing {
     bool zero;
 };
@@ -77,8 +77,8 @@ inline vanishing operator*(vanishing a, vanishing b) { return {a.zero || b.zero}
 inline vanishing operator+(vanishing a, vanishing b) { return {a.zero && b.zero}; }
 inline vanishing operator-(vanishing a, vanishing b) { return {a.zero && b.zero}; }
 
-/// A coordinate of which only equality matters. Compared as bits, since a processor that flushes
-/// denormals takes distinct ones for equal.
+/// A coordinate that is only compared for equality, by its bits: a processor that flushes denormals
+/// would take different ones for equal.
 struct bit_pattern {
     std::uint64_t bits;
     explicit bit_pattern(double x) : bits(std::bit_cast<std::uint64_t>(x)) {
@@ -87,11 +87,12 @@ struct bit_pattern {
 };
 inline vanishing operator-(bit_pattern a, bit_pattern b) { return {a.bits == b.bits}; }
 
-/// Factor of the permanent that bounds the error; the derivation is at the head of this file.
+/// The error is bounded by this factor times the permanent; see the derivation at the top of this
+/// file.
 template <class Polynomial>
 inline constexpr double error_factor = (Polynomial::roundings + 1) * 0x1p-52;
 
-/// Below this permanent the filter decides nothing.
+/// Permanents below this are undecided.
 inline constexpr double least_permanent = 0x1p-550;
 
 /// Largest difference M for which the filter decides: the largest power of two with
@@ -114,9 +115,9 @@ inline vector2<double> vector_of(const vector2<double>& v) { return v; }
 inline vector2<double> vector_of(const point2& p) { return {p.x, p.y}; }
 inline vector3<double> vector_of(const point3& p) { return {p.x, p.y, p.z}; }
 
-/// Whether every product of the polynomial has a zero factor. True implies that its value is zero:
-/// points of one axis-parallel plane, or a point given twice. Not inlined, and points
-/// taken by value: where the filter decides, nothing is stored for it.
+/// Whether every product of the polynomial has a zero factor. If so, its value is zero, for example
+/// for points in one axis-parallel plane, or for a repeated point. Not inlined, and with points by
+/// value, so that nothing is stored for it when the filter decides.
 template <class Polynomial, class... Points>
 [[gnu::noinline, nodiscard]] bool vanishes(Points... points) {
     const auto bits =
@@ -124,7 +125,7 @@ template <class Polynomial, class... Points>
     return Polynomial::value(Polynomial::differences(bits)).zero;
 }
 
-/// Sign of the polynomial: -1, 0, +1, or `undecided`. Zero is known only where every product has a
+/// Sign of the polynomial: -1, 0, +1, or `undecided`. 0 is returned only if every product has a
 /// zero factor.
 template <class Polynomial, class... Points>
 [[nodiscard]] inline int filter_sign(const Points&... points) {
@@ -163,7 +164,7 @@ inline vector2<double> projection(int axis, const point3& p) {
     return filter_sign<orient3d_polynomial>(a, b, c, d);
 }
 
-/// Stage 1 of `collinear`: 0 when the points certainly are, 1 when they certainly are not, or
+/// Stage 1 of `collinear`: 0 if the points are certainly collinear, 1 if they certainly are not, or
 /// `undecided`.
 [[nodiscard]] inline int collinear_filter(const point3& a, const point3& b, const point3& c) {
     int result = 0;

@@ -1,10 +1,10 @@
 #pragma once
 /// \file
-/// The exact stage of the predicates of constructed points by itself, compiled: for loops that
-/// inline the filter (implicit_filter.hpp) and call only when it left the sign open.
+/// The exact stage of the predicates of constructed points as separate functions, for loops that
+/// inline the filter (implicit_filter.hpp) and call these only when it is undecided.
 ///
-/// Counts the width it took: one or two limbs a coordinate, or as many as it takes, which is the
-/// last class. Calls and undecided ones are counted by who ran the filter.
+/// Counts the width used: one or two limbs for each coordinate, or any number, which is the last
+/// class. The caller, which runs the filter, counts calls and undecided ones.
 
 #include <libmesh/exact/dyadic.hpp>
 #include <libmesh/exact/implicit_point.hpp>
@@ -24,8 +24,8 @@ namespace treeform::detail::exact {
 [[nodiscard]] TREEFORM_API int side_exact(const plane_points& p, const implicit_point& d,
                                           predicate_counters* counters);
 
-/// The coordinates, each rounded to the format.
-/// \throws std::invalid_argument where lines or planes have none or many points in common
+/// The exact coordinates, each rounded to the format.
+/// \throws std::invalid_argument when the lines or planes have not exactly one common point
 [[nodiscard]] std::array<rounded_quotient, 3> rounded_exactly(const implicit_point& p,
                                                               const float_format& format);
 

@@ -1,11 +1,11 @@
 #pragma once
 /// \file
-/// Stage 1 of the predicates of constructed points, to be inlined.
+/// Stage 1 of the predicates of constructed points, for inlining.
 ///
-/// What is added here to filter.hpp, whose u = 2^-52 and guards are meant below: the center of a
-/// ball is given, the point is off it by at most the radius r in each coordinate. Products of what
-/// is off are counted by their magnitude, each with (1 + 16 u) for the at most eight roundings of
-/// that count itself: (1 + 16 u) (1 - u)^8 > 1 + 7 u.
+/// Extends filter.hpp, with the same u = 2^-52 and guards, to points in balls: the center is given,
+/// and the point differs from it by at most the radius r in each coordinate. The magnitudes of the
+/// resulting error terms are summed (the count), each multiplied by (1 + 16 u) for the at most
+/// eight roundings of the sum itself: (1 + 16 u) (1 - u)^8 > 1 + 7 u.
 
 #include <libmesh/exact/filter.hpp>
 #include <libmesh/exact/implicit_point.hpp>
@@ -15,7 +15,8 @@
 
 namespace treeform::detail::exact {
 
-/// What a filter knows of a point. With radius 0 it is the center.
+/// The position of a point for a filter: a center and an error radius. With radius 0, the point is
+/// the center.
 struct ball {
     point3 center;
     double radius;
@@ -23,13 +24,13 @@ struct ball {
 
 inline ball ball_of(const implicit_point& p) { return {p.center(), p.radius()}; }
 
-/// Above what it counts, after up to eight roundings.
+/// Factor that makes a count an upper bound after up to eight roundings.
 inline constexpr double count_factor = 1.0 + 16 * 0x1p-52;
 
 /// Stage 1 of `compare`.
 ///
-/// d^ = (a - b) (1 + e) of the centers, except for 2^-1020, and the coordinates differ from them by
-/// r + s. When |d^| >= 2^-550 exceeds the count, it exceeds r + s and all that rounding did.
+/// d^ = (a - b) (1 + e) for the centers, up to 2^-1020, and the coordinates differ from them by r +
+/// s. If |d^| >= 2^-550 exceeds the count, it exceeds r + s plus all rounding errors.
 [[nodiscard]] inline int compare_filter(int axis, const ball& a, const ball& b) {
     const auto i = static_cast<std::size_t>(axis);
     const double difference = a.center[i] - b.center[i];
@@ -41,15 +42,14 @@ inline constexpr double count_factor = 1.0 + 16 * 0x1p-52;
 
 /// Stage 1 of `orient2d` along an axis.
 ///
-/// Let v = b - a, w = c - a be exact, v^, w^ the differences of the centers as computed, and R, S
-/// the sums of the radii. A component of v is off v^ by at most u |v^| + R, one of w by u |w^| + S.
-/// So a product is off by at most
-///     (2 u + u^2) |v^ w^| + (1 + u) (R |w^| + S |v^|) + R S,
-/// and both together, their own roundings and that of their difference included, by
-///     (4 u + 3 u^2) P + (1 + u) (R |w^| + S |v^| + 2 R S),
-/// P the permanent and |v^| the sum of the magnitudes of the components. 6 u P^ exceeds the first
-/// by more than P u, which is more than underflow takes when |v^|, |w^|, R, S <= 2^400: fewer than
-/// 2^5 operations that lose 2^-1020, times 2^402.
+/// Let v = b - a, w = c - a be exact, v^, w^ the computed differences of the centers, and R, S the
+/// sums of the radii. A component of v differs from that of v^ by at most u |v^| + R, one of w by u
+/// |w^| + S. So the error of a product is at most (2 u + u^2) |v^ w^| + (1 + u) (R |w^| + S |v^|) +
+/// R S, and the error of both products, including their own roundings and that of their difference,
+/// at most (4 u + 3 u^2) P + (1 + u) (R |w^| + S |v^| + 2 R S), with P the permanent and |v^| the
+/// sum of the magnitudes of the components. 6 u P^ exceeds the first term by more than P u, which
+/// exceeds the loss by underflow when |v^|, |w^|, R, S <= 2^400: fewer than 2^5 operations that
+/// lose 2^-1020 each, times 2^402.
 [[nodiscard]] inline int orient2d_filter(int axis, const ball& a, const ball& b, const ball& c) {
     const vector2<double> o = projection(axis, a.center);
     const vector2<double> v = projection(axis, b.center) - o;
@@ -69,9 +69,9 @@ inline constexpr double count_factor = 1.0 + 16 * 0x1p-52;
 
 /// Stage 1 of `side`.
 ///
-/// As `orient3d` of the center, whose constant c exceeds its error by P u / 2; one u more is for
-/// the sum of both bounds. Off the center by r in each coordinate, the value is off by at most r
-/// times the permanents of the normal's components.
+/// As for `orient3d` of the center, whose constant c exceeds its error by P u / 2; one more u is
+/// for the sum of both bounds. If a point differs from the center by r in each coordinate, the
+/// value differs by at most r times the permanents of the components of the normal.
 [[nodiscard]] inline int side_filter(const plane_points& p, const ball& d) {
     const auto o = vector_of(p.a);
     const std::array differences{vector_of(p.b) - o, vector_of(p.c) - o, vector_of(d.center) - o};

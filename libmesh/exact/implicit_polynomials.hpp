@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Where constructed points are, as quotients of polynomials in the form that polynomials.hpp
-/// describes. They are evaluated over doubles, for an approximation and its bound, and over
-/// numbers of any size: no width rests on their growth.
+/// The coordinates of constructed points as quotients of polynomials, in the form described in
+/// polynomials.hpp. They are evaluated over doubles, for an approximation and its error bound, and
+/// over numbers of any size, so that no fixed width depends on their growth.
 
 #include <libmesh/exact/vectors.hpp>
 
@@ -48,8 +48,8 @@ struct line_plane_polynomial {
     }
 };
 
-/// x / y is the parameter t with a + t (b - a) in the plane through `at` across n, the normal,
-/// which leads from the origin to the last point.
+/// x / y is the parameter t with a + t (b - a) in the plane through `at` with the normal n, the
+/// vector from the origin to the last point.
 struct line_normal_polynomial {
     static constexpr std::size_t points = 5;  // a, b, at, the origin, n
     static constexpr int degree = 2;
@@ -74,9 +74,9 @@ struct quotient_point {
     Under under;
 };
 
-/// What leads from a to the point that the planes (a, b, c), (d, e, f) and (g, h, i) have in
-/// common. With their normals n, m, k and p = m . (d - a), q = k . (g - a), it is
-///     (p (k x n) + q (n x m)) / (n . (m x k)).
+/// The vector from a to the intersection of the planes (a, b, c), (d, e, f) and (g, h, i). With
+/// their normals n, m, k and p = m . (d - a), q = k . (g - a), it is (p (k x n) + q (n x m)) / (n .
+/// (m x k)).
 struct planes_polynomial {
     static constexpr std::size_t points = 9;
     static constexpr int degree = 7;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Integers of a fixed number of 64-bit limbs, two's complement.
+/// Integers with a fixed number of 64-bit limbs, in two's complement.
 
 #include <libmesh/exact/word.hpp>
 
@@ -11,7 +11,7 @@
 namespace treeform::detail::exact {
 
 /// An integer in [-2^(64 L - 1), 2^(64 L - 1)). A product is as wide as its factors together and
-/// always fits; sums keep the width, and whoever adds shows that they fit.
+/// always fits. Sums keep the width; the caller must ensure that they fit.
 template <std::size_t Limbs>
 struct integer {
     std::array<std::uint64_t, Limbs> limbs;  ///< lowest first
@@ -46,7 +46,7 @@ constexpr integer<Limbs> operator-(const integer<Limbs>& a, const integer<Limbs>
     return result;
 }
 
-/// Limbs [from, from + N) of `result` minus `a` if `condition`.
+/// If `condition`, subtracts `a` from the limbs [From, From + N) of `result`.
 template <std::size_t From, std::size_t Limbs, std::size_t N>
 constexpr void subtract_if(bool condition, integer<Limbs>& result, const integer<N>& a) {
     const std::uint64_t mask = condition ? ~std::uint64_t{0} : 0;
@@ -81,10 +81,10 @@ constexpr integer<A + 1> operator*(const integer<A>& a, const integer<1>& b) {
     return result;
 }
 
-/// Without its sign, and which limbs of it, [first, last), hold anything.
+/// The magnitude of an integer, and the range [first, last) of its nonzero limbs.
 template <std::size_t Limbs>
 struct magnitude {
-    integer<Limbs> value;  ///< read as unsigned
+    integer<Limbs> value;  ///< interpreted as unsigned
     std::size_t first = 0;
     std::size_t last = Limbs;
 };
@@ -97,8 +97,8 @@ constexpr magnitude<Limbs> magnitude_of(const integer<Limbs>& a) {
     return result;
 }
 
-/// Product of integers so wide that few of their limbs hold anything: numbers of one scale have
-/// zeros below, small ones zeros above. \cost by the limbs in between.
+/// Product of wide integers with few nonzero limbs: numbers of a common scale have low zero limbs,
+/// small numbers have high ones. \cost by the limbs in between.
 template <std::size_t A, std::size_t B>
 constexpr integer<A + B> wide_product(const integer<A>& a, const integer<B>& b) {
     const magnitude<A> x = magnitude_of(a);
@@ -117,8 +117,8 @@ constexpr integer<A + B> wide_product(const integer<A>& a, const integer<B>& b) 
     return a.negative() != b.negative() ? integer<A + B>{} - result : result;
 }
 
-/// Schoolbook product of the limbs read as unsigned, then put right: a negative factor reads as
-/// itself + 2^(64 A), which adds 2^(64 A) times the other factor to the product.
+/// Schoolbook product of the limbs as unsigned numbers, then corrected: a negative factor, as
+/// unsigned, is larger by 2^(64 A), which adds 2^(64 A) times the other factor to the product.
 template <std::size_t A, std::size_t B>
 constexpr integer<A + B> operator*(const integer<A>& a, const integer<B>& b) {
     constexpr std::size_t widest_in_full = 8;

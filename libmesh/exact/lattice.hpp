@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Doubles as integers on a common power-of-two lattice. Bits only, no floating-point operation:
-/// denormals are exact on a processor that flushes them.
+/// Doubles as integers on a common power-of-two lattice. Uses bit operations only, no
+/// floating-point operations: denormals are exact even on a processor that flushes them.
 
 #include <libmesh/exact/integer.hpp>
 #include <libmesh/exact/vectors.hpp>
@@ -18,13 +18,13 @@ namespace treeform::detail::exact {
 
 /// A finite double as (-1)^negative * odd * 2^(lowest - 1075); odd is zero for zero.
 struct odd_part {
-    /// `lowest` of zero, which lies on every lattice.
+    /// Value of `lowest` for zero, which is on every lattice.
     static constexpr int no_bit = std::numeric_limits<int>::max();
 
     std::uint64_t odd;       ///< below 2^53
     std::uint64_t negative;  ///< all bits set, or none
     int lowest;              ///< at least 1
-    int highest;             ///< magnitude below 2^(highest - 1075), the least such; of zero, 0
+    int highest;             ///< least value with magnitude < 2^(highest - 1075); 0 for zero
 };
 
 inline odd_part odd_part_of(double x) {
@@ -39,12 +39,12 @@ inline odd_part odd_part_of(double x) {
             exponent + static_cast<int>(std::bit_width(mantissa))};
 }
 
-/// The coarsest lattice 2^(lowest - 1075) Z that holds some doubles.
+/// The coarsest lattice 2^(lowest - 1075) Z that contains the doubles added.
 struct lattice {
     int lowest = odd_part::no_bit;
     int highest = 0;
 
-    /// Bits of the largest magnitude on the lattice; zero or less when there are only zeros.
+    /// Bits of the largest magnitude on the lattice; zero or less if all values are zero.
     [[nodiscard]] int bits() const { return highest - lowest; }
 
     void add(const odd_part& p) {
@@ -81,10 +81,11 @@ inline integer<Limbs> integer_on(const lattice& grid, const odd_part& p) {
     }
 }
 
-/// Coordinates as words, for the usual case that 62 bits hold all of a call: scaled and truncated
-/// in floating point, then proved by scaling back and comparing bits. A word w that returns to x is
-/// right whatever rounding or flushing did on the way there: w has at most 53 significant bits and
-/// |w| >= 1 stays normal, so that way back is exact; and w = 0 returns to zero only.
+/// Coordinates as words, for the usual case that 62 bits suffice for all coordinates of a call:
+/// scaled and truncated in floating point, then verified by scaling back and comparing bits. A word
+/// w that scales back to x is correct, regardless of rounding or flushing in the conversion: w has
+/// at most 53 significant bits and |w| >= 1 stays normal, so scaling back is exact; and w = 0
+/// scales back to zero only.
 class word_scale {
   public:
     static constexpr int bits = 62;  ///< all words are below 2^62 in magnitude
@@ -95,8 +96,8 @@ class word_scale {
     /// Whether both scales are normal numbers.
     [[nodiscard]] bool usable() const { return field_ >= bits; }
 
-    /// The word of x. Or-s into `differing` the bits in which the word, scaled back, is not x; the
-    /// top one does not count (-0). \pre |x| <= largest, usable()
+    /// The word of x. Ors into `differing` the bits in which the word, scaled back, differs from x;
+    /// ignore the top bit (-0). \pre |x| <= largest, usable()
     [[nodiscard]] word word_of(double x, std::uint64_t& differing) const {
         const auto value = static_cast<std::int64_t>(x * power(1023 + 1023 + bits - 1 - field_));
         const double back = static_cast<double>(value) * power(field_ - bits + 1);
@@ -104,7 +105,7 @@ class word_scale {
         return {value};
     }
 
-    /// A word counts 2^unit().
+    /// The weight of a word is 2^unit().
     [[nodiscard]] int unit() const { return field_ - 1023 - bits + 1; }
 
   private:

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Signs about normals of planes, directions and cuts of lines, as exact as those of the public
-/// header.
+/// Exact predicates on normals of planes, directions and intersections of lines with planes, like
+/// those of the public header.
 
 #include <treeform/mesh/predicates.hpp>
 
@@ -25,7 +25,8 @@ struct plane_points {
 [[nodiscard]] int normal_turn(const plane_points& p, const plane_points& q, const point3& a,
                               const point3& b, predicate_counters* counters = nullptr);
 
-/// Sign of (n x m) . k for the normals of three planes: 0 when they share a direction.
+/// Sign of (n x m) . k for the normals n, m, k of three planes: 0 when the planes are parallel to a
+/// common line.
 [[nodiscard]] int normal_determinant(const plane_points& p, const plane_points& q,
                                      const plane_points& r, predicate_counters* counters = nullptr);
 
@@ -53,7 +54,7 @@ struct cutting_plane {
 [[nodiscard]] int compare_cuts(const point3& o, const point3& d, const cutting_plane& p,
                                const cutting_plane& q, predicate_counters* counters = nullptr);
 
-/// The same for two lines of one direction: t at which o + t d meets p, s at which r + s d meets q.
+/// The same for two parallel lines: t at which o + t d meets p, s at which r + s d meets q.
 [[nodiscard]] int compare_cuts(const point3& d, const point3& o, const cutting_plane& p,
                                const point3& r, const cutting_plane& q,
                                predicate_counters* counters = nullptr);
@@ -64,9 +65,10 @@ struct cutting_plane {
                               predicate_counters* counters = nullptr);
 
 /// The parameter at which the line o + t d meets plane p, with a relative error below 2^-40. Its
-/// sign is right, and it is 0 when the exact one is. Beyond the range of double, infinite or 0.
+/// sign is exact, and it is 0 if the exact parameter is 0. Infinite or 0 beyond the range of
+/// double.
 /// \pre  normal . d != 0
-/// \cost as a predicate: double arithmetic where that is accurate enough, otherwise integers
+/// \cost as a predicate: double arithmetic if that is accurate enough, otherwise integers
 [[nodiscard]] double cut_parameter(const point3& o, const point3& d, const cutting_plane& p);
 
 }  // namespace treeform

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// The predicates' polynomials, each written once and evaluated over several number types: doubles
-/// for the filter, integers for the exact stage, and types that count rounding errors, largest
-/// values or zero factors.
+/// The polynomials of the predicates, each written once and evaluated over several number types:
+/// doubles for the filter, integers for the exact stage, and types that count rounding errors,
+/// bounds of values or zero factors.
 ///
 /// A polynomial maps points to differences of points, and these to a value:
 ///   points            how many points it takes

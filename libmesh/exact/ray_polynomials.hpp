@@ -1,9 +1,10 @@
 #pragma once
 /// \file
-/// The polynomials of ray_predicates.hpp, in the form that polynomials.hpp describes.
+/// The polynomials of ray predicates (plane_predicates.hpp), in the form described in
+/// polynomials.hpp.
 ///
-/// A direction d is a point here like any other, and d - 0 the difference: the point 0 comes with
-/// it, and is on every lattice.
+/// A direction d is represented as a point, with the difference d - 0; the point 0, which is on
+/// every lattice, is an additional argument.
 
 #include <libmesh/exact/vectors.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The sign of a polynomial: by the filter, and where that leaves it undecided, by integers.
+/// The sign of a polynomial: by the filter, and if that is undecided, by integers.
 
 #include <libmesh/exact/exact_sign.hpp>
 #include <libmesh/exact/filter.hpp>
@@ -8,14 +8,15 @@
 
 namespace treeform::detail::exact {
 
-/// Counts a call, and whether the filter left it `open`.
+/// Counts a call; `open`: the filter was undecided.
 inline void count_call(predicate_counters* counters, bool open) {
     if (!counters) return;
     ++counters->calls;
     counters->undecided += open;
 }
 
-/// The exact stage, called with references: the filter's caller stores no copies for it.
+/// The exact stage, with arguments by reference, so that the caller of the filter stores no copies
+/// for it.
 template <class Polynomial, class... Points>
 [[gnu::noinline]] int sign_by_integers(predicate_counters* counters, const Points&... points) {
     return exact_sign<Polynomial>({vector_of(points)...}, counters);

@@ -1,9 +1,9 @@
 #pragma once
 /// \file
-/// The exact stage by itself, compiled: for loops that inline the filter (detail/filter.hpp) and
-/// call only when it left the sign open.
+/// The exact stage as separate functions, for loops that inline the filter (filter.hpp) and call
+/// these only when it is undecided.
 ///
-/// Counts the width it took; calls and undecided ones are counted by who ran the filter.
+/// Counts the width used; the caller, which runs the filter, counts calls and undecided ones.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>

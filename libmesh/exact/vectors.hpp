@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Vectors over any number type, as little of them as the predicates' polynomials need.
+/// Vectors over any number type, with only the operations that the polynomials of the predicates
+/// need.
 
 #include <array>
 #include <cstddef>
@@ -46,7 +47,7 @@ constexpr auto dot(const vector3<Left>& a, const vector3<Right>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// The vector of what `f` makes of each component.
+/// Applies `f` to each component.
 template <class Number, class Function>
 constexpr auto transform(const vector2<Number>& v, const Function& f) {
     return vector2<decltype(f(v.x))>{f(v.x), f(v.y)};

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Exact arithmetic in machine words, for coordinates of few bits.
+/// Exact arithmetic in machine words, for coordinates with few bits.
 
 #include <cstdint>
 
@@ -9,13 +9,13 @@ namespace treeform::detail::exact {
 __extension__ typedef unsigned __int128 uint128;
 __extension__ typedef __int128 int128;
 
-/// A value modulo 2^128, read as two's complement. What is less than 2^127 in magnitude at the end
-/// is right, whatever its parts were.
+/// A value modulo 2^128, in two's complement. A result with a magnitude below 2^127 is correct even
+/// if intermediate values overflowed.
 struct double_word {
     uint128 bits;
 };
 
-/// A coordinate or difference of at most 63 bits and sign.
+/// A coordinate or difference with at most 63 bits and a sign.
 struct word {
     std::int64_t value;
 };

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Numbers in point records, which are little endian, and differences of single bytes.
+/// Little-endian numbers in point records, and differences of single bytes.
 
 #include <libmesh/base/byte_order.hpp>
 
@@ -28,7 +28,7 @@ inline void put64(std::uint8_t* p, std::uint64_t x) {
     base::store<std::endian::little>(reinterpret_cast<char*>(p), x);
 }
 
-/// Sums and differences of 32 bits go around.
+/// 32-bit sums and differences, which wrap around.
 [[nodiscard]] inline std::int32_t sum(std::int32_t a, std::int32_t b) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
 }

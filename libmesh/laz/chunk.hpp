@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A chunk of a LAZ file: consecutive point records, compressed without regard to others.
+/// A chunk of a LAZ file: consecutive point records, compressed independently of others.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace treeform::detail::laz {
 
-/// What a point record consists of. The values are those of the format.
+/// The types of items in a point record. The values are those of the file format.
 enum class item_type : std::uint16_t {
     bytes = 0,
     point10 = 6,
@@ -30,32 +30,32 @@ struct item {
     friend bool operator==(const item&, const item&) = default;
 };
 
-/// The items of a record of the point data format `format` (0 to 10) and `size` bytes, in the
-/// versions that are written here.
+/// The items of a record with `size` bytes in point data format `format` (0 to 10), in the versions
+/// that this library writes.
 ///
-/// \pre `size` is at least that of the format
+/// \pre `size` is at least the size of the format
 [[nodiscard]] std::vector<item> items_of(unsigned format, std::size_t size);
 
-/// Whether chunks of these items have layers: those of formats 6 to 10.
+/// Whether chunks of these items have layers, as in formats 6 to 10.
 [[nodiscard]] bool is_layered(std::span<const item> items);
 
-/// Whether this program knows the items: their types, sizes and versions, in the order in which
-/// they stand in records.
+/// Whether this library supports the items: their types, sizes and versions, in their order in
+/// records.
 [[nodiscard]] bool is_known(std::span<const item> items);
 
 [[nodiscard]] std::size_t record_size(std::span<const item> items);
 
-/// Replaces `records` by the records in the chunk that `packed` begins with. `records` has room for
-/// `count` of them, one or more.
+/// Unpacks `count` >= 1 records of the chunk at the beginning of `packed` into `records`, which has
+/// room for them.
 ///
 /// \pre    `is_known(items)`
 /// \throws damaged
 void unpack_chunk(std::span<const item> items, std::span<const std::uint8_t> packed,
                   std::uint32_t count, std::uint8_t* records);
 
-/// The bytes of a chunk of `count` records, one or more.
+/// The bytes of a chunk of `count` >= 1 records.
 ///
-/// \pre `items` come from `items_of`
+/// \pre `items` were returned by `items_of`
 [[nodiscard]] std::vector<std::uint8_t> pack_chunk(std::span<const item> items, std::uint32_t count,
                                                    const std::uint8_t* records);
 

@@ -2,9 +2,9 @@
 /// \file
 /// The adaptive arithmetic coder of LAZ, in both directions.
 ///
-/// `decoder` and `encoder` have the same calls: each takes a model and a value and returns the
-/// value. The encoder writes the one it is given, the decoder returns the one it reads and ignores
-/// what it is given. So every code below is written once, for both.
+/// `decoder` and `encoder` have the same functions, which take a model and a value and return a
+/// value. The encoder writes and returns the given value; the decoder ignores it and returns the
+/// value read. So every code is written once, for both directions.
 ///
 /// \source Said, Introduction to Arithmetic Coding, HP Laboratories HPL-2004-76; Isenburg, LASzip:
 ///         Lossless Compression of LiDAR Data, PE&RS 79 (2013)
@@ -17,16 +17,16 @@
 
 namespace treeform::detail::laz {
 
-/// Compressed bytes that cannot be what they are said to be.
+/// Thrown for invalid compressed data.
 class damaged : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// The share of zeros among the bits seen so far.
+/// Adaptive model of a bit: the share of zeros among the bits seen so far.
 class bit_model {
   public:
-    static constexpr unsigned scale = 13;  ///< shares are parts of 2^13
+    static constexpr unsigned scale = 13;  ///< shares are in units of 2^-13
 
     [[nodiscard]] std::uint32_t zeros() const { return zeros_; }
     void saw(bool one) {
@@ -44,10 +44,10 @@ class bit_model {
     std::uint32_t left_ = 4;
 };
 
-/// How often each of some symbols was seen. Takes memory when it is first used.
+/// Adaptive model of symbols: the frequency of each. Allocates memory on first use.
 class symbol_model {
   public:
-    static constexpr unsigned scale = 15;  ///< shares are parts of 2^15
+    static constexpr unsigned scale = 15;  ///< shares are in units of 2^-15
 
     /// \pre 2 <= symbols <= 2048
     explicit symbol_model(unsigned symbols) : symbols_(symbols) {}
@@ -56,9 +56,9 @@ class symbol_model {
         if (numbers_.empty()) start();
     }
     [[nodiscard]] unsigned last() const { return symbols_ - 1; }
-    /// The share of all symbols below this one. \pre `need` was called
+    /// The sum of the shares of all lower symbols. \pre `need` was called
     [[nodiscard]] std::uint32_t below(unsigned symbol) const { return numbers_[symbol]; }
-    /// The symbol in whose share this place lies. \pre place < 2^scale
+    /// The symbol whose share contains `place`. \pre place < 2^scale
     [[nodiscard]] unsigned at(std::uint32_t place) const;
     void saw(unsigned symbol) {
         ++numbers_[symbols_ + symbol];
@@ -74,19 +74,19 @@ class symbol_model {
     std::uint32_t total_ = 0;
     std::uint32_t cycle_ = 0;
     std::uint32_t left_ = 0;
-    /// [symbols] shares below, [symbols] counts, [2^table_bits + 1] first symbol to look at for the
-    /// places whose highest bits are those of the index.
+    /// [symbols] sums of lower shares, [symbols] counts, and [2^table_bits + 1] a lookup table: the
+    /// first symbol to test for places whose highest bits are the index.
     std::vector<std::uint16_t> numbers_{};
 };
 
-/// What both directions know: an interval, whose length stays at or above `least`.
+/// The least length of the interval that is the state of both directions.
 constexpr std::uint32_t least_length = 1u << 24;
 
 class decoder {
   public:
     static constexpr bool writes = false;
 
-    /// \throws damaged when there are fewer than four bytes
+    /// \throws damaged for fewer than four bytes
     explicit decoder(std::span<const std::uint8_t> bytes);
 
     std::uint32_t symbol(symbol_model& model, std::uint32_t = 0);
@@ -112,7 +112,7 @@ class encoder {
     std::uint32_t bit(bit_model& model, std::uint32_t value);
     /// \pre 1 <= count <= 32, value < 2^count
     std::uint32_t bits(unsigned count, std::uint32_t value);
-    /// The bytes of all that was written; the encoder cannot be used again.
+    /// The bytes of everything written; the encoder cannot be used afterwards.
     [[nodiscard]] std::vector<std::uint8_t> finish();
 
   private:

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The items of formats 0 to 3 as the first LASzip packed them (versions 1, until 2011): these are
-/// read, and packed only by tests.
+/// The items of formats 0 to 3 in version 1, as packed by LASzip until 2011. The library reads
+/// them; only tests write them.
 ///
 /// \source Isenburg, LASzip: Lossless Compression of LiDAR Data, PE&RS 79 (2013)
 
@@ -97,7 +97,7 @@ class first_point_item {
     integer_code z_{32, 20};
 };
 
-/// One sequence of times, by multiples of the last step.
+/// GPS times in one sequence, coded as multiples of the last step.
 class first_gps_time_item {
   public:
     static constexpr std::size_t size = 8;
@@ -107,7 +107,7 @@ class first_gps_time_item {
     template <class Coder>
     void code(Coder& c, std::uint8_t* p) {
         const std::uint64_t is = get64(p);
-        // Written times are stored as they are: nobody writes this version but tests.
+        // The encoder stores times uncompressed: only tests write this version.
         const bool same = is == time_;
         if (step_ == 0) {
             const unsigned code = c.symbol(first_step_, same ? 0 : 2);
@@ -154,7 +154,7 @@ class first_gps_time_item {
 
     std::uint64_t time_;
     std::int32_t step_ = 0;
-    int unusual_ = 0;  ///< steps in a row that were no multiple of `step_`
+    int unusual_ = 0;  ///< consecutive steps that were not a multiple of `step_`
     symbol_model multiple_{most + 3};
     symbol_model first_step_{3};
     integer_code steps_{32, 6};

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// GPS times: the bits of a double as a whole number, by multiples of the usual step, in up to four
-/// interleaved sequences.
+/// GPS times: the bits of a double as an integer, coded as multiples of the usual step, in up to
+/// four interleaved sequences.
 ///
 /// \source Isenburg, LASzip (2013), "GPS time"; LASzip for LAS 1.4, Specification Document
 
@@ -14,7 +14,8 @@
 
 namespace treeform::detail::laz {
 
-/// `may_repeat`: whether "the same time again" has a code (formats 1 to 5), or is known (6 to 10).
+/// `may_repeat`: whether a repeated time has a code of its own (formats 1 to 5), or is known from
+/// elsewhere (formats 6 to 10).
 class gps_time_code {
   public:
     gps_time_code(bool may_repeat, std::uint64_t first)
@@ -26,7 +27,7 @@ class gps_time_code {
 
     template <class Coder>
     std::uint64_t code(Coder& c, std::uint64_t time) {
-        // Each code of another sequence is followed by one that is not, in what is not damaged.
+        // In valid data, a code "another sequence" is followed by a code of a different kind.
         for (int hops = 0; hops < 8; ++hops) {
             const bool stepped = sequences_[now_].step != 0;
             const answer a = stepped ? by_multiple(c, time) : by_first_step(c, time);
@@ -40,12 +41,12 @@ class gps_time_code {
     struct sequence {
         std::uint64_t time = 0;
         std::int32_t step = 0;
-        int unusual = 0;  ///< steps in a row that were no multiple of `step`
+        int unusual = 0;  ///< consecutive steps that were not a multiple of `step`
     };
     static constexpr int most = 500;  ///< largest multiple
     static constexpr int least = 10;  ///< largest multiple backwards
 
-    /// Whether the step from a sequence to `time` has 32 bits.
+    /// Whether the step from the last time of a sequence to `time` fits into 32 bits.
     [[nodiscard]] static bool near(const sequence& s, std::uint64_t time) {
         const auto by = static_cast<std::int64_t>(time - s.time);
         return by == static_cast<std::int32_t>(static_cast<std::uint32_t>(by));
@@ -56,14 +57,14 @@ class gps_time_code {
     static void move(sequence& s, std::int32_t by) {
         s.time += static_cast<std::uint64_t>(std::int64_t{by});
     }
-    /// How far ahead, among the other three, one is from which `time` is near; 0 when none is.
+    /// The offset (1 to 3) to the next other sequence that is near `time`; 0 if there is none.
     [[nodiscard]] unsigned near_sequence(std::uint64_t time) const {
         for (unsigned i = 1; i < 4; ++i)
             if (near(sequences_[(now_ + i) & 3], time)) return i;
         return 0;
     }
 
-    /// Codes: the same time, a step, a new sequence, another sequence.
+    /// The codes are: same time, a step, a new sequence, another sequence.
     template <class Coder>
     answer by_first_step(Coder& c, std::uint64_t time) {
         sequence& s = sequences_[now_];
@@ -89,7 +90,8 @@ class gps_time_code {
         return hop(code - step - 1);
     }
 
-    /// Codes: a multiple 0 to 500, -1 to -10, the same time, a new sequence, another sequence.
+    /// The codes are: a multiple 0 to 500, a multiple -1 to -10, same time, a new sequence, another
+    /// sequence.
     template <class Coder>
     answer by_multiple(Coder& c, std::uint64_t time) {
         sequence& s = sequences_[now_];

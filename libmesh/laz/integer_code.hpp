@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Whole numbers by their difference to a prediction: how many bits it takes, then the bits.
+/// Integers coded by their difference to a prediction: its number of bits, then the bits.
 ///
 /// \source Isenburg, LASzip (2013), "Entropy coding"
 
@@ -14,14 +14,15 @@ namespace treeform::detail::laz {
 
 class integer_code {
   public:
-    /// Of numbers modulo 2^bits. \pre `bits` is 8, 16 or 32
+    /// Codes numbers modulo 2^bits. \pre `bits` is 8, 16 or 32
     integer_code(unsigned bits, unsigned contexts) : bits_(bits) {
         size_.assign(contexts, symbol_model(bits + 1));
         rest_.reserve(bits);
         for (unsigned k = 1; k <= bits; ++k) rest_.emplace_back(1u << (k < high ? k : high));
     }
 
-    /// The number, in [0, 2^bits), or as a signed one of 32 bits. `real` is what an encoder writes.
+    /// Returns the number, in [0, 2^bits), or as a signed 32-bit number. `real` is the number that
+    /// an encoder writes.
     template <class Coder>
     std::int32_t code(Coder& c, std::int32_t predicted, std::int32_t real, unsigned context = 0) {
         std::uint32_t by = 0;
@@ -31,23 +32,24 @@ class integer_code {
         return static_cast<std::int32_t>(bits_ == 32 ? is : is & ((1u << bits_) - 1));
     }
 
-    /// How many bits the last correction took; a measure of how well predictions fit.
+    /// Number of bits of the last correction: a measure of the quality of predictions.
     [[nodiscard]] unsigned last_size() const { return last_size_; }
 
   private:
-    static constexpr unsigned high = 8;  ///< this many bits have a model, lower ones are stored
+    /// number of high bits that have a model; lower bits are stored uncompressed
+    static constexpr unsigned high = 8;
 
     [[nodiscard]] static std::uint32_t bits_of(std::int32_t x) {
         return static_cast<std::uint32_t>(x);
     }
-    /// Modulo 2^bits, nearest to zero.
+    /// The number modulo 2^bits that is nearest to zero.
     [[nodiscard]] std::uint32_t folded(std::uint32_t x) const {
         const unsigned above = 32 - bits_;
         return bits_of(static_cast<std::int32_t>(x << above) >> above);
     }
 
-    /// A correction of k bits is in [-(2^k - 1), -2^(k-1)] or [2^(k-1) + 1, 2^k]; of no bits, 0 or
-    /// 1. Those of 32 bits are -2^31 alone.
+    /// A correction of k bits is in [-(2^k - 1), -2^(k-1)] or [2^(k-1) + 1, 2^k]; one of 0 bits is
+    /// 0 or 1. The only correction of 32 bits is -2^31.
     template <class Coder>
     std::uint32_t correction(Coder& c, symbol_model& sizes, std::uint32_t by) {
         const auto is_negative = [](std::uint32_t x) { return x >> 31 != 0; };
@@ -74,7 +76,7 @@ class integer_code {
     unsigned last_size_ = 0;
     bit_model none_{};
     std::vector<symbol_model> size_{};  ///< [contexts]
-    std::vector<symbol_model> rest_{};  ///< [bits], of corrections of 1, 2, ... bits
+    std::vector<symbol_model> rest_{};  ///< [bits] models of corrections with 1, 2, ... bits
 };
 
 }  // namespace treeform::detail::laz

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The parts of point records in formats 0 to 5, each by what it has in common with the point
-/// before. `code` reads or writes the item at `p`, depending on the coder.
+/// The items of point records in formats 0 to 5, each predicted from the previous point. `code`
+/// reads or writes the item at `p`, depending on the coder.
 ///
 /// \source Isenburg, LASzip: Lossless Compression of LiDAR Data, PE&RS 79 (2013)
 
@@ -20,7 +20,7 @@
 
 namespace treeform::detail::laz {
 
-/// Contexts that are few where most data have few different values: models take memory when used.
+/// Models of contexts. They allocate memory on first use, and most data use few of them.
 [[nodiscard]] inline std::vector<symbol_model> models(std::size_t count, unsigned symbols) {
     return std::vector<symbol_model>(count, symbol_model(symbols));
 }
@@ -132,15 +132,15 @@ class gps_time_item {
     gps_time_code times_;
 };
 
-/// Red, green and blue, two bytes each: the bytes by those of the point before, green and blue also
-/// by what changed in the colors ahead.
+/// Red, green and blue, two bytes each: predicted from the previous point, green and blue also from
+/// the changes of the preceding channels.
 class color_item {
   public:
     static constexpr std::size_t size = 6;
 
     explicit color_item(const std::uint8_t* first) { std::memcpy(last_.data(), first, size); }
 
-    /// Bytes 0, 2, 4 are the low ones, 1, 3, 5 the high ones.
+    /// Bytes 0, 2, 4 are low bytes; 1, 3, 5 are high bytes.
     template <class Coder>
     void code(Coder& c, std::uint8_t* p) {
         unsigned changed = 0;
@@ -194,7 +194,7 @@ class color_item {
     std::vector<symbol_model> bytes_ = models(6, 256);
 };
 
-/// Index of the descriptor, offset and size of the waveform, where the return is in it, and its
+/// Index of the descriptor, offset and size of the waveform, position of the return in it, and its
 /// direction: 29 bytes.
 class wave_packet_item {
   public:
@@ -249,7 +249,7 @@ class wave_packet_item {
     integer_code directions_{32, 3};
 };
 
-/// Extra bytes: each by that of the point before.
+/// Extra bytes, each predicted from that of the previous point.
 class bytes_item {
   public:
     bytes_item(const std::uint8_t* first, std::size_t count)

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// What follows the first 30 bytes of point records in formats 6 to 10: colors, near infrared, wave
-/// packets, extra bytes, each with a state for each scanner channel.
+/// The items after the first 30 bytes of point records in formats 6 to 10: colors, near infrared,
+/// wave packets and extra bytes, each with one state for each scanner channel.
 ///
 /// \source LASzip for LAS 1.4 (native extension), Specification Document
 
@@ -62,7 +62,7 @@ class byte_item {
     symbol_model model_{256};
 };
 
-/// An item in a layer. A channel that is new starts from the point before, whatever its channel.
+/// An item in a layer. The state of a new channel starts from the previous point of any channel.
 template <class Item>
 class layered {
   public:

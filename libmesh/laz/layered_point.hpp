@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The 30 bytes that point records in formats 6 to 10 begin with, in nine layers.
+/// The first 30 bytes of point records in formats 6 to 10, in nine layers.
 ///
 /// \source LASzip for LAS 1.4 (native extension), Specification Document
 
@@ -26,8 +26,8 @@ class layered_point {
         contexts_[channel_] = std::make_unique<context>(first);
     }
 
-    /// Reads or writes the point at `p`, and returns its scanner channel: values of other items are
-    /// predicted from the point before of the same channel. `in` has a layer for each value.
+    /// Reads or writes the point at `p`, and returns its scanner channel: other items are predicted
+    /// from the previous point of the same channel. `in` has one layer for each value.
     template <class Layer>
     unsigned code(std::array<Layer, layers>& in, std::uint8_t* p) {
         auto& c = in[0].coder();
@@ -59,7 +59,8 @@ class layered_point {
         }
 
         std::array<std::uint8_t, size> last{};
-        bool new_time = false;  ///< the time of the last point was not that of the one before
+        /// the time of the last point differed from that of its predecessor
+        bool new_time = false;
         std::array<std::uint16_t, 8> intensity_seen{};
         std::array<std::int32_t, 8> z_seen{};
         std::array<median5, 12> x_steps{};
@@ -82,11 +83,11 @@ class layered_point {
     };
     struct change {
         bool source = false, gps_time = false, angle = false, returns = false;
-        unsigned number = 0;  ///< return number: as it was, one more, one less, other
+        unsigned number = 0;  ///< return number: unchanged, one more, one less, other
     };
     struct returns {
         unsigned count = 0, number = 0;
-        unsigned place = 0;  ///< single 3, first 2, last 1, in between 0
+        unsigned place = 0;  ///< return: single 3, first 2, last 1, intermediate 0
     };
 
     [[nodiscard]] static unsigned channel_of(const std::uint8_t* p) { return p[flags] >> 4 & 3u; }
@@ -96,7 +97,7 @@ class layered_point {
         return (p[flags] >> 2 & 0x30u) | (p[flags] & 15u);
     }
 
-    /// What changes from `last` to `p`, except for the channel; as a symbol.
+    /// The changes from `last` to `p`, except for the channel, as a symbol.
     [[nodiscard]] static unsigned symbol_of(const std::uint8_t* last, const std::uint8_t* p) {
         const auto bit = [](bool set, unsigned value) { return set ? value : 0u; };
         const unsigned step = (number_of(p) - number_of(last)) & 15u;
@@ -110,7 +111,8 @@ class layered_point {
                              : 3u);
     }
 
-    /// Goes to the context of the point's channel, too; a new one starts from the point before.
+    /// Also selects the context of the point's channel; a new context starts from the previous
+    /// point.
     template <class Coder>
     change read_changes(Coder& c, std::uint8_t* p) {
         context& before = *contexts_[channel_];

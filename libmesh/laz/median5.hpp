@@ -1,14 +1,14 @@
 #pragma once
 /// \file
-/// Something near the median of the last numbers.
+/// An approximate running median.
 
 #include <array>
 #include <cstdint>
 
 namespace treeform::detail::laz {
 
-/// Five numbers in order. Each new one pushes out the largest or the smallest, in turn. (When it
-/// lies on the other side of the median, it is the other end's turn once more.)
+/// Five sorted numbers. Each new number replaces the largest or the smallest one. Which of them is
+/// replaced switches after a new number on the side of the median that lost one.
 class median5 {
   public:
     [[nodiscard]] std::int32_t get() const { return sorted_[2]; }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Contexts that follow from which return of its pulse a point is, out of how many.
+/// Contexts from the return number of a point and the number of returns of its pulse.
 ///
 /// \source LASzip for LAS 1.4, Specification Document: the tables of return maps and levels
 
@@ -11,7 +11,7 @@
 
 namespace treeform::detail::laz {
 
-/// Of up to 7 returns: the valid combinations have numbers of their own up to four returns.
+/// For up to 7 returns: up to four returns, each valid combination has its own number.
 [[nodiscard]] inline unsigned return_map(unsigned returns, unsigned number) {
     static constexpr std::array<std::array<std::uint8_t, 8>, 8> map{{
         {15, 14, 13, 12, 11, 10, 9, 8},
@@ -26,7 +26,7 @@ namespace treeform::detail::laz {
     return map[returns][number];
 }
 
-/// Of up to 15 returns: six contexts.
+/// For up to 15 returns: six contexts.
 [[nodiscard]] inline unsigned return_map_of_six(unsigned returns, unsigned number) {
     static constexpr std::array<std::array<std::uint8_t, 16>, 16> map{{
         {0, 1, 2, 3, 4, 5, 3, 4, 4, 5, 5, 5, 5, 5, 5, 5},
@@ -49,7 +49,7 @@ namespace treeform::detail::laz {
     return map[returns][number];
 }
 
-/// How far a return is from the last one of its pulse; at most 7.
+/// The distance of a return to the last one of its pulse, at most 7.
 [[nodiscard]] inline unsigned return_level(unsigned returns, unsigned number) {
     return std::min(returns > number ? returns - number : number - returns, 7u);
 }

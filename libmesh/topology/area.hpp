@@ -6,9 +6,10 @@
 
 namespace treeform::detail::topology {
 
-/// The sum of the areas of all faces, in square units; rounded as sums of doubles are.
+/// The sum of the areas of all faces, in square units; a sum of doubles, with their rounding
+/// errors.
 ///
-/// \pre  every corner is a vertex
+/// \pre  every corner is a valid vertex number
 /// \cost O(F)
 [[nodiscard]] double area(mesh_view mesh);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Some faces of a mesh.
+/// Extracts faces of a mesh.
 
 #include <treeform/mesh/mesh.hpp>
 
@@ -9,10 +9,10 @@
 
 namespace treeform {
 
-/// A mesh of the given faces, in the order of `faces`, and of the points that they use, in the
-/// order of `mesh`.
+/// A mesh with the given faces, in the order of `faces`, and the points that they use, in the order
+/// of `mesh`.
 ///
-/// \throws std::invalid_argument naming the number that is no face of the mesh, or a face with a
+/// \throws std::invalid_argument naming a number that is not a face of the mesh, or a face with a
 ///         corner out of range
 /// \cost   O(V + F) time
 /// \same   on any number of threads

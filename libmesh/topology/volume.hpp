@@ -1,16 +1,16 @@
 #pragma once
 /// \file
-/// Volumes behind faces, precisely.
+/// Signed volumes of faces, in extended precision.
 
 #include <libmesh/base/double_double.hpp>
 #include <treeform/mesh/mesh.hpp>
 
 namespace treeform::detail::topology {
 
-/// Six times the volume between the origin and faces, in twice the precision of double, as parts of
-/// a closed surface far from the origin cancel. On one thread.
+/// Six times the signed volume between the origin and the faces, in twice the precision of double,
+/// since contributions of a closed surface far from the origin cancel. Single-threaded.
 ///
-/// \pre corners are points
+/// \pre corners are valid point numbers
 /// \same on any machine
 [[nodiscard]] base::double_double six_volumes(mesh_view surface);
 
