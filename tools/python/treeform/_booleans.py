@@ -101,8 +101,7 @@ def union(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float6
         coordinate. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged, exactly and before rounding, which removes vertices inside a flat region, and on a
-        straight edge between two flat regions. Uncut faces stay as they are. `split` keeps all
-        cuts.
+        straight edge between two flat regions. Uncut faces are not changed. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
@@ -150,8 +149,7 @@ def intersection(*meshes: MeshesLike, inside: str = "nonzero", precision: str = 
         coordinate. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged, exactly and before rounding, which removes vertices inside a flat region, and on a
-        straight edge between two flat regions. Uncut faces stay as they are. `split` keeps all
-        cuts.
+        straight edge between two flat regions. Uncut faces are not changed. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
@@ -196,8 +194,7 @@ def difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "f
         coordinate. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged, exactly and before rounding, which removes vertices inside a flat region, and on a
-        straight edge between two flat regions. Uncut faces stay as they are. `split` keeps all
-        cuts.
+        straight edge between two flat regions. Uncut faces are not changed. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
@@ -241,8 +238,7 @@ def symmetric_difference(*meshes: MeshesLike, inside: str = "nonzero", precision
         coordinate. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged, exactly and before rounding, which removes vertices inside a flat region, and on a
-        straight edge between two flat regions. Uncut faces stay as they are. `split` keeps all
-        cuts.
+        straight edge between two flat regions. Uncut faces are not changed. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
@@ -302,8 +298,7 @@ def boolean(expression: str, *operands: MeshesLike, inside: str = "nonzero",
         coordinate. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged, exactly and before rounding, which removes vertices inside a flat region, and on a
-        straight edge between two flat regions. Uncut faces stay as they are. `split` keeps all
-        cuts.
+        straight edge between two flat regions. Uncut faces are not changed. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids

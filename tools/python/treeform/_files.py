@@ -247,7 +247,7 @@ def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: b
         of names and meshes. 3MF and OBJ can store parts; in other formats they become one mesh,
         with a warning. With several meshes, columns of vertices and faces are not written.
     format: Extension without its dot: stl, obj, ply, off, xyz, csv, pcd, las, laz, glb, 3mf. Empty:
-        that of the path.
+        the extension of the path.
     ascii: Write text if the format has text and binary. Binary PLY is little endian, unless the
         file was read from a big-endian file. PCD is compressed only if it was read from a
         compressed file.

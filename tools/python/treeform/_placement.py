@@ -122,7 +122,7 @@ class SearchEffort(NamedTuple):
     pairs: Pairs of faces tested; a pair in motion counts as two.
     bound: The limit of `pairs`.
     cut: Number of candidates skipped because testing one would take more than 1/32 of the bound, or
-        more than what is left of it. If not 0, a better result may exist.
+        more than the rest of it. If not 0, a better result may exist.
     """
 
     pairs: int
@@ -551,7 +551,7 @@ def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False
         points may have no partner, without a given `overlap`. v starts at 3 times the median
         distance, and is halved while at least a third of the points are within v; finally it is 4.5
         times the median of the near distances. If false, all partners have the same weight.
-    max_distance: Ignore partners further apart. Not squared, not negative.
+    max_distance: Ignore partners farther apart than this. Not squared, not negative.
     max_iterations: From each start.
     tolerance: Converged if the cost falls by less than this share in each of 5 consecutive steps,
         or if a step moves no point near the fixed mesh by more than 1e-11 of the diagonal of the
@@ -641,7 +641,7 @@ def pack(parts: Iterable[Body], size: ArrayLike, *, corner: ArrayLike = (0.0, 0.
       `distance` minus its error, and no part is inside another. With a spacing of 0, parts may only
       touch in a plane that separates their boxes.
 
-    A void that is closed all around stays empty.
+    No part is placed in a void that is closed all around.
 
     This is a heuristic search: a place may exist for a part that is not placed. In the first try,
     parts are taken in the order of the area that they cover (stacked: of their volume). Each part
@@ -652,8 +652,8 @@ def pack(parts: Iterable[Body], size: ArrayLike, *, corner: ArrayLike = (0.0, 0.
     on while more plates are used than the area requires. The result is the try with the most parts
     placed, then with the least area unplaced, then with the fewest plates, then the earliest.
 
-    Parts without faces take no room: they are placed where they are. Points without faces move
-    along with their part and are otherwise ignored. Equal parts are prepared once.
+    Parts without faces occupy no space: they are placed at their present position. Points without
+    faces move along with their part and are otherwise ignored. Equal parts are prepared once.
 
     size: (2,) or (3,) the width, depth and height of a plate.
     corner: (3,) The corner of the first plate with the lowest x and y; its z is the bed.

@@ -171,7 +171,7 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
         bounding box.
     largest_hole: Fill holes of at most this many edges.
     strays: Drops loose open pieces below this share of the area, and single triangles below 1 %. If
-        a larger component vanishes since it bounds nothing, the status is `excessive_loss`, unless
+        a larger component vanishes since it bounds no solid, the status is `excessive_loss`, unless
         `max_loss` is 1.
     inside: 'nonzero', 'odd' or 'positive': the winding numbers that count as inside. None:
         'positive' if all shells are oriented outward, otherwise 'nonzero'; if faces are

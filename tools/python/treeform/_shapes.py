@@ -71,13 +71,14 @@ class OffsetResult(MadeMesh):
     distance: The given distance, without its sign; for `wrap`, the offset used.
     resolution: The resolution used; for `wrap`, its `size`.
     cells: Cells that the surface may pass through.
-    sealed_cavities: For `hollow`: cavities without an opening, those of the input included.
+    sealed_cavities: For `hollow`: number of cavities without an opening, including those of the
+        input.
     tetrahedra: For `wrap`: tetrahedra at the end.
     tetrahedra_points: For `wrap`: points of the tetrahedra.
     filled_tetrahedra: For `wrap`: tetrahedra filled to make the surface manifold.
     least_distance: Lower bound of the distance from any point of the new surface, also inside its
-        faces, to the input surface. For `hollow`, the new surface is that of the cavities; for
-        `thicken`, the distance is to the moved surface. By branch and bound: this and
+        faces, to the input surface. For `hollow`, the new surface is the surface of the cavities;
+        for `thicken`, the distance is to the moved surface. By branch and bound: this and
         `greatest_distance` are within a sixteenth of the resolution of the true extremes. 0 if
         there is no surface, and for `wrap`.
     greatest_distance: Upper bound of the same distances.
@@ -287,8 +288,8 @@ def simplify(mesh: MeshLike, max_distance: float, *, face_groups: ArrayLike | No
 
     Input and result are within `max_distance` of each other: this is proven for each face, not
     sampled. No collapse makes faces meet, exactly, on the coordinates returned; faces of the input
-    that meet may still meet. A closed, oriented manifold stays one. The nesting of components is
-    only checked at the end, in the certificate.
+    that meet may still meet. A closed, oriented manifold remains a closed, oriented manifold. The
+    nesting of components is only checked at the end, in the certificate.
 
     Borders, features, and borders of groups are simplified as polylines on their own vertices,
     within the same distance. Vertices stay where such lines end, branch or cross, at nonmanifold or

@@ -168,8 +168,8 @@ def weld(mesh_or_points: Body, tolerance: float = 0.0, *, chain: bool = False,
 
     Faces that repeat a corner are dropped unless `keep_degenerate` is set: those that repeated it
     before (`degenerate`) and those that do now (`collapsed`). So input faces = faces of the result
-    + collapsed + degenerate. Faces that became equal to others stay. Edges are counted over faces
-    with three different corners.
+    + collapsed + degenerate. Faces that became equal to others are kept. Edges are counted over
+    faces with three different corners.
 
     With `keep` other than `first`, kept points may be within the tolerance of each other again, and
     with the rule `first` a point may move by twice the tolerance.

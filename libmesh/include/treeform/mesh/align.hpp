@@ -49,7 +49,7 @@ struct align_options {
     /// distance, and is halved while at least a third of the points are within v; finally it is 4.5
     /// times the median of the near distances. If false, all partners have the same weight.
     bool robust = true;
-    /// Ignore partners further apart. Not squared, not negative.
+    /// Ignore partners farther apart than this. Not squared, not negative.
     double max_distance = std::numeric_limits<double>::infinity();
     /// Also find a uniform scale. The search starts from the scale of `start`, and from the scale
     /// that makes both sides equally large, and tries from half to twice of each. It compares
@@ -137,7 +137,7 @@ struct align_result {
     bool converged = false;                       ///< `end` is `converged`
     unsigned iterations = 0;                      ///< steps from the best start
     unsigned start = 0;  ///< number of the best start; 0 is the present position
-    treeform::status status = treeform::status::ok;  ///< or `cancelled`: then the rest is invalid
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is invalid
 
     /// Number of `freedoms` with a stiffness below 1e-4; these come first. The data do not
     /// determine these motions.

@@ -69,7 +69,7 @@ struct part_options {
 /// The result has the number of each face in the file. Points that only dropped faces use are
 /// dropped as well.
 ///
-/// `stored_face` is that of the file (`mesh_file::stored_face`).
+/// `stored_face` is `mesh_file::stored_face` of the file.
 ///
 /// \throws std::invalid_argument as `faces_in_box`, `weld`
 /// \cost   O(V + F); with a tolerance, as `group_points`
@@ -91,11 +91,11 @@ TREEFORM_API std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh);
 /// has one name for each file, for the warnings.
 ///
 /// Columns of points whose names depend on the format (`normal_x` in PCD, `nx` in PLY) get the
-/// names of the first file's format. The LAS header is that of the first file. If scales or offsets
-/// differ, it gets the finest of the scales with which 32 bits hold the bounds of all headers;
-/// extra bytes are described as in the first file that has them. LAS files with different
-/// coordinate systems or different types of GPS time are joined only with `mixed`; the result then
-/// states those of the first file.
+/// names of the first file's format. The LAS header is copied from the first file. If scales or
+/// offsets differ, it gets the finest of the scales with which 32 bits can represent the bounds of
+/// all headers; extra bytes are described as in the first file that has them. LAS files with
+/// different coordinate systems or different types of GPS time are joined only with `mixed`; the
+/// result then has the coordinate system and type of the first file.
 ///
 /// \throws std::invalid_argument for such LAS files unless `mixed`, when a column holds
 ///         lists in one file and single values in another, when no type holds all values, or when
@@ -107,7 +107,7 @@ TREEFORM_API std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh);
 
 /// One file with all `files` as parts of a scene, with texture coordinates, normals, materials and
 /// textures. Other properties are omitted. `warnings` lists textures that could not be kept.
-/// `format` and `stored_as` are those of the first file. `names` has, for each file, the name of
+/// `format` and `stored_as` are copied from the first file. `names` has, for each file, the name of
 /// its part if it has only one; `labels` has the name of each file in warnings.
 ///
 /// \pre  there is at least one file, and one name and one label for each file

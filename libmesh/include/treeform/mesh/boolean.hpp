@@ -75,7 +75,7 @@ enum class fill_rule : std::uint8_t {
 
 /// How to combine solids.
 struct boolean_options {
-    fill_rule inside = fill_rule::nonzero;  ///< what is solid
+    fill_rule inside = fill_rule::nonzero;  ///< the rule that defines the inside
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
     /// Where rounding makes faces meet, only points at most this far apart are joined, in the
@@ -84,7 +84,7 @@ struct boolean_options {
     double max_displacement = std::numeric_limits<double>::infinity();
     /// Do not merge coplanar faces that were cut, or that overlap. By default they are merged,
     /// exactly and before rounding, which removes vertices inside a flat region, and on a straight
-    /// edge between two flat regions. Uncut faces stay as they are. `split` keeps all cuts.
+    /// edge between two flat regions. Uncut faces are not changed. `split` keeps all cuts.
     bool keep_cuts = false;
     bool simplify = false;  ///< merge all coplanar faces of the result, also those not cut
     /// [faces of all operands, one after the other] or empty: only faces with equal numbers are
@@ -137,14 +137,14 @@ struct boolean_statistics {
     std::uint64_t filled_faces = 0;  ///< faces of operands at filled gaps (`gap`)
 };
 
-/// The surface of a solid in rounded coordinates, and what was checked about it.
+/// The surface of a solid in rounded coordinates, with its sources and certificate.
 struct TREEFORM_API boolean_result {
     /// Faces are counter-clockwise from outside, in the order of their sources. Vertices of
     /// operands come first, in their order, then new ones on cuts.
     treeform::mesh mesh;
-    /// [F] the lowest operand face that contains each face or a part of it. Next to mended places
-    /// it may be a neighbor of that face. A face of a filled `gap` has the operand face at or
-    /// opposite to it; such faces come last.
+    /// [F] the lowest operand face that contains each face or a part of it. Near repaired places it
+    /// may be a neighbor of that face. A face of a filled `gap` has the operand face at or opposite
+    /// to it; such faces come last.
     std::vector<operand_element> face_source;
     /// [V] the lowest operand vertex equal to each vertex, or none
     std::vector<operand_element> vertex_source;
@@ -162,7 +162,7 @@ struct TREEFORM_API boolean_result {
     /// The largest distance from `mesh` of a vertex of the exact result that was removed. It is
     /// large if a component lost a part too thin for the coordinates.
     double vanished_reach = 0.0;
-    std::vector<point3> vanished_at{};  ///< a point of each of these components, at most 100
+    std::vector<point3> vanished_at{};  ///< one point of each vanished component; at most 100
     std::optional<operand_volumes> volumes{};
     boolean_statistics statistics{};
 

@@ -63,10 +63,10 @@ class carry_sources {
     ///
     /// A face gets the values of its source face, a vertex those of its source vertex. For a new
     /// vertex on a cut, values are interpolated between the corners of the face that contains it
-    /// (`face_of_cut_vertex`, or else the lowest source of its faces); likewise values of corners.
-    /// The value is 0 or NaN if an input lacks the column, or a face has no source. Normals are
-    /// flipped with the surface, and interpolated normals scaled to length 1. Lists and other
-    /// elements are not transferred.
+    /// (`face_of_cut_vertex`, or else the lowest source of its faces). Values of corners are
+    /// transferred in the same way. The value is 0 or NaN if an input lacks the column, or a face
+    /// has no source. Normals are flipped with the surface, and interpolated normals scaled to
+    /// length 1. Lists and other elements are not transferred.
     ///
     /// \pre  sources are in range
     /// \cost O(V + F) for each column
@@ -109,7 +109,7 @@ class carry_sources {
     /// \cost as `face_groups`
     [[nodiscard]] TREEFORM_API bool merging_mixes_values() const;
 
-    /// Whether an input has values that are not transferred.
+    /// Whether an input has values that `carry` does not transfer.
     [[nodiscard]] TREEFORM_API bool has_values_left_out() const;
 
     /// Names of materials, ascending, that occur in inputs with different material files. An OBJ
@@ -182,8 +182,8 @@ struct repaired_file {
 [[nodiscard]] TREEFORM_API repaired_file repair_file(const carry_source& input,
                                                      const repair_options& options = {});
 
-/// The defects of all parts, which are those of `repair_file`. Faces of the file that are not in
-/// `input` do not count.
+/// The total defects of all parts; parts are defined as in `repair_file`. Faces of the file that
+/// are not in `input` do not count.
 ///
 /// \throws std::invalid_argument as `self_intersections`
 /// \cost   as `find_solid_defects` of a mesh
@@ -192,13 +192,13 @@ struct repaired_file {
                                                             const progress_callback& progress = {});
 
 /// Gives all `files` one common list of texture files, and their faces int32 indices into it
-/// ("texnumber"). The list is that of the first file, followed by further names of the other files.
-/// `names` has one name for each file, for the warnings.
+/// ("texnumber"). The list begins with the list of the first file, followed by additional names of
+/// the other files. `names` has one name for each file, for the warnings.
 ///
-/// Faces of a file without indices get that of its first texture file, or -1 if it has none. Faces
-/// without a texture file get -1; a warning names other indices out of range. No indices are added
-/// if there is only one name in all files, no file has indices, and no file has texture coordinates
-/// without a name. A single file and files without names are unchanged.
+/// Faces of a file without indices get the index of its first texture file, or -1 if it has none.
+/// Faces without a texture file get -1; a warning names other indices out of range. No indices are
+/// added if there is only one name in all files, no file has indices, and no file has texture
+/// coordinates without a name. A single file and files without names are unchanged.
 [[nodiscard]] TREEFORM_API std::vector<io_warning> unite_textures(
     std::span<mesh_file* const> files, std::span<const std::string> names);
 
@@ -219,10 +219,10 @@ struct face_marks {
     TREEFORM_API face_marks(std::size_t face_count, std::span<const face_pair> pairs,
                             std::span<const intersection_region> regions);
 
-    /// Writes these marks, which are those of the faces of `looked_at`, to `file`: colors of faces
-    /// and vertices (a vertex gets the color of its first face in a pair), and the properties
-    /// tf_class and tf_region of faces. Polygons become triangles. A file that does not number its
-    /// vertices is indexed, and its other properties are dropped.
+    /// Writes the marks of the faces of `looked_at` to `file`: colors of faces and vertices (a
+    /// vertex gets the color of its first face in a pair), and the properties tf_class and
+    /// tf_region of faces. Polygons become triangles. A file that does not number its vertices is
+    /// indexed, and its other properties are dropped.
     ///
     /// \pre    `looked_at` is a part of `file`, and the marks are those of its faces
     /// \cost O(V + F)

@@ -40,7 +40,7 @@ struct search_effort {
     std::uint64_t pairs = 0;  ///< pairs of faces tested; a pair in motion counts as two
     std::uint64_t bound = 0;  ///< the limit of `pairs`
     /// Number of candidates skipped because testing one would take more than 1/32 of the bound, or
-    /// more than what is left of it. If not 0, a better result may exist.
+    /// more than the rest of it. If not 0, a better result may exist.
     std::uint64_t cut = 0;
     friend bool operator==(const search_effort&, const search_effort&) = default;
 };
@@ -57,8 +57,9 @@ struct operand_element {
 /// `slide`, `pack`) returns or places: with exact predicates, on the returned coordinates.
 struct TREEFORM_API certificate {
     treeform::status status = treeform::status::ok;
-    /// Number of pairs of faces that meet where they should not. A face paired with itself is
-    /// degenerate, or has the outside of the solid behind it. `meeting` lists the first 100.
+    /// Number of pairs of faces that meet beyond common corners and edges. A face paired with
+    /// itself is degenerate, or has the outside of the solid behind it. `meeting` lists the first
+    /// 100.
     std::uint64_t meeting_count = 0;
     std::vector<std::array<std::uint32_t, 2>> meeting{};
     std::vector<point3> meeting_at{};  ///< a corner of the first face of each pair in `meeting`
@@ -67,7 +68,7 @@ struct TREEFORM_API certificate {
     std::uint64_t open_count = 0;
     /// Ends of the open part of each edge; rounded if the edge is cut.
     std::vector<std::array<point3, 2>> open_edges{};
-    std::vector<operand_element> open_faces{};  ///< a face at each of these edges
+    std::vector<operand_element> open_faces{};  ///< one face at each edge in `open_edges`
     /// The open edges counted in the operands, after joining equal coordinates: `boundary_edges`
     /// have an odd number of faces (the surface ends there), `misoriented_edges` an even number of
     /// inconsistently oriented faces. Both are 0 if a vertex lies inside such an edge, since edges

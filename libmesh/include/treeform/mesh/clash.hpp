@@ -79,7 +79,7 @@ struct clash_result {
     std::uint64_t boxes_apart = 0;          ///< pairs excluded by their boxes
     std::uint64_t ignored = 0;              ///< ignored pairs that boxes do not exclude
     std::uint64_t parts_indexed = 0;
-    treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing else is set
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is invalid
 
     /// Number of pairs that penetrate or are closer than the clearance; with a clearance, also
     /// pairs that touch.
@@ -140,7 +140,7 @@ struct pose_result {
     std::vector<std::vector<pose_clash>> poses{};
     std::uint64_t clashing = 0;     ///< poses with a pair that penetrates or is too close
     std::uint64_t boxes_apart = 0;  ///< pairs excluded by their boxes, over all poses
-    treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing else is set
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is invalid
 };
 
 /// The clashes in each of many poses. `poses` has a transform for each part, pose after pose:

@@ -69,7 +69,7 @@ struct deviation_result {
     /// Number of points whose winding number was computed; for the others it follows from that of a
     /// neighbor and the faces between.
     std::uint64_t winding_numbers = 0;
-    treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing else is set
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is invalid
 
     /// Gives the vertices of `file` the property "distance" and colors from blue (`low` or less)
     /// over white (0) to red (`high` or more); gray where a distance is NaN.

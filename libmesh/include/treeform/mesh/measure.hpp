@@ -30,7 +30,7 @@ enum class mesh_relation : std::uint8_t {
 /// Options of `relation`, `measure` and `penetration_depth`. Each ignores those that do not concern
 /// it.
 struct measure_options {
-    /// for `measure`: ignore meshes further apart; inclusive
+    /// for `measure`: ignore meshes farther apart than this; inclusive
     double radius = std::numeric_limits<double>::infinity();
     /// Only closed meshes have an inside; this decides whether a mesh is closed.
     vertex_identity vertices = vertex_identity::by_coordinates;
@@ -70,7 +70,7 @@ struct mesh_measure {
     double surface_distance = 0.0;
     surface_point on_a{};  ///< nearest points of the surfaces; a common point if they meet
     surface_point on_b{};
-    treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is known
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is invalid
 };
 
 /// The relation of `a` and `b`, exact on the coordinates as given. Distances of the result are NaN,
@@ -135,7 +135,7 @@ struct penetration_depth_result {
     point3 move{};
     /// The effort of the search. If `cut` is not 0, a shorter translation is more likely to exist.
     search_effort effort{};
-    treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is known
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is invalid
 };
 
 /// The length of a short translation that separates `a` from `b`: an upper bound of the penetration
@@ -172,7 +172,7 @@ struct thickness_result {
     double least = std::numeric_limits<double>::infinity();  ///< least thickness of all faces
     /// The lowest face with the least thickness.
     std::uint32_t thinnest = 0;
-    treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is returned
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is invalid
 };
 
 /// The wall thickness of a solid at each face. The face through which a ray leaves is exact, for

@@ -47,20 +47,20 @@ struct TREEFORM_API offset_result {
     treeform::mesh mesh;
     /// Status ok means, verified on the coordinates of `mesh`: a closed manifold, oriented outward,
     /// whose faces meet only in common corners and edges. `open_input`: the input bounds no solid;
-    /// `open_edges` lists where. `vanished`: nothing is left, since the solid is nowhere thick
+    /// `open_edges` lists where. `vanished`: the result is empty, since the solid is nowhere thick
     /// enough, or exceeds that thickness by less than a cell.
     treeform::certificate certificate{};
     double distance = 0.0;    ///< the given distance, without its sign; for `wrap`, the offset used
     double resolution = 0.0;  ///< the resolution used; for `wrap`, its `size`
     /// Lower bound of the distance from any point of the new surface, also inside its faces, to the
-    /// input surface. For `hollow`, the new surface is that of the cavities; for `thicken`, the
-    /// distance is to the moved surface. By branch and bound: this and `greatest_distance` are
+    /// input surface. For `hollow`, the new surface is the surface of the cavities; for `thicken`,
+    /// the distance is to the moved surface. By branch and bound: this and `greatest_distance` are
     /// within a sixteenth of the resolution of the true extremes. 0 if there is no surface, and for
     /// `wrap`.
     double least_distance = 0.0;
     double greatest_distance = 0.0;  ///< upper bound of the same distances
     std::uint64_t cells = 0;         ///< cells that the surface may pass through
-    /// For `hollow`: cavities without an opening, those of the input included.
+    /// For `hollow`: number of cavities without an opening, including those of the input.
     std::uint64_t sealed_cavities = 0;
     /// For `hollow`: numbers of drains that do not lead from outside into a cavity, judged by the
     /// ends of their axes.

@@ -173,8 +173,8 @@ struct packing {
 ///   `distance` minus its error, and no part is inside another. With a spacing of 0, parts may only
 ///   touch in a plane that separates their boxes.
 ///
-/// A small part may stand in a hole of another, and `tighten` may move a part below an overhang.
-/// A void that is closed all around stays empty.
+/// A small part may stand in a hole of another, and `tighten` may move a part below an overhang. No
+/// part is placed in a void that is closed all around.
 ///
 /// This is a heuristic search: a place may exist for a part that is not placed. In the first try,
 /// parts are taken in the order of the area that they cover (stacked: of their volume). Each part
@@ -185,8 +185,8 @@ struct packing {
 /// on while more plates are used than the area requires. The result is the try with the most parts
 /// placed, then with the least area unplaced, then with the fewest plates, then the earliest.
 ///
-/// Parts without faces take no room: they are placed where they are. Points without faces move
-/// along with their part and are otherwise ignored. Equal parts are prepared once.
+/// Parts without faces occupy no space: they are placed at their present position. Points without
+/// faces move along with their part and are otherwise ignored. Equal parts are prepared once.
 ///
 /// \throws std::invalid_argument naming the part with a corner out of range or not finite; for
 ///         options that are negative, NaN, or (except for the height and the seconds) not finite

@@ -22,7 +22,7 @@
 
 namespace treeform {
 
-/// Why a placement ended where it did.
+/// The reason why a placement ended.
 enum class placement_end : std::uint8_t {
     contact,             ///< stopped by a fixed mesh, or at the clearance from it
     bed,                 ///< stopped by the bed, or at the clearance above it
@@ -95,12 +95,12 @@ struct placement {
     placement_statistics statistics{};
 
     explicit operator bool() const { return static_cast<bool>(certificate); }
-    /// Why there is no place: a clause about the moving mesh, without a full stop. Empty if there
-    /// is a place. `names` are those of the fixed meshes.
+    /// The reason why there is no place: a clause about the moving mesh, without a full stop. Empty
+    /// if there is a place. `names` has the names of the fixed meshes.
     [[nodiscard]] TREEFORM_API std::string message(std::span<const std::string> names = {}) const;
     /// The relation of the only body of `moving` to `fixed` at the place, in words: "touching
     /// bed.stl (1 pair of faces, the first 3 and 7)", "separate, 0.5 from bed.stl". Face numbers
-    /// are those of the files.
+    /// are numbers in the files.
     [[nodiscard]] TREEFORM_API std::string relation_in_words(const body_set& moving,
                                                              const body_set& fixed) const;
 
@@ -176,14 +176,14 @@ struct TREEFORM_API body_set {
     [[nodiscard]] std::string label(std::size_t body) const;
     [[nodiscard]] std::vector<std::string> labels() const;  ///< [B] for `placement::message`
 
-    /// Moves the points of a body's file: those of the body to `placed` [V of its shape], all
+    /// Moves the points of a body's file: points of the body to `placed` [V of its shape], all
     /// others by `matrix`, rounded to `written_as`.
     void put_back(std::size_t body, points_view placed, const transform<3>& matrix,
                   precision written_as);
 
     /// The relations of all triangles of the files (for clouds, of all their points), for
-    /// `placement::color`. `relations` [B] has those of the faces of each body, or an empty list.
-    /// If `clouds` is false, clouds are omitted, as in `scene_of`.
+    /// `placement::color`. `relations` [B] has, for each body, the relations of its faces, or an
+    /// empty list. If `clouds` is false, clouds are omitted, as in `scene_of`.
     ///
     /// \cost O(V + F)
     [[nodiscard]] std::vector<mesh_relation> relations_in_files(

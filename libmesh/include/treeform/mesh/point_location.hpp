@@ -23,7 +23,7 @@ struct point_location {
     location where = location::outside;
     /// How often the surface or curve winds around the point; a mesh with outward faces, or a
     /// counter-clockwise curve, counts +1. 0 is outside, anything else inside. 0 on the boundary,
-    /// where it is undefined.
+    /// where the winding number is undefined.
     std::int32_t winding = 0;
     /// On the boundary, the lowest face or edge that contains the point; else 0.
     std::uint32_t on = 0;

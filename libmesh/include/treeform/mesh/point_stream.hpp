@@ -120,9 +120,9 @@ struct written_part {
 /// `shared_values`.
 class TREEFORM_API point_writer {
   public:
-    /// `header` is that of a `point_reader`, perhaps with columns added or removed. `count` is the
-    /// number of points that will be written. Coordinates are written with the types of their
-    /// columns in "vertex"; in binary formats as doubles if no type is wider than float32 and
+    /// `header` is the header of a `point_reader`, perhaps with columns added or removed. `count`
+    /// is the number of points that will be written. Coordinates are written with the types of
+    /// their columns in "vertex"; in binary formats as doubles if no type is wider than float32 and
     /// `stored_as` is float64. `header` also has the number of rows to be written of other
     /// elements, and `most_corners` is the largest number of corners of a face.
     ///
@@ -137,8 +137,8 @@ class TREEFORM_API point_writer {
 
     /// Writes the next points; `properties` has one row for each.
     ///
-    /// \throws io_error if the file cannot be written; std::invalid_argument for columns other than
-    ///         those of the header, for more than `count` points, or for a coordinate that the
+    /// \throws io_error if the file cannot be written; std::invalid_argument for columns that
+    ///         differ from the header, for more than `count` points, or for a coordinate that the
     ///         header's types cannot represent, unless `options.precision` requests rounding
     void write(points_view points, const element& properties);
     /// Writes rows of the other elements, after all points, in the order of the header.
@@ -161,7 +161,7 @@ class TREEFORM_API point_writer {
     /// chunk for LAZ, else 1.
     [[nodiscard]] std::uint64_t part_granularity() const;
     /// Ends the points of this part; the remaining points are in other parts. Rows that follow the
-    /// points of all parts may be written next, those of earlier parts first. Returns the number of
+    /// points of all parts may be written next, rows of earlier parts first. Returns the number of
     /// bytes of the points.
     std::uint64_t end_part();
     /// Skips this many bytes of the file, which others write.

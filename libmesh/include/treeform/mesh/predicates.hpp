@@ -31,9 +31,10 @@ struct predicate_counters {
     /// Widths of the exact stage: 128-bit words, then 1, 2, 4, 8, 16 and 33 limbs a coordinate.
     static constexpr std::size_t widths = 7;
 
-    std::uint64_t calls = 0;                       ///< predicates called
-    std::uint64_t undecided = 0;                   ///< of these, undecided by the filter
-    std::array<std::uint64_t, widths> by_width{};  ///< of these, decided exactly at each width
+    std::uint64_t calls = 0;      ///< predicates called
+    std::uint64_t undecided = 0;  ///< calls that the filter left undecided
+    /// undecided calls, by the width that decided them
+    std::array<std::uint64_t, widths> by_width{};
 
     predicate_counters& operator+=(const predicate_counters& other) {
         calls += other.calls;

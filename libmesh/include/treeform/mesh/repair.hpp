@@ -27,7 +27,8 @@ enum class resolve_mode : std::uint8_t {
 
 /// How to resolve self-intersections.
 struct resolve_options {
-    fill_rule inside = fill_rule::nonzero;  ///< for `outer`: what is solid
+    /// for `outer`: the rule that defines the inside
+    fill_rule inside = fill_rule::nonzero;
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
     /// For `split` and `outer`: as in `boolean_options`.
@@ -47,7 +48,7 @@ struct repair_options {
     bool join = true;     ///< drop degenerate and duplicate faces; close cracks and T-junctions
     bool orient = true;   ///< orient faces consistently and shells outward; drop strays
     bool fill = true;     ///< fill holes
-    bool resolve = true;  ///< cut self-intersections; drop faces that bound nothing
+    bool resolve = true;  ///< cut self-intersections; drop faces that bound no solid
     bool detach = true;   ///< separate parts that touch in an edge or a vertex
     /// Widest crack to close, in the mesh's length unit. By default the narrowest that leaves the
     /// fewest open edges, out of 0, a float step, and 1e-6, 1e-5, 1e-4, 1e-3 of the diagonal of the
@@ -56,11 +57,11 @@ struct repair_options {
     /// Fill holes of at most this many edges.
     std::uint64_t largest_hole = std::numeric_limits<std::uint64_t>::max();
     /// Drops loose open pieces below this share of the area, and single triangles below 1 %. If a
-    /// larger component vanishes since it bounds nothing, the status is `excessive_loss`, unless
+    /// larger component vanishes since it bounds no solid, the status is `excessive_loss`, unless
     /// `max_loss` is 1.
     double strays = 0.001;
-    /// What is solid. By default `positive` if each shell is outward after `orient`, else `nonzero`
-    /// or the labels of cells (see `repair`).
+    /// The rule that defines the inside. By default `positive` if each shell is outward after
+    /// `orient`, else `nonzero` or the labels of cells (see `repair`).
     std::optional<fill_rule> inside{};
     /// Losing more than this share of the volume gives the status `excessive_loss`; if there were
     /// holes, of the area. Faces that remain, or are inside the solid, do not count as lost. 1
@@ -99,7 +100,7 @@ struct repair_statistics {
     std::uint64_t labeled_cells = 0;   ///< cells labeled inside or outside, since faces disagreed
     double dropped_area = 0.0;         ///< area of dropped faces, with one label on both sides
     double flipped_area = 0.0;         ///< area of faces flipped by the labels
-    std::uint64_t removed = 0;         ///< input faces of which resolving left nothing
+    std::uint64_t removed = 0;         ///< input faces that resolving removed entirely
     /// For `resolve_self_intersections` with `split`: input faces that lie entirely on faces of
     /// lower numbers. Their pieces are those of the lower faces, so they do not count as removed.
     std::uint64_t covered = 0;
@@ -109,8 +110,8 @@ struct repair_statistics {
     std::uint64_t split_vertices = 0;  ///< vertices split where parts of the solid touch
     std::uint64_t detached = 0;        ///< vertices moved apart
     std::uint64_t touching = 0;        ///< vertices that still have the coordinates of another
-    /// Components (faces linked by vertices) of which no face is left; for `repair`, those larger
-    /// than `repair_options::strays`.
+    /// Components (faces linked by vertices) that lost all of their faces; for `repair`, only those
+    /// larger than `repair_options::strays`.
     std::uint64_t vanished_components = 0;
     /// closed shells inside the solid, dropped; `odd` makes them cavities
     std::uint64_t dropped_shells = 0;
@@ -212,7 +213,7 @@ struct TREEFORM_API solid_defects {
     std::uint64_t inverted = 0;
     /// Disjoint closed components are nested, but not as a solid and its cavities.
     bool wrongly_nested = false;
-    treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is known
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is invalid
     [[nodiscard]] bool any() const;
     /// "open at 37 edges, 2 pairs of faces meet"; "none" if there are no defects.
     [[nodiscard]] std::string message() const;

@@ -87,7 +87,7 @@ struct section_result {
     std::vector<std::uint32_t> faces{};
     /// the axes x and y, and the normal, as of `oriented_plane::axes`
     std::array<point3, 3> axes{point3{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
-    treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is returned
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is invalid
 
     /// A point of a layer in space, rounded.
     [[nodiscard]] TREEFORM_API point3 in_space(const section_layer& layer, const point2& p) const;
@@ -147,7 +147,7 @@ struct isolines_result {
     std::vector<point3> points{};  ///< on edges of the mesh, rounded
     std::vector<std::uint32_t>
         faces{};  ///< [points] the face that contains the segment after each point
-    treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is returned
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is invalid
 };
 
 /// Lines at given levels of a value: `values` has one value for each vertex, interpolated linearly

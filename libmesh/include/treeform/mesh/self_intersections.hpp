@@ -104,7 +104,7 @@ struct intersection_result {
     std::vector<face_pair> pairs;
     std::array<std::uint64_t, pair_kind_count> counts{};  ///< by kind
     std::uint64_t box_pairs = 0;      ///< pairs of faces whose boxes overlap, as moved
-    std::uint64_t exact_pairs = 0;    ///< of these, undecided by the filter
+    std::uint64_t exact_pairs = 0;    ///< box pairs that the filter left undecided
     predicate_counters predicates{};  ///< predicate calls for the undecided pairs
     double tree_seconds = 0.0;        ///< for one mesh: time to build the tree
     double pair_seconds = 0.0;        ///< time to find and decide pairs

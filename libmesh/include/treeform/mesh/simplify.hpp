@@ -72,8 +72,8 @@ struct simplify_result {
 ///
 /// Input and result are within `max_distance` of each other: this is proven for each face, not
 /// sampled. No collapse makes faces meet, exactly, on the coordinates returned; faces of the input
-/// that meet may still meet. A closed, oriented manifold stays one. The nesting of components is
-/// only checked at the end, in the certificate.
+/// that meet may still meet. A closed, oriented manifold remains a closed, oriented manifold. The
+/// nesting of components is only checked at the end, in the certificate.
 ///
 /// Borders, features, and borders of groups are simplified as polylines on their own vertices,
 /// within the same distance. Vertices stay where such lines end, branch or cross, at nonmanifold or

@@ -56,7 +56,7 @@ struct impact {
     std::uint64_t pairs_tested = 0;        ///< pairs of faces tested; the others were skipped
     /// predicate calls for these pairs, and to compare their times
     predicate_counters predicates{};
-    treeform::status status = treeform::status::ok;  ///< or `cancelled`: nothing is known
+    treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is invalid
 };
 
 /// The least t >= 0 at which `a`, moved by t times `motion`, has a common point with `b`.

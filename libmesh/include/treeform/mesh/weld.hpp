@@ -109,8 +109,8 @@ struct file_weld_result {
 ///
 /// Faces that repeat a corner are dropped unless `keep_degenerate` is set: those that repeated it
 /// before (`degenerate`) and those that do now (`collapsed`). So input faces = faces of the result
-/// + collapsed + degenerate. Faces that became equal to others stay. Edges are counted over faces
-/// with three different corners.
+/// + collapsed + degenerate. Faces that became equal to others are kept. Edges are counted over
+/// faces with three different corners.
 ///
 /// With `keep` other than `first`, kept points may be within the tolerance of each other again, and
 /// with the rule `first` a point may move by twice the tolerance.
@@ -151,7 +151,7 @@ struct file_weld_result {
 /// The same with attributes, which stay with their points and faces. Corners keep their own texture
 /// coordinates and normals, even if their points are merged. Rows of other elements are kept; point
 /// numbers in integer columns named vertex1, vertex2, vertex_index and vertex_indices are updated.
-/// Parts stay, even if they have no face left.
+/// Parts are kept, even if they have no face left.
 ///
 /// \throws std::invalid_argument also unless there is one row for each point and each face, and
 ///         columns and corners have matching sizes

@@ -61,7 +61,7 @@ struct weld_options {
     std::string keep_by{};  ///< for `lowest` and `highest`: a property as in `weld_condition`
     /// A property as in `weld_condition`: the rule visits points by its values, the least first,
     /// NaN last, of equal ones the lowest-numbered; the first point of a group in this order is
-    /// kept. Needs `weld_keep::first`. Empty: by point number. Kept points stay in the order of
+    /// kept. Needs `weld_keep::first`. Empty: by point number. Kept points remain in the order of
     /// their numbers.
     std::string order_by{};
     bool highest_first = false;    ///< for `order_by`: the greatest value first
@@ -70,11 +70,11 @@ struct weld_options {
     bool keep_degenerate = false;  ///< keep faces that repeat a corner
     progress_callback progress{};
 
-    /// The conditions that these options imply, on single columns: those of `same`, then those of
-    /// seams.
+    /// The conditions that these options imply, on single columns: conditions of `same`, then
+    /// conditions of seams.
     ///
-    /// A property name is that of a column, or else of a group of columns. `across` may name groups
-    /// that the vertices lack.
+    /// A property name is the name of a column, or else of a group of columns. `across` may name
+    /// groups that the vertices lack.
     ///
     /// \throws weld_property_error for an unknown name, or a column of lists
     [[nodiscard]] TREEFORM_API std::vector<weld_condition> conditions(const attributes& properties,

@@ -19,8 +19,8 @@ namespace treeform {
 
 /// How to write.
 struct write_options {
-    /// Extension without its dot: stl, obj, ply, off, xyz, csv, pcd, las, laz, glb, 3mf. Empty:
-    /// that of the path.
+    /// Extension without its dot: stl, obj, ply, off, xyz, csv, pcd, las, laz, glb, 3mf. Empty: the
+    /// extension of the path.
     std::string format{};
     /// Write text if the format has text and binary. Binary PLY is little endian, unless the file
     /// was read from a big-endian file. PCD is compressed only if it was read from a compressed
@@ -37,7 +37,7 @@ struct write_options {
     std::vector<std::string> drop{};
     /// Renamed columns of points, as pairs (new name, present name).
     std::vector<std::pair<std::string, std::string>> rename{};
-    /// For LAS and LAZ; none: those of the file, else chosen by `write`.
+    /// For LAS and LAZ. Empty: scale and offset of the file, else chosen by `write`.
     std::optional<std::array<double, 3>> las_scale{};
     std::optional<std::array<double, 3>> las_offset{};
     /// Allow rounding of certified coordinates, which may invalidate the certificate. Coordinates
@@ -116,10 +116,10 @@ struct write_result {
 TREEFORM_API write_result write(const std::filesystem::path& path, const mesh_file& file,
                                 const write_options& options = {});
 
-/// Rounds the coordinates of `file` to those of a LAS file, and sets the scale and offset of that
-/// file (`mesh_file::las`), so that later decisions about the points hold for the written file.
-/// Returns the largest change of a coordinate: 0 for an unchanged LAS file. Coordinates that are
-/// not finite stay. Only scale and offset of `options` are used.
+/// Rounds the coordinates of `file` as `write` does for a LAS file, and sets the scale and offset
+/// in `mesh_file::las`, so that later decisions about the points hold for the written file. Returns
+/// the largest change of a coordinate: 0 for an unchanged LAS file. Coordinates that are not finite
+/// are not changed. Only scale and offset of `options` are used.
 ///
 /// \throws io_error naming the first point that does not fit into 32 bits with the file's scale
 /// \cost   O(V)

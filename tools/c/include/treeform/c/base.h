@@ -223,8 +223,9 @@ typedef struct treeform_certificate {
     void* owner;
     treeform_status status;
     const char* message;  ///< the outcome as a clause for people, without a full stop
-    /// Number of pairs of faces that meet where they should not. A face paired with itself is
-    /// degenerate, or has the outside of the solid behind it. `meeting` lists the first 100.
+    /// Number of pairs of faces that meet beyond common corners and edges. A face paired with
+    /// itself is degenerate, or has the outside of the solid behind it. `meeting` lists the first
+    /// 100.
     uint64_t meeting_count;
     const uint32_t* meeting;   ///< [meeting_listed][2]
     const double* meeting_at;  ///< a corner of the first face of each pair in `meeting`
@@ -253,7 +254,7 @@ typedef struct treeform_certificate {
     int32_t size_is_volume;
     /// [open_listed][2][3] Ends of the open part of each edge; rounded if the edge is cut.
     const double* open_edges;
-    const treeform_element* open_faces;  ///< a face at each of these edges
+    const treeform_element* open_faces;  ///< one face at each edge in `open_edges`
 } treeform_certificate;
 
 /// The work of a bounded search, in pairs of faces tested. It depends on the input alone. A result
@@ -262,7 +263,7 @@ typedef struct treeform_search_effort {
     uint64_t pairs;  ///< pairs of faces tested; a pair in motion counts as two
     uint64_t bound;  ///< the limit of `pairs`
     /// Number of candidates skipped because testing one would take more than 1/32 of the bound, or
-    /// more than what is left of it. If not 0, a better result may exist.
+    /// more than the rest of it. If not 0, a better result may exist.
     uint64_t cut;
 } treeform_search_effort;
 // end

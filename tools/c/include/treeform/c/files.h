@@ -218,7 +218,7 @@ TREEFORM_C_API treeform_code treeform_file_turn_normals(treeform_file* file, con
 typedef struct treeform_write_options {
     size_t size;
     /// Extension without its dot: stl, obj, ply, off, xyz, csv, pcd, las, laz, glb, 3mf. Empty:
-    /// that of the path.
+    /// the extension of the path.
     const char* format;
     /// Write text if the format has text and binary. Binary PLY is little endian, unless the file
     /// was read from a big-endian file. PCD is compressed only if it was read from a compressed
@@ -241,7 +241,7 @@ typedef struct treeform_write_options {
     /// [rename_count] Renamed columns of points, as pairs (new name, present name).
     const treeform_named_column* rename;
     size_t rename_count;
-    /// [3] For LAS and LAZ; `TREEFORM_NONE`: those of the file, else chosen by `treeform_write`;
+    /// [3] For LAS and LAZ. Empty: scale and offset of the file, else chosen by `treeform_write`;
     /// or null
     const double* las_scale;
     const double* las_offset;  ///< [3]; or null

@@ -167,8 +167,8 @@ typedef struct treeform_packing {
 /// `treeform_distance` minus its error, and no part is inside another. With a spacing of 0, parts
 /// may only touch in a plane that separates their boxes.
 ///
-/// A small part may stand in a hole of another, and `tighten` may move a part below an overhang. A
-/// void that is closed all around stays empty.
+/// A small part may stand in a hole of another, and `tighten` may move a part below an overhang.
+/// No part is placed in a void that is closed all around.
 ///
 /// This is a heuristic search: a place may exist for a part that is not placed. In the first try,
 /// parts are taken in the order of the area that they cover (stacked: of their volume). Each part
@@ -179,8 +179,8 @@ typedef struct treeform_packing {
 /// on while more plates are used than the area requires. The result is the try with the most parts
 /// placed, then with the least area unplaced, then with the fewest plates, then the earliest.
 ///
-/// Parts without faces take no room: they are placed where they are. Points without faces move
-/// along with their part and are otherwise ignored. Equal parts are prepared once.
+/// Parts without faces occupy no space: they are placed at their present position. Points without
+/// faces move along with their part and are otherwise ignored. Equal parts are prepared once.
 TREEFORM_C_API treeform_code treeform_pack(const treeform_mesh* const* parts, size_t count,
                                            const treeform_pack_options* options,
                                            treeform_packing** packing);
@@ -213,7 +213,7 @@ typedef struct treeform_align_options {
     /// Share of the moving points that have a partner, in (0, 1]. Each step uses this share of the
     /// points, those with the nearest partners; default 1.0
     double overlap;
-    /// Ignore partners further apart. Not squared, not negative; default infinite
+    /// Ignore partners farther apart than this. Not squared, not negative; default infinite
     double max_distance;
     /// Also find a uniform scale. The search starts from the scale of `start`, and from the scale
     /// that makes both sides equally large, and tries from half to twice of each. It compares

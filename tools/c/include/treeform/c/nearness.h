@@ -167,7 +167,7 @@ typedef struct treeform_relation {
 /// ignores those that do not concern it.
 typedef struct treeform_measure_options {
     size_t size;
-    /// for `treeform_measure`: ignore meshes further apart; inclusive; default infinite
+    /// for `treeform_measure`: ignore meshes farther apart than this; inclusive; default infinite
     double radius;
     /// Only closed meshes have an inside; this decides whether a mesh is closed.
     treeform_vertices vertices;

@@ -14,7 +14,7 @@
 // made of the headers of C++:
 //   placement_end placement_contact placement placement_options slide() drop() mate()
 //   separate() turn() mate_features() measure_among()
-/// Why a placement ended where it did.
+/// The reason why a placement ended.
 typedef int32_t treeform_placement_end;
 enum {
     /// stopped by a fixed mesh, or at the clearance from it

@@ -42,14 +42,14 @@ typedef struct treeform_offset_result {
     treeform_arrays mesh;
     /// Status ok means, verified on the coordinates of `mesh`: a closed manifold, oriented
     /// outward, whose faces meet only in common corners and edges. `open_input`: the input bounds
-    /// no solid; `open_edges` lists where. `vanished`: nothing is left, since the solid is nowhere
-    /// thick enough, or exceeds that thickness by less than a cell.
+    /// no solid; `open_edges` lists where. `vanished`: the result is empty, since the solid is
+    /// nowhere thick enough, or exceeds that thickness by less than a cell.
     const treeform_certificate* certificate;
     /// the given distance, without its sign; for `treeform_wrap`, the offset used
     double distance;
     double resolution;  ///< the resolution used; for `treeform_wrap`, its `size`
     uint64_t cells;     ///< cells that the surface may pass through
-    /// For `treeform_hollow`: cavities without an opening, those of the input included.
+    /// For `treeform_hollow`: number of cavities without an opening, including those of the input.
     uint64_t sealed_cavities;
     /// [blind_drain_count] For `treeform_hollow`: numbers of drains that do not lead from outside
     /// into a cavity, judged by the ends of their axes.
@@ -60,8 +60,8 @@ typedef struct treeform_offset_result {
     /// for `treeform_wrap`: tetrahedra filled to make the surface manifold
     uint64_t filled_tetrahedra;
     /// Lower bound of the distance from any point of the new surface, also inside its faces, to
-    /// the input surface. For `treeform_hollow`, the new surface is that of the cavities; for
-    /// `treeform_thicken`, the distance is to the moved surface. By branch and bound: this and
+    /// the input surface. For `treeform_hollow`, the new surface is the surface of the cavities;
+    /// for `treeform_thicken`, the distance is to the moved surface. By branch and bound: this and
     /// `greatest_distance` are within a sixteenth of the resolution of the true extremes. 0 if
     /// there is no surface, and for `treeform_wrap`.
     double least_distance;
@@ -168,8 +168,8 @@ typedef struct treeform_simplify_result {
 ///
 /// Input and result are within `max_distance` of each other: this is proven for each face, not
 /// sampled. No collapse makes faces meet, exactly, on the coordinates returned; faces of the input
-/// that meet may still meet. A closed, oriented manifold stays one. The nesting of components is
-/// only checked at the end, in the certificate.
+/// that meet may still meet. A closed, oriented manifold remains a closed, oriented manifold. The
+/// nesting of components is only checked at the end, in the certificate.
 ///
 /// Borders, features, and borders of groups are simplified as polylines on their own vertices,
 /// within the same distance. Vertices stay where such lines end, branch or cross, at nonmanifold

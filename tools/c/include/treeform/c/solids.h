@@ -27,7 +27,7 @@ enum {
 /// How to combine solids.
 typedef struct treeform_boolean_options {
     size_t size;
-    treeform_fill_rule inside;  ///< what is solid
+    treeform_fill_rule inside;  ///< the rule that defines the inside
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
     /// float64
     treeform_precision precision;
@@ -37,7 +37,7 @@ typedef struct treeform_boolean_options {
     double max_displacement;
     /// Do not merge coplanar faces that were cut, or that overlap. By default they are merged,
     /// exactly and before rounding, which removes vertices inside a flat region, and on a straight
-    /// edge between two flat regions. Uncut faces stay as they are. `split` keeps all cuts.
+    /// edge between two flat regions. Uncut faces are not changed. `split` keeps all cuts.
     int32_t keep_cuts;
     int32_t simplify;  ///< merge all coplanar faces of the result, also those not cut
     /// Compute `boolean_result::volumes`; only for two operands, without filled gaps.
@@ -73,13 +73,13 @@ typedef struct treeform_volumes {
     double both;    ///< in the first and in the second
 } treeform_volumes;
 
-/// The surface of a solid in rounded coordinates, and what was checked about it.
+/// The surface of a solid in rounded coordinates, with its sources and certificate.
 typedef struct treeform_boolean_result {
     void* owner;
     /// Faces are counter-clockwise from outside, in the order of their sources. Vertices of
     /// operands come first, in their order, then new ones on cuts.
     treeform_arrays mesh;
-    /// [F] the lowest operand face that contains each face or a part of it. Next to mended places
+    /// [F] the lowest operand face that contains each face or a part of it. Near repaired places
     /// it may be a neighbor of that face. A face of a filled `gap` has the operand face at or
     /// opposite to it; such faces come last.
     const treeform_element* face_source;
@@ -99,7 +99,7 @@ typedef struct treeform_boolean_result {
     /// The largest distance from `mesh` of a vertex of the exact result that was removed. It is
     /// large if a component lost a part too thin for the coordinates.
     double vanished_reach;
-    /// [vanished_listed][3] a point of each of these components, at most 100
+    /// [vanished_listed][3] one point of each vanished component; at most 100
     const double* vanished_at;
     size_t vanished_listed;
     const treeform_volumes* volumes;
@@ -200,7 +200,7 @@ enum {
 /// How to resolve self-intersections.
 typedef struct treeform_resolve_options {
     size_t size;
-    treeform_fill_rule inside;  ///< for `outer`: what is solid
+    treeform_fill_rule inside;  ///< for `outer`: the rule that defines the inside
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
     /// float64
     treeform_precision precision;
@@ -241,12 +241,12 @@ typedef struct treeform_repair_statistics {
     uint64_t labeled_cells;   ///< cells labeled inside or outside, since faces disagreed
     double dropped_area;      ///< area of dropped faces, with one label on both sides
     double flipped_area;      ///< area of faces flipped by the labels
-    uint64_t removed;         ///< input faces of which resolving left nothing
+    uint64_t removed;         ///< input faces that resolving removed entirely
     uint64_t split_vertices;  ///< vertices split where parts of the solid touch
     uint64_t detached;        ///< vertices moved apart
     uint64_t touching;        ///< vertices that still have the coordinates of another
-    /// Components (faces linked by vertices) of which no face is left; for `treeform_repair`,
-    /// those larger than `repair_options::strays`.
+    /// Components (faces linked by vertices) that lost all of their faces; for `treeform_repair`,
+    /// only those larger than `repair_options::strays`.
     uint64_t vanished_components;
     /// closed shells inside the solid, dropped; `odd` makes them cavities
     uint64_t dropped_shells;
@@ -316,7 +316,7 @@ typedef struct treeform_repair_options {
     /// orient faces consistently and shells outward; drop strays; default 1
     int32_t orient;
     int32_t fill;  ///< fill holes; default 1
-    /// cut self-intersections; drop faces that bound nothing; default 1
+    /// cut self-intersections; drop faces that bound no solid; default 1
     int32_t resolve;
     int32_t detach;  ///< separate parts that touch in an edge or a vertex; default 1
     /// Widest crack to close, in the mesh's length unit. By default the narrowest that leaves the
@@ -325,11 +325,12 @@ typedef struct treeform_repair_options {
     double gap;
     uint64_t largest_hole;  ///< Fill holes of at most this many edges; default all
     /// Drops loose open pieces below this share of the area, and single triangles below 1 %. If a
-    /// larger component vanishes since it bounds nothing, the status is `excessive_loss`, unless
+    /// larger component vanishes since it bounds no solid, the status is `excessive_loss`, unless
     /// `max_loss` is 1; default 0.001
     double strays;
-    /// What is solid. By default `positive` if each shell is outward after `orient`, else
-    /// `nonzero` or the labels of cells (see `treeform_repair`); a `treeform_fill_rule`, or -1
+    /// The rule that defines the inside. By default `positive` if each shell is outward after
+    /// `orient`, else `nonzero` or the labels of cells (see `treeform_repair`); a
+    /// `treeform_fill_rule`, or -1
     int32_t inside;
     /// Losing more than this share of the volume gives the status `excessive_loss`; if there were
     /// holes, of the area. Faces that remain, or are inside the solid, do not count as lost. 1
