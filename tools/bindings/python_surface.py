@@ -22,8 +22,6 @@ WORDS = {"columns as in `las_header`": "columns are the fields of its records",
          "Prepared meshes cache tight bounds of their surfaces":
              "A `Mesh` caches tight bounds of its surface",
          "for prepared meshes": "for a `Mesh`",
-         "`unite`": "`union`", "`transform_mesh`": "`transformed`",
-         "`find_oriented_box`": "`oriented_box`", "`find_mass_properties`": "`mass_properties`",
          "`signed_volume`": "`Mesh.volume`", "`surface_area`": "`Mesh.area`",
          "`boolean_statistics`": "`BooleanResult.statistics`",
          "bounding_box": "Mesh.bounds", "`written_as`": "`precision`"}

@@ -241,8 +241,8 @@ typedef struct treeform_write_options {
     /// [rename_count] Renamed columns of points, as pairs (new name, present name).
     const treeform_named_column* rename;
     size_t rename_count;
-    /// [3] For LAS and LAZ. Empty: scale and offset of the file, else chosen by `treeform_write`;
-    /// or null
+    /// [3] For LAS and LAZ; `TREEFORM_NONE`: scale and offset of the file, else chosen by
+    /// `treeform_write`; or null
     const double* las_scale;
     const double* las_offset;  ///< [3]; or null
 } treeform_write_options;
