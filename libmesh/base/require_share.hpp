@@ -16,7 +16,8 @@ inline void require_share(const char* function, double value, const char* what) 
                                     " is negative or not finite");
 }
 
-/// \throws std::invalid_argument likewise if `what` is negative or NaN; infinity means no limit
+/// \throws std::invalid_argument naming `function` and `what` if `value` is negative or NaN;
+///         infinity means no limit
 inline void require_limit(const char* function, double value, const char* what) {
     if (!(value >= 0.0))
         throw std::invalid_argument("treeform::" + std::string(function) + ": " + what +

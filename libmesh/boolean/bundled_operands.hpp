@@ -37,7 +37,7 @@ class bundled_operands {
     [[nodiscard]] const bundles& all() const { return all_; }
     /// Null if all of the operands matters.
     [[nodiscard]] const undecided_part* part() const { return part_.get(); }
-    /// Whether no prepared index will be used again.
+    /// Whether the index of some operand, which the caller did not prepare, is used only once.
     [[nodiscard]] bool once() const { return once_; }
 
     /// Whether only few faces within each bundle meet.

@@ -67,7 +67,7 @@ class component_items {
                                                         (std::size_t{i.number} << capacity));
     }
 
-    /// \pre `i` is no face
+    /// \pre `i` is not a face
     template <class Visit>
     void for_children(const item& i, const Visit& visit) const {
         const auto first = static_cast<std::uint32_t>(tree<3>::width * i.number);
@@ -78,7 +78,7 @@ class component_items {
             visit(item{i.component, i.level + 1, first + k});
     }
 
-    /// The box of an item in the frame of its tree. \pre `i` is no root
+    /// The box of an item in the frame of its tree. \pre `i` is not a root
     [[nodiscard]] aabb<float, 3> box_of(const item& i) const {
         const auto [node, slot] = place_of(i);
         aabb<float, 3> box;

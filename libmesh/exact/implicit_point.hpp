@@ -43,10 +43,10 @@ class TREEFORM_API implicit_point {
     implicit_point(const point3& p = {}) : center_(p) {}  // NOLINT
 
     /// The intersection of the lines through a, b and through c, d.
-    /// \pre    there is exactly one; likewise below
-    /// \throws std::invalid_argument where the directions leave none or many; likewise below
-    /// \cost   40 ns, of planes 60 ns; below a microsecond where they are nearly parallel, and a
-    ///         few where differences are out of 1e-24 to 1e19
+    /// \pre    there is exactly one common point; also in the functions below
+    /// \throws std::invalid_argument if the directions allow none or several; also below
+    /// \cost   40 ns, for planes 60 ns; below a microsecond if they are nearly parallel, and a few
+    ///         microseconds if differences are outside of 1e-24 to 1e19
     [[nodiscard]] static implicit_point where_lines_cross(const point3& a, const point3& b,
                                                           const point3& c, const point3& d);
 

@@ -46,8 +46,8 @@ class point_blocks {
 };
 
 /// The index of the records of a part of a text file, with at most `most` marks. None if the file
-/// is no text of points, or cannot be read, which is reported when it is opened. `even` as for
-/// `scan_xyz`.
+/// is not a text file of points, or cannot be read, which is reported when it is opened. `even` as
+/// for `scan_xyz`.
 [[nodiscard]] std::optional<record_index> scan_points(const std::filesystem::path& path,
                                                       const reading& how, const file_part& part,
                                                       std::size_t most, bool even = true);

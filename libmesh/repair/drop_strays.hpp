@@ -14,7 +14,7 @@ struct dropped_strays {
     std::vector<std::uint32_t> walls{};  ///< sources of faces dropped as walls, ascending
 };
 
-/// The treatment of patches that end at other patches, or hang on them.
+/// Whether patches that end at other patches, or are attached to them, are dropped (`go`) or kept.
 enum class walls : std::uint8_t { go, stay };
 
 /// Drops patches that bound nothing.
@@ -23,8 +23,8 @@ enum class walls : std::uint8_t { go, stay };
 ///   (border length squared > 8 times the area; 6.3 for a hemisphere, 12.6 for a disk), since
 ///   filling its holes would enclose almost nothing. So is a flat patch of one or two faces with
 ///   less than 1 % of the area, if all such patches together have less than 5 %.
-/// - A patch that hangs on others, and has a free border, is dropped if it is that small or nearly
-///   flat.
+/// - A patch that is attached to others, and has a free border, is dropped if it is that small or
+///   nearly flat.
 /// - A patch that only ends at other faces, like a wall inside a solid, is dropped if each of these
 ///   edges has an odd number of faces, and an even number without it; the smallest first. This is a
 ///   heuristic: of three patches that end at one loop, any could be the wall.

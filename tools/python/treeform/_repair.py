@@ -145,8 +145,8 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
            max_loss: float = 0.05, sheet: bool = False, precision: str = "float64",
            max_displacement: float = np.inf, keep_cuts: bool = False, check: bool = True,
            progress: Progress = None) -> RepairResult:
-    """A solid made of a dirty mesh: closed, oriented, manifold and free of self-intersections.
-    Check the certificate: its status says whether this was possible, and it lists where it was not.
+    """Repairs a mesh to a solid: closed, oriented, manifold and free of self-intersections. Check
+    the certificate: its status says whether this was possible, and it lists where it was not.
 
     The steps are `options`, in this order. Each changes only what is defective: a mesh that is a
     solid is returned bit for bit. Which faces meet and what is inside is decided exactly. Which

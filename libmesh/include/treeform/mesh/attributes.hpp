@@ -74,7 +74,7 @@ enum class scalar_type : std::uint8_t {
     return sizes[static_cast<std::size_t>(type)];
 }
 
-/// The scalar type that stands for the C++ type T.
+/// The scalar type of the C++ type T.
 template <class T>
 [[nodiscard]] constexpr scalar_type scalar_type_of() {
     if constexpr (std::is_same_v<T, std::int8_t>)

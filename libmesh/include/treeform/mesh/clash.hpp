@@ -104,8 +104,8 @@ struct clash_result {
 [[nodiscard]] TREEFORM_API clash_result clash(const mesh_refs& parts,
                                               const clash_options& options = {});
 
-/// All pairs of different parts of which one matches the pattern `first` by its name, and the other
-/// the pattern `second`; ascending, each once, with the lower number first.
+/// All pairs of different parts in which the name of one matches the pattern `first`, and the name
+/// of the other matches `second`; ascending, without duplicates, each with the lower number first.
 [[nodiscard]] TREEFORM_API std::vector<part_pair> pairs_named(std::span<const std::string> names,
                                                               std::string_view first,
                                                               std::string_view second);

@@ -171,8 +171,8 @@ struct TREEFORM_API repair_result {
 resolve_self_intersections(const mesh_ref& mesh, resolve_mode mode = resolve_mode::outer,
                            const resolve_options& options = {});
 
-/// A solid made of a dirty mesh: closed, oriented, manifold and free of self-intersections. Check
-/// the certificate: its status says whether this was possible, and it lists where it was not.
+/// Repairs a mesh to a solid: closed, oriented, manifold and free of self-intersections. Check the
+/// certificate: its status says whether this was possible, and it lists where it was not.
 ///
 /// The steps are those of `repair_options`, in this order. Each changes only what is defective: a
 /// mesh that is a solid is returned bit for bit. Which faces meet and what is inside is decided

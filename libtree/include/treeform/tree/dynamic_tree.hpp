@@ -54,7 +54,7 @@ struct update_counts {
 ///   together with the trees that are less than four times as large.
 ///
 /// So there are always at most 2 + log4(N / 32) trees, each at least half full. Searches usually
-/// open up to 3 times as many nodes as in a new tree.
+/// visit up to 3 times as many nodes as in a new tree.
 ///
 /// \cost   About 90 bytes a primitive in space. An update of K primitives costs O(K log N), plus a
 ///         pass over N / 8 bytes if K is above N / 128, plus builds. Amortized over all updates,

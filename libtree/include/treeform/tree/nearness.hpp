@@ -78,8 +78,8 @@ template <std::size_t D, nearness_query<D> Query>
     return box;
 }
 
-/// Keeps the best answer of those offered: the nearest; of equally near ones, that of the lowest
-/// id.
+/// Keeps the best of the answers offered: the nearest; of equally near ones, the one with the
+/// lowest id.
 template <class Answer>
 class nearest_one {
   public:
@@ -124,8 +124,8 @@ void visit_near(const Tree& tree, const Query& query, const Visit& visit,
                       detail::squared_radius("treeform::visit_near", radius), order, visit);
 }
 
-/// The nearest primitive; of equally near ones, that of the lowest number. None if the tree is
-/// empty or all primitives are beyond the radius.
+/// The nearest primitive; of equally near ones, the lowest number. None if the tree is empty or all
+/// primitives are beyond the radius.
 ///
 /// `distance_of(id)` returns the squared distance from the query to a primitive: a number, or a
 /// struct with a member `squared_distance`, which becomes `neighbor::answer`. Its relative error

@@ -104,7 +104,8 @@ void visit_along(const Tree& tree, const ray<T, Tree::dimensions>& ray, const Vi
     detail::trace(tree, detail::in_double(ray), visit);
 }
 
-/// The hit with the least t; of equal t, that of the lowest primitive. None if there is no hit.
+/// The hit with the least t; of hits with equal t, the one of the lowest primitive. None if there
+/// is no hit.
 ///
 /// `hit_of(id)` returns whether and where the ray hits a primitive: a `std::optional` of a number
 /// t, or of a struct with a member t. A t outside [t_min, t_max], or NaN, is no hit. A hit must lie

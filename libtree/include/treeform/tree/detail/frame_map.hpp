@@ -25,7 +25,7 @@ namespace treeform::detail {
 /// (sum of |M| |x| + |t|), as far as that is relative to S; the rest of it, and the error of q, (D
 /// + 2) 2^-53 Q for the sum Q of the magnitudes that make up q, are together below 2^-49 Q.
 /// Underflow: a coefficient flushed to 0 is off by 2^-126, times reach; `slack` has 2^-90 for it,
-/// so that its own product with reach is no denormal, which costs a hundred cycles, where l is 0.
+/// so that, if l is 0, its product with reach is not a denormal, which would cost a hundred cycles.
 /// Products and sums are off by 2^-126 each, together below 1e-36.
 ///
 /// Overflow: an infinite or NaN result becomes an infinite side, since the slack overflows with, or

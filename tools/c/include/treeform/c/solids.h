@@ -351,8 +351,8 @@ typedef struct treeform_repair_options {
 /// Sets the defaults.
 TREEFORM_C_API void treeform_repair_options_init(treeform_repair_options* options, size_t size);
 
-/// A solid made of a dirty mesh: closed, oriented, manifold and free of self-intersections. Check
-/// the certificate: its status says whether this was possible, and it lists where it was not.
+/// Repairs a mesh to a solid: closed, oriented, manifold and free of self-intersections. Check the
+/// certificate: its status says whether this was possible, and it lists where it was not.
 ///
 /// The steps are those of `treeform_repair_options`, in this order. Each changes only what is
 /// defective: a mesh that is a solid is returned bit for bit. Which faces meet and what is inside
