@@ -154,7 +154,7 @@ BOUND = [
                "[column_count] as in `treeform_read_options`"),
         Member("size_t column_count"),
         Member("int32_t mixed", "join LAS files of different coordinate systems or time types; "
-               "the output then has those of the first")]}),
+               "the output then has the system and type of the first")]}),
     Bound("weld_stream_result", leave="kept_apart removed label_replaced las_moved", custom={
         "survey": [Member(f"{type} {name}", doc, f"to.{name} = from.survey.{name};")
                    for type, name, doc in (
@@ -215,8 +215,8 @@ BOUND = [
         "list_length": [
             Member("int32_t is_list", "whether each row has a list of values",
                    "to.is_list = from.list_length.has_value();"),
-            Member("int32_t is_stored_elsewhere", "whether the values are those of points and "
-                                                  "faces, and not here",
+            Member("int32_t is_stored_elsewhere", "whether the values are stored in the points, "
+                                                  "faces or corners of the file, not in `values`",
                    "to.is_stored_elsewhere = from.role != tf::column_role::data;")],
         "values": [Member("const void* values", "[value_count] values of `type`",
                           "to.values = from.values.data();"),

@@ -39,9 +39,9 @@ inline answer_of<treeform_bodies> bodies_of(const treeform_file* const* files,
     return made;
 }
 
-/// Replaces the body's points in its file by `points` [count][3], those of a placement, transforms
-/// all other points of the file by `matrix` [12], and returns the file. The meshes of the bodies do
-/// not change.
+/// Replaces the body's points in its file by `points` [count][3], the points of a placement,
+/// transforms all other points of the file by `matrix` [12], and returns the file. The meshes of
+/// the bodies do not change.
 inline tf::mesh_file put_back(treeform_bodies* bodies, std::size_t body, const double* points,
                               std::size_t count, const double* matrix, tf::precision written_as) {
     auto& set = kept_in<tf::body_set>(need(bodies, "bodies"), "bodies");

@@ -41,7 +41,7 @@ inline std::span<const std::uint32_t> numbers(const std::uint32_t* data, std::si
 /// Gives `file`, whose mesh is a result of the `inputs` [count], their attributes: columns of
 /// vertices and faces, texture coordinates and normals, materials; from a single input, also the
 /// names of its parts. `face_source` [F], `vertex_source` [V] and `face_of_cut_vertex` ([V] or
-/// null) are those of a `treeform_boolean_result`.
+/// null) are members of a `treeform_boolean_result`.
 inline void carry(tf::mesh_file& file, const treeform_carry_source* inputs, std::size_t count,
                   const treeform_element* face_source, const treeform_element* vertex_source,
                   const treeform_element* face_of_cut_vertex) {
@@ -57,9 +57,9 @@ inline void carry(tf::mesh_file& file, const treeform_carry_source* inputs, std:
                elements(vertex_source, vertices, "vertex_source", from, points), cut);
 }
 
-/// The same for a result of one input: `face_source` [F] and `vertex_source` [V] are those of a
-/// `treeform_repair_result`, `treeform_cut_piece` or `treeform_simplify_result`. For the last, also
-/// pass its `face_of_new_vertex` [V] and `corner_source` [3 F], else null.
+/// The same for a result of one input: `face_source` [F] and `vertex_source` [V] are members
+/// of a `treeform_repair_result`, `treeform_cut_piece` or `treeform_simplify_result`. For the last,
+/// also pass its `face_of_new_vertex` [V] and `corner_source` [3 F], else null.
 inline void carry_one(tf::mesh_file& file, const treeform_carry_source* input,
                       const std::uint32_t* face_source, const std::uint32_t* vertex_source,
                       const std::uint32_t* face_of_new_vertex, const std::uint32_t* corner_source) {
@@ -113,8 +113,8 @@ inline void color_distances(tf::mesh_file& file, std::span<const double> distanc
 }
 
 /// Gives the triangles of a file (for a cloud, its points) the property tf_class and its color;
-/// `relations` [count] are those of `treeform_face_relations`. Small triangles near those that are
-/// not separate, with edges of at most twice `halo`, get a tint.
+/// `relations` [count] is a result of `treeform_face_relations`. Small separate triangles, with
+/// edges of at most twice `halo`, get a tint if they are near a triangle that is not separate.
 inline void color_contacts(tf::mesh_file& file, std::span<const std::uint8_t> relations,
                            double halo) {
     std::vector<tf::mesh_relation> all;

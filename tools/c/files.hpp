@@ -76,8 +76,8 @@ inline std::size_t rows_in(const tf::mesh_file& file, std::string_view element) 
     return found ? found->rows : static_cast<std::size_t>(-1);
 }
 
-/// Replaces the points [count][3], for example by those of a placement; `count` must be the number
-/// of points.
+/// Replaces the points [count][3], for example by the points of a placement; `count` must be the
+/// number of points.
 inline void file_set_points(tf::mesh_file& file, std::span<const tf::point3> points) {
     if (points.size() != file.mesh.points.size())
         throw std::invalid_argument(std::to_string(points.size()) + " points for a file of " +

@@ -29,7 +29,7 @@ typedef struct treeform_body {
 typedef struct treeform_bodies {
     void* owner;
     const treeform_body* bodies;         ///< [count]
-    const treeform_mesh* const* meshes;  ///< [count] those of the bodies, as a `treeform_mesh_set`
+    const treeform_mesh* const* meshes;  ///< [count] meshes of the bodies, as a `treeform_mesh_set`
     size_t count;
 } treeform_bodies;
 
@@ -42,9 +42,9 @@ TREEFORM_C_API treeform_code treeform_bodies_of(const treeform_file* const* file
                                                 const char* const* labels, size_t count,
                                                 treeform_body_kind kind, treeform_bodies** bodies);
 
-/// Replaces the body's points in its file by `points` [count][3], those of a placement, transforms
-/// all other points of the file by `matrix` [12], and returns the file. The meshes of the bodies
-/// do not change.
+/// Replaces the body's points in its file by `points` [count][3], the points of a placement,
+/// transforms all other points of the file by `matrix` [12], and returns the file. The meshes of
+/// the bodies do not change.
 TREEFORM_C_API treeform_code treeform_put_back(treeform_bodies* bodies, size_t body,
                                                const double* points, size_t count,
                                                const double* matrix, treeform_precision written_as,

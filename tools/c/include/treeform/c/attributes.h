@@ -19,14 +19,14 @@ typedef struct treeform_carry_source {
 /// Gives `file`, whose mesh is a result of the `inputs` [count], their attributes: columns of
 /// vertices and faces, texture coordinates and normals, materials; from a single input, also the
 /// names of its parts. `face_source` [F], `vertex_source` [V] and `face_of_cut_vertex` ([V] or
-/// null) are those of a `treeform_boolean_result`.
+/// null) are members of a `treeform_boolean_result`.
 TREEFORM_C_API treeform_code treeform_carry(treeform_file* file,
                                             const treeform_carry_source* inputs, size_t count,
                                             const treeform_element* face_source,
                                             const treeform_element* vertex_source,
                                             const treeform_element* face_of_cut_vertex);
 
-/// The same for a result of one input: `face_source` [F] and `vertex_source` [V] are those of a
+/// The same for a result of one input: `face_source` [F] and `vertex_source` [V] are members of a
 /// `treeform_repair_result`, `treeform_cut_piece` or `treeform_simplify_result`. For the last,
 /// also pass its `face_of_new_vertex` [V] and `corner_source` [3 F], else null.
 TREEFORM_C_API treeform_code treeform_carry_one(treeform_file* file,
@@ -61,8 +61,8 @@ TREEFORM_C_API treeform_code treeform_color_distances(treeform_file* file, const
                                                       size_t count, double low, double high);
 
 /// Gives the triangles of a file (for a cloud, its points) the property tf_class and its color;
-/// `relations` [count] are those of `treeform_face_relations`. Small triangles near those that are
-/// not separate, with edges of at most twice `halo`, get a tint.
+/// `relations` [count] is a result of `treeform_face_relations`. Small separate triangles, with
+/// edges of at most twice `halo`, get a tint if they are near a triangle that is not separate.
 TREEFORM_C_API treeform_code treeform_color_contacts(treeform_file* file, const uint8_t* relations,
                                                      size_t count, double halo);
 // end

@@ -11,8 +11,8 @@
 ///
 /// Memory. Free all objects that functions create (meshes, files, trees, results) with
 /// `treeform_free`. Results are structs that own the arrays they point to, until they are freed.
-/// The first member of a result, `owner`, is internal. Arrays that you pass stay yours; a function
-/// does not use them after it returns, unless it says that it borrows them.
+/// The first member of a result, `owner`, is internal. You keep ownership of arrays that you pass;
+/// functions do not use them after they return, unless their description says they borrow them.
 ///
 /// Options. Structs of options begin with their size: call their `..._init` with `sizeof`, then set
 /// members; null instead of options means the defaults. Later versions may append members to
@@ -104,7 +104,7 @@ TREEFORM_C_API void treeform_set_progress(treeform_progress progress, void* data
 typedef void (*treeform_receive)(const void* bytes, size_t count, void* listener);
 
 /// Processes that share one job in a common folder, such as those that mpirun starts. All must make
-/// the same calls with the same options; outputs are those of rank 0.
+/// the same calls with the same options; outputs are written to the paths of rank 0.
 typedef struct treeform_communicator {
     size_t rank;
     size_t size;

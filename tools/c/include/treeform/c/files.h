@@ -78,7 +78,7 @@ typedef struct treeform_column {
     const char* name;
     treeform_scalar type;
     int32_t is_list;  ///< whether each row has a list of values
-    /// whether the values are those of points and faces, and not here
+    /// whether the values are stored in the points, faces or corners of the file, not in `values`
     int32_t is_stored_elsewhere;
     const void* values;  ///< [value_count] values of `type`
     size_t value_count;
@@ -158,8 +158,8 @@ typedef struct treeform_file_view {
 TREEFORM_C_API treeform_code treeform_file_look(const treeform_file* file,
                                                 treeform_file_view** view);
 
-/// Replaces the points [count][3], for example by those of a placement; `count` must be the number
-/// of points.
+/// Replaces the points [count][3], for example by the points of a placement; `count` must be the
+/// number of points.
 TREEFORM_C_API treeform_code treeform_file_set_points(treeform_file* file, const double* points,
                                                       size_t count);
 

@@ -78,7 +78,7 @@ TREEFORM_C_API treeform_code treeform_mesh_set_create(const treeform_mesh* const
 typedef struct treeform_made_mesh {
     void* owner;
     treeform_arrays mesh;
-    const uint32_t* index;  ///< [index_count] its meaning is that of the function; else null
+    const uint32_t* index;  ///< [index_count] its meaning depends on the function; or null
     size_t index_count;
 } treeform_made_mesh;
 

@@ -48,8 +48,8 @@ typedef struct treeform_weld_stream_options {
     /// [column_count] as in `treeform_read_options`
     const treeform_named_column* columns;
     size_t column_count;
-    /// join LAS files of different coordinate systems or time types; the output then has those of
-    /// the first
+    /// join LAS files of different coordinate systems or time types; the output then has the
+    /// system and type of the first
     int32_t mixed;
 } treeform_weld_stream_options;
 /// Sets the defaults.

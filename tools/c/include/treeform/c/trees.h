@@ -35,7 +35,8 @@ typedef struct treeform_neighbor {
     double distance;
 } treeform_neighbor;
 
-/// Lists of neighbors: those of query i are neighbors[begin[i]] ... neighbors[begin[i + 1] - 1].
+/// Lists of neighbors. List i is that of query i: neighbors[begin[i]] ...
+/// neighbors[begin[i + 1] - 1].
 typedef struct treeform_neighbors {
     void* owner;
     const size_t* begin;  ///< [count + 1]
@@ -92,7 +93,7 @@ TREEFORM_C_API treeform_code treeform_box_tree_pairs_of(const treeform_box_tree*
                                                         treeform_id_pairs** pairs);
 // end
 
-/// Lists of numbers: those of query i are ids[begin[i]] ... ids[begin[i + 1] - 1].
+/// Lists of numbers: the numbers for query i are ids[begin[i]] ... ids[begin[i + 1] - 1].
 typedef struct treeform_id_lists {
     void* owner;
     const size_t* begin;  ///< [count + 1]
