@@ -342,8 +342,7 @@ def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", inside: st
         coordinate. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged, exactly and before rounding, which removes vertices inside a flat region, and on a
-        straight edge between two flat regions. Uncut faces stay as they are. `split` keeps all
-        cuts.
+        straight edge between two flat regions. Uncut faces are not changed. `split` keeps all cuts.
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be

@@ -694,7 +694,7 @@ def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coo
     if the bodies are farther apart than `radius`. The relation is exact, and so is whether the
     distance is 0. Other distances are rounded as in `distance`.
 
-    radius: For `measure`: ignore meshes further apart; inclusive.
+    radius: For `measure`: ignore meshes farther apart than this; inclusive.
     vertices: 'by_coordinates': vertices with equal coordinates are the same vertex; 'by_index':
         only those with the same number.
 
