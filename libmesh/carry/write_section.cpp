@@ -1,5 +1,5 @@
 #include <libmesh/base/point_math.hpp>
-#include <libmesh/io/extension.hpp>
+#include <libmesh/io/detect.hpp>
 #include <libmesh/io/sink.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/section.hpp>

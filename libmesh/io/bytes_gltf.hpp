@@ -71,4 +71,56 @@ class buffers_gltf {
     std::map<std::size_t, std::string> given_{};
 };
 
+/// The values, in doubles. Those of a sparse accessor are put together first. The buffers must
+/// outlive it.
+class values_gltf {
+  public:
+    /// \throws io_error when the bytes do not hold the values
+    values_gltf(buffers_gltf& buffers, const model_gltf& model, std::size_t accessor);
+    values_gltf(const values_gltf&) = delete;
+    values_gltf& operator=(const values_gltf&) = delete;
+    ~values_gltf() = default;
+
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] std::size_t components() const { return components_; }
+    [[nodiscard]] scalar_type type() const { return type_; }
+    /// As it is stored.
+    [[nodiscard]] double raw(std::size_t i, std::size_t component) const;
+    /// With whole numbers made -1 to 1 where the accessor is normalized.
+    [[nodiscard]] double at(std::size_t i, std::size_t component) const {
+        return normalized_ ? as_share(raw(i, component)) : raw(i, component);
+    }
+    /// As if it were normalized.
+    [[nodiscard]] double share(std::size_t i, std::size_t component) const {
+        return as_share(raw(i, component));
+    }
+    /// Of whole numbers.
+    [[nodiscard]] std::uint32_t index(std::size_t i) const {
+        return static_cast<std::uint32_t>(raw(i, 0));
+    }
+
+  private:
+    [[nodiscard]] double as_share(double stored) const;
+
+    const char* first_ = nullptr;
+    std::size_t stride_ = 0;
+    std::size_t size_ = 0;
+    std::size_t components_ = 0;
+    scalar_type type_ = scalar_type::float32;
+    bool normalized_ = false;
+    std::string dense_{};  ///< of a sparse accessor
+};
+
+/// Whether treeform was built with draco.
+[[nodiscard]] bool reads_draco();
+
+/// Unpacks the attributes that are read and the indices, and gives them to the buffers as the
+/// values of their accessors.
+///
+/// \pre    `primitive.draco`
+/// \throws io_error for bytes that are damaged or announce more than they can hold, for another
+///         number of values than that of the accessors, and without draco
+void unpack_draco(buffers_gltf& buffers, const model_gltf& model, std::size_t mesh,
+                  const primitive_gltf& primitive);
+
 }  // namespace treeform::detail::io

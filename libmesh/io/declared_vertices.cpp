@@ -1,7 +1,7 @@
-#include <libmesh/io/declared_vertices.hpp>
-#include <libmesh/io/is_value_of.hpp>
+#include <libmesh/io/number.hpp>
 #include <libmesh/io/ply_header.hpp>
 #include <libmesh/io/vertex_columns.hpp>
+#include <libmesh/io/writers.hpp>
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,8 +1,8 @@
 #include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/detect.hpp>
-#include <libmesh/io/heading.hpp>
 #include <libmesh/io/readers.hpp>
 #include <libmesh/io/text.hpp>
+#include <libmesh/io/text_columns.hpp>
 
 #include <algorithm>
 #include <array>
@@ -137,10 +137,14 @@ void refuse_unless_text(const source& in) {
 
 }  // namespace
 
+std::string_view table_name(file_kind kind) {
+    if (kind == file_kind::xyz) return "xyz";
+    if (kind == file_kind::pts) return "pts";
+    return kind == file_kind::csv ? "csv" : "";
+}
+
 void check_chosen_columns(const source& in, const reading& how, file_kind kind) {
-    const bool is_table =
-        kind == file_kind::xyz || kind == file_kind::pts || kind == file_kind::csv;
-    if (!how.options.columns.empty() && !is_table)
+    if (!how.options.columns.empty() && table_name(kind).empty())
         in.fail("columns can be chosen only for XYZ, PTS and CSV");
 }
 

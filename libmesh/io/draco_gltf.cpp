@@ -1,5 +1,5 @@
 #include <libmesh/base/byte_order.hpp>
-#include <libmesh/io/draco_gltf.hpp>
+#include <libmesh/io/bytes_gltf.hpp>
 
 #include <draco/compression/decode.h>
 

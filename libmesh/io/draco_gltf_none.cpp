@@ -1,4 +1,4 @@
-#include <libmesh/io/draco_gltf.hpp>
+#include <libmesh/io/bytes_gltf.hpp>
 
 namespace treeform::detail::io {
 

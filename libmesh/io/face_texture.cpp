@@ -1,5 +1,5 @@
-#include <libmesh/io/face_texture.hpp>
-#include <libmesh/io/reserve.hpp>
+#include <libmesh/io/ply_header.hpp>
+#include <libmesh/io/scratch.hpp>
 #include <libmesh/io/vertex_columns.hpp>
 #include <libmesh/io/writers.hpp>
 

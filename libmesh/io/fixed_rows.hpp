@@ -2,7 +2,9 @@
 /// \file
 /// Binary rows of fixed size: PLY without lists, PCD.
 
-#include <libmesh/io/file_part.hpp>
+#include <libmesh/io/row_values.hpp>
+#include <libmesh/io/source.hpp>
+#include <libmesh/io/vertex_columns.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/mesh.hpp>
 
@@ -40,5 +42,58 @@ struct alike_rows {
 [[nodiscard]] std::vector<row_place> parts_of_rows(std::uint64_t begin,
                                                    std::span<const alike_rows> rows,
                                                    std::size_t count);
+
+template <class Values>
+void read_data(Values& values, column& c) {
+    if (!c.list_length) return values.scalar(c);
+    for (std::size_t left = values.length(c); left > 0; --left) values.scalar(c);
+    c.list_begin.push_back(c.size());
+}
+
+/// Value by value, for text and for rows with lists.
+template <class Values>
+void append_vertices_one_by_one(Values& values, element& vertices, std::vector<point3>& points,
+                                std::size_t rows) {
+    for (std::size_t row = 0; row < rows; ++row) {
+        point3 p;
+        values.begin_row();
+        for (column& c : vertices.columns) {
+            if (c.role == column_role::data)
+                read_data(values, c);
+            else
+                p[axis_number(c.role)] = values.coordinate(c);
+        }
+        values.end_row();
+        points.push_back(p);
+    }
+}
+
+/// Appends the next `rows` points and their rows to `points` and to the columns of `vertices`.
+inline void append_vertices(text_values& values, element& vertices, std::vector<point3>& points,
+                            std::size_t rows) {
+    append_vertices_one_by_one(values, vertices, points, rows);
+}
+
+/// The same for bytes. \pre `can_hold` is true for the rows
+template <std::endian order>
+void append_vertices(byte_values<order>& values, element& vertices, std::vector<point3>& points,
+                     std::size_t rows) {
+    const std::size_t row_size = fixed_row_size(vertices);
+    if (row_size == 0) return append_vertices_one_by_one(values, vertices, points, rows);
+    // In pieces, so that the bytes of a mapped file are given back as they are used.
+    constexpr std::size_t most = std::size_t{1} << 20;
+    const std::size_t at_once = std::max<std::size_t>(1, most / row_size);
+    std::vector<value_place> places(vertices.columns.size());
+    for (std::size_t done = 0; done < rows; done += at_once) {
+        const std::size_t some = std::min(at_once, rows - done);
+        const char* at = values.take_bytes(some * row_size);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            places[i] = {at, row_size};
+            at += size_of(vertices.columns[i].type);
+        }
+        append_fixed_rows(vertices, points, some, places, order);
+        values.end_row();
+    }
+}
 
 }  // namespace treeform::detail::io

@@ -1,5 +1,5 @@
 #include <libmesh/attributes/known_columns.hpp>
-#include <libmesh/io/extension.hpp>
+#include <libmesh/io/detect.hpp>
 #include <libmesh/io/formats.hpp>
 
 #include <algorithm>

@@ -18,6 +18,36 @@
 
 namespace treeform::detail::io {
 
+inline constexpr std::size_t deepest_json = 500;
+
+/// The quote that ends the string which starts before `at`, or `end`.
+[[nodiscard]] inline const char* end_of_string(const char* at, const char* end) {
+    while (at != end && *at != '"') at += *at == '\\' && end - at > 1 ? 2 : 1;
+    return at;
+}
+
+/// Refuses JSON, a part of `in`, that nests so deeply that no honest file does. JSON that is wrong
+/// otherwise is left to the parser.
+///
+/// \throws io_error naming the byte
+inline void refuse_deep_json(const source& in, std::string_view json) {
+    const char* const end = json.data() + json.size();
+    std::size_t depth = 0;
+    for (const char* at = json.data(); at != end; ++at) {
+        if (*at == '"') {
+            at = end_of_string(at + 1, end);
+            if (at == end) return;
+        } else if (*at == '[' || *at == '{') {
+            if (++depth > deepest_json)
+                in.fail_byte(
+                    at, "JSON nested more than " + std::to_string(deepest_json) + " levels deep");
+        } else if (*at == ']' || *at == '}') {
+            if (depth == 0) return;
+            --depth;
+        }
+    }
+}
+
 class json_entry {
   public:
     using json = nlohmann::json;

@@ -5,7 +5,10 @@
 /// \source LAS Specification 1.4 R15, ASPRS (2019), "Point Data Record Formats"
 
 #include <treeform/mesh/attributes.hpp>
+#include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -78,5 +81,25 @@ struct extra_group {
 
 /// The 192 bytes that describe a dimension.
 [[nodiscard]] std::vector<std::byte> describe_extra(std::string_view name, scalar_type type);
+
+/// How whole numbers stand for coordinates.
+struct las_grid {
+    std::array<double, 3> scale{};
+    std::array<double, 3> offset{};
+
+    /// The product is rounded, then the sum: this is compiled without contraction.
+    [[nodiscard]] double coordinate(std::size_t axis, std::int32_t x) const {
+        const double product = static_cast<double>(x) * scale[axis];
+        return product + offset[axis];
+    }
+};
+
+/// The columns of the element "vertex": the axes, then the dimensions.
+[[nodiscard]] element las_columns(std::span<const las_dimension> dimensions);
+
+/// Appends `rows` records that follow one another from `first` on; in parallel.
+void append_las_rows(element& vertices, std::vector<point3>& points, std::size_t rows,
+                     const char* first, std::size_t record_size, const las_grid& grid,
+                     std::span<const las_dimension> dimensions);
 
 }  // namespace treeform::detail::io

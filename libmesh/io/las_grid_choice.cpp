@@ -1,5 +1,5 @@
+#include <libmesh/io/las_dimensions.hpp>
 #include <libmesh/io/las_grid_choice.hpp>
-#include <libmesh/io/las_rows.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <libmesh/base/byte_order.hpp>
 #include <libmesh/base/words.hpp>
-#include <libmesh/io/is_value_of.hpp>
-#include <libmesh/io/las_records.hpp>
+#include <libmesh/io/las_plan.hpp>
+#include <libmesh/io/number.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>

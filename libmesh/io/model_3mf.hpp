@@ -2,7 +2,10 @@
 /// \file
 /// The parsed model parts of a 3MF package.
 
+#include <libmesh/io/source.hpp>
+#include <libmesh/io/zip_archive.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/aabb.hpp>
 
 #include <array>
 #include <compare>
@@ -11,6 +14,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace treeform::detail::io {
@@ -32,22 +36,7 @@ inline constexpr const char* model_relationship_3mf =
 inline constexpr std::array<const char*, 6> units_3mf{"micron", "millimeter", "centimeter",
                                                       "inch",   "foot",       "meter"};
 
-/// The twelve numbers m00 m01 m02 m10 ... m32 of an attribute: a matrix of four rows of three,
-/// multiplied from the left by the row vector (x y z 1).
-struct transform_3mf {
-    std::array<double, 12> m{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
-
-    friend bool operator==(const transform_3mf&, const transform_3mf&) = default;
-};
-
-/// The transform that applies `inner` first, then `outer`.
-[[nodiscard]] transform_3mf compose(const transform_3mf& inner, const transform_3mf& outer);
-/// The transformed point; for the identity bit for bit the same, -0 included.
-[[nodiscard]] point3 moved(const transform_3mf& t, const point3& p);
-/// Whether the transform turns a surface inside out.
-[[nodiscard]] bool mirrors(const transform_3mf& t);
-
-/// An object of the package: the number of its part, and its id in that part.
+/// An object of the package: the number of its part, and its own in that part.
 struct object_key {
     std::uint32_t part = 0;
     std::uint32_t id = 0;
@@ -58,7 +47,7 @@ struct object_key {
 /// A component or an item of the build.
 struct placed_3mf {
     object_key object{};
-    transform_3mf transform{};
+    treeform::transform<3> transform{};
     std::string part_number{};
 };
 
@@ -98,5 +87,14 @@ struct model_3mf {
     std::vector<std::array<double, 3>> texture{};
     unread_3mf unread{};
 };
+
+/// The build of the package and the objects that it needs; other objects are not looked at. `root`
+/// is the name of the model part that the package starts with. Other parts are read where items
+/// and components of the root name them (production extension).
+///
+/// Each reference leads to an object of `objects`; objects may still be components of themselves.
+///
+/// \throws io_error
+[[nodiscard]] model_3mf parse_3mf(const source& in, zip_archive& archive, std::string_view root);
 
 }  // namespace treeform::detail::io

@@ -3,8 +3,10 @@
 /// The parsed JSON of a glTF. All indices are in range; counts and byte offsets are as in the file,
 /// unchecked.
 
+#include <libmesh/io/source.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/tree/aabb.hpp>
 
 #include <array>
 #include <cstddef>
@@ -12,6 +14,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <vector>
 
 namespace treeform::detail::io {
@@ -84,30 +87,14 @@ struct mesh_gltf {
     std::vector<primitive_gltf> primitives{};
 };
 
-/// An affine transform, row by row.
-struct transform_gltf {
-    std::array<std::array<double, 4>, 3> m{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-
-    friend bool operator==(const transform_gltf&, const transform_gltf&) = default;
-};
-
-/// First `inner`, then `outer`.
-[[nodiscard]] transform_gltf compose(const transform_gltf& inner, const transform_gltf& outer);
-/// As it is for the identity, -0 included.
-[[nodiscard]] point3 moved(const transform_gltf& t, const point3& p);
-/// Whether it turns a surface inside out.
-[[nodiscard]] bool mirrors(const transform_gltf& t);
-/// The transformed normal, of length 1; or 0.
-[[nodiscard]] point3 turned(const transform_gltf& t, const point3& normal);
-/// Whether the quaternion can be normalized.
+/// Whether it has a length to divide by.
 [[nodiscard]] bool is_rotation(const std::array<double, 4>& quaternion);
 /// The transform that applies the scale, then the rotation by a quaternion x, y, z, w of any
 /// length, then the translation.
 ///
 /// \pre is_rotation(rotation)
-[[nodiscard]] transform_gltf transform_of(const point3& translation,
-                                          const std::array<double, 4>& rotation,
-                                          const point3& scale);
+[[nodiscard]] transform<3> transform_of(const point3& translation,
+                                        const std::array<double, 4>& rotation, const point3& scale);
 
 /// Accessors of EXT_mesh_gpu_instancing.
 struct instances_gltf {
@@ -118,7 +105,7 @@ struct instances_gltf {
 
 struct node_gltf {
     std::string name{};
-    transform_gltf transform{};
+    treeform::transform<3> transform{};
     std::optional<std::size_t> mesh{};
     std::optional<instances_gltf> instances{};
     std::vector<std::size_t> children{};
@@ -137,5 +124,15 @@ struct model_gltf {
     bool has_textures = false;  ///< whether materials have textures
     bool is_version_1 = false;  ///< glTF 1.0, which was not parsed
 };
+
+/// Reads what matters of the JSON of glTF 2.0; of 1.0, whether told so or found, nothing. Materials
+/// count only for the texture coordinates that they use; cameras, lights, images, animations and
+/// what `extras` hold are not looked at.
+///
+/// \throws io_error naming the byte, or the entry, as "accessors[3].count"; for values of a wrong
+///         type, numbers of things that are not there, other versions than 1 and 2; and for
+///         extensions that the file requires, except for those that are read and those that only
+///         change how it looks
+[[nodiscard]] model_gltf parse_gltf(const source& in, std::string_view json, bool is_version_1);
 
 }  // namespace treeform::detail::io

@@ -3,10 +3,12 @@
 /// Parses doubles and integers, without locale and allocation.
 
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string_view>
 #include <system_error>
+#include <type_traits>
 
 namespace treeform::detail::io {
 
@@ -155,6 +157,16 @@ template <class T = double>
     for (; at < end && is_digit(*at); ++at)
         if (value <= huge) value = value * 10 + (*at - '0');
     return {negative ? -value : value, at};
+}
+
+/// True when x is a value of the integer type T. The limits are powers of two, which doubles hold.
+template <class T>
+requires std::is_integral_v<T>
+[[nodiscard]] bool is_value_of(double x) {
+    constexpr T half = std::numeric_limits<T>::max() / 2 + 1;
+    constexpr double beyond = 2.0 * static_cast<double>(half);
+    constexpr auto least = static_cast<double>(std::numeric_limits<T>::min());
+    return x >= least && x < beyond && x == std::floor(x);
 }
 
 }  // namespace treeform::detail::io

@@ -1,5 +1,5 @@
 #include <libmesh/io/obj_corners.hpp>
-#include <libmesh/io/reserve.hpp>
+#include <libmesh/io/scratch.hpp>
 
 #include <array>
 #include <limits>

@@ -1,6 +1,6 @@
-#include <libmesh/io/draco_gltf.hpp>
+#include <libmesh/io/bytes_gltf.hpp>
 #include <libmesh/io/json_entry.hpp>
-#include <libmesh/io/parse_gltf.hpp>
+#include <libmesh/io/model_gltf.hpp>
 
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@ constexpr const char* instancing = "EXT_mesh_gpu_instancing";
 }
 
 /// Whether it is 1.0, which has no numbers for things but names.
-[[nodiscard]] bool is_version_1(const json_entry& root) {
+[[nodiscard]] bool says_version_1(const json_entry& root) {
     const auto version = root.find("asset", "version");
     if (!version) root.fail("has no 'asset' with a 'version'");
     if (version->is_number()) return version->number() < 2.0;  // as 1.0 had it at first
@@ -56,22 +56,12 @@ void refuse_extensions(const source& in, const json_entry& root) {
 }
 
 [[nodiscard]] scalar_type type_of(const json_entry& component) {
-    switch (component.whole()) {
-        case 5120:
-            return scalar_type::int8;
-        case 5121:
-            return scalar_type::uint8;
-        case 5122:
-            return scalar_type::int16;
-        case 5123:
-            return scalar_type::uint16;
-        case 5125:
-            return scalar_type::uint32;
-        case 5126:
-            return scalar_type::float32;
-        default:
-            component.fail("is not a type of glTF 2.0");
-    }
+    using enum scalar_type;
+    constexpr std::array<std::optional<scalar_type>, 7> from_5120{int8, uint8,  int16,  uint16,
+                                                                  {},   uint32, float32};
+    const std::uint64_t code = component.whole() - 5120;
+    if (code >= from_5120.size() || !from_5120[code]) component.fail("is not a type of glTF 2.0");
+    return *from_5120[code];
 }
 
 [[nodiscard]] std::size_t components_of(const json_entry& type) {
@@ -229,19 +219,17 @@ class parser {
         model_.nodes.push_back(std::move(node));
     }
 
-    [[nodiscard]] static transform_gltf transform_of_node(const json_entry& e) {
+    [[nodiscard]] static transform<3> transform_of_node(const json_entry& e) {
         if (const auto matrix = e.find("matrix")) return transform_of_matrix(*matrix);
-        point3 translation;
-        point3 scale{1, 1, 1};
+        const auto point = [&](const char* key, const point3& usual) {
+            const auto found = e.find(key);
+            if (!found) return usual;
+            const auto [x, y, z] = found->numbers<3>();
+            return point3{x, y, z};
+        };
+        const point3 translation = point("translation", {});
+        const point3 scale = point("scale", {1, 1, 1});
         std::array<double, 4> rotation{0, 0, 0, 1};
-        if (const auto t = e.find("translation")) {
-            const auto [x, y, z] = t->numbers<3>();
-            translation = {x, y, z};
-        }
-        if (const auto s = e.find("scale")) {
-            const auto [x, y, z] = s->numbers<3>();
-            scale = {x, y, z};
-        }
         if (const auto r = e.find("rotation")) {
             rotation = r->numbers<4>();
             if (!is_rotation(rotation)) r->fail("is not a rotation");
@@ -250,13 +238,13 @@ class parser {
     }
 
     /// Column by column. The last row may be a multiple of 0 0 0 1.
-    [[nodiscard]] static transform_gltf transform_of_matrix(const json_entry& e) {
+    [[nodiscard]] static transform<3> transform_of_matrix(const json_entry& e) {
         const auto m = e.numbers<16>();
         if (m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] == 0.0)
             e.fail("is a projection: its last row is not 0 0 0 1");
-        transform_gltf t;
+        transform<3> t;
         for (std::size_t row = 0; row < 3; ++row)
-            for (std::size_t col = 0; col < 4; ++col) t.m[row][col] = m[4 * col + row] / m[15];
+            for (std::size_t col = 0; col < 4; ++col) t.rows[row][col] = m[4 * col + row] / m[15];
         return t;
     }
 
@@ -286,7 +274,31 @@ class parser {
 
 }  // namespace
 
-model_gltf parse_gltf(const source& in, std::string_view json) {
+bool is_rotation(const std::array<double, 4>& quaternion) {
+    const auto [x, y, z, w] = quaternion;
+    const double square = x * x + y * y + z * z + w * w;
+    return square > 1e-100 && square < 1e100;
+}
+
+transform<3> transform_of(const point3& translation, const std::array<double, 4>& rotation,
+                          const point3& scale) {
+    const auto [x, y, z, w] = rotation;
+    const double s = 2.0 / (x * x + y * y + z * z + w * w);  // of any length: rounded, it is not 1
+    const std::array<std::array<double, 3>, 3> turn{
+        {{1.0 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)},
+         {s * (x * y + z * w), 1.0 - s * (x * x + z * z), s * (y * z - x * w)},
+         {s * (x * z - y * w), s * (y * z + x * w), 1.0 - s * (x * x + y * y)}}};
+    transform<3> t;
+    for (std::size_t row = 0; row < 3; ++row) {
+        for (std::size_t col = 0; col < 3; ++col) t.rows[row][col] = turn[row][col] * scale[col];
+        t.rows[row][3] = translation[row];
+    }
+    return t;
+}
+
+model_gltf parse_gltf(const source& in, std::string_view json, bool is_version_1) {
+    refuse_deep_json(in, json);
+    if (is_version_1) return {.is_version_1 = true};
     // Some programs fill the JSON of a GLB up with zeros.
     json = json.substr(0, json.find_last_not_of('\0') + 1);
     nlohmann::json text;
@@ -299,7 +311,7 @@ model_gltf parse_gltf(const source& in, std::string_view json) {
         in.fail("the JSON has a number that is too large");
     }
     const json_entry root(in, text);
-    if (is_version_1(root)) return {.is_version_1 = true};
+    if (says_version_1(root)) return {.is_version_1 = true};
     refuse_versions(in, root);
     refuse_extensions(in, root);
     return parser(root).parse();

@@ -17,7 +17,7 @@ constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 /// [F] Number of the material of each triangle; none when there are too many.
 [[nodiscard]] std::vector<std::uint32_t> materials_of(const write_job& job, layout_glb& layout) {
     const mesh_file& file = job.file;
-    const auto columns = color_columns(file, "face");
+    const auto columns = color_columns(file.attributes.find("face"));
     layout.has_colors = !columns.empty();
     std::vector<std::uint32_t> material(file.mesh.faces.size(), 0);
     std::map<color_glb, std::uint32_t> number;
@@ -149,12 +149,10 @@ layout_glb lay_out(const write_job& job) {
 }
 
 attributes_glb::attributes_glb(const write_job& job) : file_(job.file), vertices_(job.vertices) {
-    constexpr std::array<std::string_view, 3> normals{"nx", "ny", "nz"};
-    constexpr std::array<std::array<std::string_view, 2>, 3> textures{
-        {{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}}};
-    normals_ = scalar_columns(vertices_, normals);
-    for (const auto& names : textures)
-        if (texture_.empty()) texture_ = scalar_columns(vertices_, names);
+    normals_ = scalar_columns(vertices_, {"nx", "ny", "nz"});
+    texture_ = scalar_columns(vertices_, {"s", "t"});
+    if (texture_.empty()) texture_ = scalar_columns(vertices_, {"u", "v"});
+    if (texture_.empty()) texture_ = scalar_columns(vertices_, {"texture_u", "texture_v"});
     colors_ = color_columns(vertices_);
     for (const scalar_type type : {scalar_type::uint8, scalar_type::uint16})
         if (std::all_of(colors_.begin(), colors_.end(),

@@ -1,6 +1,5 @@
 #include <libmesh/base/add_to_box.hpp>
 #include <libmesh/base/point_math.hpp>
-#include <libmesh/io/face_rows.hpp>
 #include <libmesh/io/face_sink.hpp>
 #include <libmesh/io/ply_body.hpp>
 #include <libmesh/io/point_rows.hpp>

@@ -1,8 +1,7 @@
-#include <libmesh/io/face_texture.hpp>
 #include <libmesh/io/fixed_rows.hpp>
 #include <libmesh/io/ply_body.hpp>
+#include <libmesh/io/ply_header.hpp>
 #include <libmesh/io/point_rows.hpp>
-#include <libmesh/io/vertex_rows.hpp>
 
 #include <algorithm>
 #include <cstdint>

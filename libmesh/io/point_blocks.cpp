@@ -1,10 +1,14 @@
 #include <libmesh/io/detect.hpp>
-#include <libmesh/io/extension.hpp>
 #include <libmesh/io/point_blocks.hpp>
 #include <libmesh/io/vertex_columns.hpp>
+#include <treeform/mesh/point_stream.hpp>
 
 #include <algorithm>
+#include <string>
+#include <string_view>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace treeform::detail::io {
 namespace {
@@ -17,27 +21,18 @@ namespace {
 [[nodiscard]] point_rows open_rows(const source& in, const std::filesystem::path& path,
                                    const reading& how, std::uint64_t first, row_use use,
                                    const record_index* known, const byte_getter* unpacked) {
+    using enum file_kind;
     const file_kind kind = kind_of(in, path, how);
     check_chosen_columns(in, how, kind);
-    switch (kind) {
-        case file_kind::ply:
-            return open_ply_points(in, first, use, known);
-        case file_kind::stl_binary:
-            if (use != row_use::none) return open_stl_points(in, first);
-            fail_in_blocks(in, "corners of faces are no points that are read alone");
-        case file_kind::pcd:
-            return open_pcd_points(in, first, known, unpacked);
-        case file_kind::las:
-            return open_las_points(in, first);
-        case file_kind::xyz:
-            return open_xyz_points(in, "xyz", first, known, how.options.columns);
-        case file_kind::pts:
-            return open_xyz_points(in, "pts", first, known, how.options.columns);
-        case file_kind::csv:
-            return open_xyz_points(in, "csv", first, known, how.options.columns);
-        default:
-            fail_in_blocks(in, "only PLY, PCD, LAS, LAZ, XYZ and CSV are read in blocks");
-    }
+    const std::string_view table = table_name(kind);
+    if (!table.empty()) return open_xyz_points(in, table, first, known, how.options.columns);
+    if (kind == ply) return open_ply_points(in, first, use, known);
+    if (kind == stl_binary && use != row_use::none) return open_stl_points(in, first);
+    if (kind == pcd) return open_pcd_points(in, first, known, unpacked);
+    if (kind == las) return open_las_points(in, first);
+    fail_in_blocks(in, kind == stl_binary
+                           ? "corners of faces are no points that are read alone"
+                           : "only PLY, PCD, LAS, LAZ, XYZ and CSV are read in blocks");
 }
 
 }  // namespace
@@ -68,23 +63,14 @@ std::optional<record_index> scan_points(const std::filesystem::path& path, const
     if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;  // it is read once
     try {
         const source in = source::open(path);
-        switch (kind_of(in, path, how)) {
-            case file_kind::ply:
-                return scan_ply(in, part, most);
-            case file_kind::pcd:
-                return scan_pcd(in, part, most);
-            case file_kind::xyz:
-                return scan_xyz(in, "xyz", part, most, even, how.options.columns);
-            case file_kind::pts:
-                return scan_xyz(in, "pts", part, most, even, how.options.columns);
-            case file_kind::csv:
-                return scan_xyz(in, "csv", part, most, even, how.options.columns);
-            default:
-                return std::nullopt;
-        }
-    } catch (const io_error&) {
-        return std::nullopt;
+        const file_kind kind = kind_of(in, path, how);
+        const std::string_view table = table_name(kind);
+        if (!table.empty()) return scan_xyz(in, table, part, most, even, how.options.columns);
+        if (kind == file_kind::ply) return scan_ply(in, part, most);
+        if (kind == file_kind::pcd) return scan_pcd(in, part, most);
+    } catch (const io_error&) {  // which is said where it is opened
     }
+    return std::nullopt;
 }
 
 bool has_listed_points_at(const std::filesystem::path& path, const reading& how) {
@@ -99,3 +85,34 @@ bool has_listed_points_at(const std::filesystem::path& path, const reading& how)
 }
 
 }  // namespace treeform::detail::io
+
+namespace treeform {
+
+struct point_reader::state {
+    detail::io::point_blocks blocks;
+};
+
+point_reader::point_reader(const std::filesystem::path& path, std::string_view format,
+                           std::uint64_t first, bool with_rows, const read_options& options)
+    : state_(new state{{path,
+                        {std::string(format), options},
+                        first,
+                        with_rows ? detail::io::row_use::copied : detail::io::row_use::none}}) {}
+point_reader::~point_reader() = default;
+point_reader::point_reader(point_reader&&) noexcept = default;
+point_reader& point_reader::operator=(point_reader&&) noexcept = default;
+
+const mesh_file& point_reader::header() const { return state_->blocks.header(); }
+std::uint64_t point_reader::count() const { return state_->blocks.count(); }
+bool point_reader::read(std::vector<point3>& points, element& properties, std::size_t most) {
+    detail::io::point_block block{std::move(points), std::move(properties)};
+    const bool some = state_->blocks.read(block, most);
+    points = std::move(block.points);
+    properties = std::move(block.properties);
+    return some;
+}
+bool point_reader::read(detail::io::row_block& block, std::size_t most) {
+    return state_->blocks.read(block, most);
+}
+
+}  // namespace treeform

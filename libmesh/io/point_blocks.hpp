@@ -2,8 +2,8 @@
 /// \file
 /// Reads the points of a file in blocks, optionally with an index of its records.
 
+#include <libmesh/io/detect.hpp>
 #include <libmesh/io/point_rows.hpp>
-#include <libmesh/io/reading.hpp>
 #include <libmesh/io/record_index.hpp>
 #include <libmesh/io/source.hpp>
 #include <treeform/mesh/point_stream.hpp>

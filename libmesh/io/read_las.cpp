@@ -1,9 +1,9 @@
 #include <libmesh/base/byte_order.hpp>
+#include <libmesh/io/las_dimensions.hpp>
 #include <libmesh/io/las_file.hpp>
-#include <libmesh/io/las_rows.hpp>
 #include <libmesh/io/point_rows.hpp>
 #include <libmesh/io/readers.hpp>
-#include <libmesh/io/reserve.hpp>
+#include <libmesh/io/scratch.hpp>
 #include <libmesh/io/vertex_columns.hpp>
 #include <libmesh/laz/chunk_table.hpp>
 #include <libmesh/laz/entropy.hpp>

@@ -1,19 +1,115 @@
 #include <libmesh/io/face_sink.hpp>
 #include <libmesh/io/obj_corners.hpp>
 #include <libmesh/io/readers.hpp>
-#include <libmesh/io/reserve.hpp>
+#include <libmesh/io/scratch.hpp>
 #include <libmesh/io/text.hpp>
+#include <libmesh/io/vertex_columns.hpp>
+#include <treeform/mesh/mesh_file.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <filesystem>
+#include <initializer_list>
+#include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 namespace treeform::detail::io {
 
 namespace {
+
+/// What a material file says.
+struct material_look {
+    std::optional<std::array<double, 3>> diffuse{};
+    double opacity = 1.0;
+
+    /// 0xRRGGBBAA.
+    [[nodiscard]] std::uint32_t color() const {
+        std::uint32_t color = 0;
+        for (const double share : {(*diffuse)[0], (*diffuse)[1], (*diffuse)[2], opacity})
+            color = color << 8 |
+                    static_cast<std::uint32_t>(std::lround(std::clamp(share, 0.0, 1.0) * 255.0));
+        return color;
+    }
+};
+
+/// By name; the first of a name is meant, as where files say the same twice.
+using material_looks = std::map<std::string, material_look, std::less<>>;
+
+/// Of a regular file: nothing else is waited for, and one that cannot be read is as one that is not
+/// there.
+void read_material_file(const std::filesystem::path& path, material_looks& looks,
+                        bool& has_transparency) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) return;
+    try {
+        const source in = source::open(path);
+        text t(in);
+        const auto number = [&]() -> std::optional<double> {
+            if (t.line_done()) return std::nullopt;
+            const parsed<double> n = parse_number(t.at, t.end);
+            if (n.end == nullptr || !std::isfinite(n.value)) return std::nullopt;
+            return t.take(n);
+        };
+        for (material_look* now = nullptr; !t.text_done(); t.skip_line()) {
+            const std::string_view keyword = t.word();
+            if (keyword == "newmtl") {
+                const auto [at, is_new] =
+                    looks.try_emplace(std::string(t.rest_of_line()), material_look{});
+                now = is_new ? &at->second : nullptr;
+            } else if (now != nullptr && keyword == "Kd") {
+                const auto r = number(), g = number(), b = number();
+                if (r) now->diffuse = {*r, g.value_or(*r), b.value_or(*r)};
+            } else if (now != nullptr && keyword == "d") {
+                now->opacity = number().value_or(1.0);
+            } else if (now != nullptr && keyword == "Tr") {
+                has_transparency = has_transparency || number().value_or(0.0) != 0.0;
+            }
+        }
+    } catch (const io_error&) {
+        return;
+    }
+}
+
+/// Gives the faces of an OBJ, which is at `path`, the diffuse colors of their materials (`Kd`,
+/// `d`), as columns red, green, blue, and alpha unless all is opaque. Faces without a material that
+/// has a color are white. Nothing changes where no material file that the OBJ names is there, as
+/// where `path` is empty, or none has a color of a material in use. What is no number in these
+/// files is left out, for it says nothing of the mesh.
+void add_material_colors(mesh_file& file, const std::filesystem::path& path) {
+    const auto& names = file.attributes.material_files;
+    if (path.empty() || names.empty()) return;
+    material_looks looks;
+    bool has_transparency = false;
+    for (const std::string& name : names)
+        read_material_file(path.parent_path() / name, looks, has_transparency);
+    const auto& parts = file.attributes.parts;
+    std::vector<std::uint32_t> colors(file.stored_faces, 0xffffffffU);
+    bool used = false;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        const auto found = looks.find(parts[p].material);
+        if (found == looks.end() || !found->second.diffuse) continue;
+        used = used || !parts[p].material.empty();
+        const std::size_t end = p + 1 < parts.size() ? parts[p + 1].first_face : file.stored_faces;
+        std::fill(colors.begin() + parts[p].first_face,
+                  colors.begin() + static_cast<std::ptrdiff_t>(end), found->second.color());
+    }
+    if (!used) return;
+    add_color_columns(file.attributes.find_or_add("face", colors.size()), colors);
+    if (has_transparency)
+        file.warnings.push_back({"materials",
+                                 "transparencies Tr of materials were not read, which programs "
+                                 "mean in two ways; d is read"});
+}
 
 struct line_counts {
     std::size_t vertices = 0;
@@ -221,12 +317,10 @@ class obj_reader {
             return;
         }
         element& vertices = file_.attributes.find_or_add("vertex", count);
-        std::vector<double> channel(count);
-        const char* const names[] = {"red", "green", "blue"};
-        for (std::size_t c = 0; c < 3; ++c) {
-            for (std::size_t v = 0; v < count; ++v) channel[v] = colors_[3 * v + c];
-            vertices.columns.push_back(column::of<double>(names[c], channel));
-        }
+        for (std::size_t c = 0; c < 3; ++c)
+            vertices.columns.push_back(
+                column_of<double>(std::array{"red", "green", "blue"}[c], count,
+                                  [&](std::size_t v) { return colors_[3 * v + c]; }));
     }
 
     /// Of a cloud, normals and texture coordinates are those of its points where there is one of
@@ -234,23 +328,19 @@ class obj_reader {
     void store_looks() {
         corner_values& corners = file_.attributes.corners;
         const std::size_t count = file_.mesh.points.size();
-        const auto add = [&](const char* name, const auto& value) {
-            std::vector<double> values(count);
-            for (std::size_t v = 0; v < count; ++v) values[v] = value(v);
-            file_.attributes.find_or_add("vertex", count)
-                .columns.push_back(column::of<double>(name, values));
+        const auto add = [&](auto& rows, std::initializer_list<const char*> names) {
+            if (count == 0 || rows.size() != count) return;
+            element& vertices = file_.attributes.find_or_add("vertex", count);
+            std::size_t k = 0;
+            for (const char* const name : names) {
+                vertices.columns.push_back(
+                    column_of<double>(name, count, [&](std::size_t v) { return rows[v][k]; }));
+                ++k;
+            }
+            rows.clear();
         };
-        if (count > 0 && corners.texture.size() == count) {
-            add("s", [&](std::size_t v) { return corners.texture[v][0]; });
-            add("t", [&](std::size_t v) { return corners.texture[v][1]; });
-            corners.texture.clear();
-        }
-        if (count > 0 && corners.normals.size() == count) {
-            add("nx", [&](std::size_t v) { return corners.normals[v].x; });
-            add("ny", [&](std::size_t v) { return corners.normals[v].y; });
-            add("nz", [&](std::size_t v) { return corners.normals[v].z; });
-            corners.normals.clear();
-        }
+        add(corners.texture, {"s", "t"});
+        add(corners.normals, {"nx", "ny", "nz"});
     }
 
     text text_;
@@ -270,7 +360,7 @@ class obj_reader {
 
 }  // namespace
 
-mesh_file read_obj(const source& in) {
+mesh_file read_obj(const source& in, const std::filesystem::path& path) {
     obj_reader reader(in);
     reader.reserve(count_lines(in));
     reader.read();
@@ -280,7 +370,9 @@ mesh_file read_obj(const source& in) {
         if (limits.normals == 0) limits.normals = obj_row_counts::any;
         obj_reader(in, limits).read();
     }
-    return reader.take();
+    mesh_file file = reader.take();
+    add_material_colors(file, path);
+    return file;
 }
 
 }  // namespace treeform::detail::io

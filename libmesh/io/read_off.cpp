@@ -1,6 +1,6 @@
 #include <libmesh/io/face_sink.hpp>
 #include <libmesh/io/readers.hpp>
-#include <libmesh/io/reserve.hpp>
+#include <libmesh/io/scratch.hpp>
 #include <libmesh/io/text.hpp>
 
 #include <algorithm>

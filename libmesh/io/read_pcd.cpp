@@ -1,11 +1,10 @@
+#include <libmesh/io/fixed_rows.hpp>
 #include <libmesh/io/lzf.hpp>
 #include <libmesh/io/pcd_header.hpp>
 #include <libmesh/io/point_rows.hpp>
 #include <libmesh/io/readers.hpp>
-#include <libmesh/io/reserve.hpp>
 #include <libmesh/io/scratch.hpp>
 #include <libmesh/io/vertex_columns.hpp>
-#include <libmesh/io/vertex_rows.hpp>
 
 #include <algorithm>
 #include <limits>

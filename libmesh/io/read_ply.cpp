@@ -1,9 +1,9 @@
 #include <libmesh/io/face_sink.hpp>
-#include <libmesh/io/face_texture.hpp>
+#include <libmesh/io/fixed_rows.hpp>
 #include <libmesh/io/ply_body.hpp>
+#include <libmesh/io/ply_header.hpp>
 #include <libmesh/io/readers.hpp>
-#include <libmesh/io/reserve.hpp>
-#include <libmesh/io/vertex_rows.hpp>
+#include <libmesh/io/scratch.hpp>
 
 #include <algorithm>
 #include <limits>

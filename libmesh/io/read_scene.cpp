@@ -1,5 +1,4 @@
 #include <libmesh/io/face_sink.hpp>
-#include <libmesh/io/name_giver.hpp>
 #include <libmesh/io/readers.hpp>
 #include <libmesh/io/scene_depth.hpp>
 #include <treeform/mesh/read.hpp>

@@ -1,10 +1,9 @@
 #include <libmesh/base/byte_order.hpp>
 #include <libmesh/base/point_math.hpp>
-#include <libmesh/io/face_rows.hpp>
 #include <libmesh/io/fixed_rows.hpp>
 #include <libmesh/io/point_rows.hpp>
 #include <libmesh/io/readers.hpp>
-#include <libmesh/io/reserve.hpp>
+#include <libmesh/io/scratch.hpp>
 #include <libmesh/io/vertex_columns.hpp>
 
 #include <algorithm>

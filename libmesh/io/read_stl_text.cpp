@@ -1,5 +1,5 @@
 #include <libmesh/io/readers.hpp>
-#include <libmesh/io/reserve.hpp>
+#include <libmesh/io/scratch.hpp>
 #include <libmesh/io/text.hpp>
 #include <treeform/tree/parallel.hpp>
 

@@ -1,4 +1,3 @@
-#include <libmesh/io/heading.hpp>
 #include <libmesh/io/point_rows.hpp>
 #include <libmesh/io/readers.hpp>
 #include <libmesh/io/record_index.hpp>

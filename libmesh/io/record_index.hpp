@@ -3,7 +3,7 @@
 /// An index of the records of a file whose positions are only known after reading: their number,
 /// and the positions of some. Several processes may build it.
 
-#include <libmesh/io/file_part.hpp>
+#include <libmesh/io/source.hpp>
 #include <libmesh/io/text.hpp>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 /// begin_row, length, scalar, end_row, remark.
 
 #include <libmesh/base/byte_order.hpp>
-#include <libmesh/io/is_value_of.hpp>
+#include <libmesh/io/number.hpp>
 #include <libmesh/io/record_index.hpp>
 #include <libmesh/io/text.hpp>
 #include <treeform/mesh/attributes.hpp>

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 namespace treeform::detail::io {
 
@@ -39,5 +40,18 @@ class scratch {
 /// in a folder for large temporary files. \throws io_error
 [[nodiscard]] int open_nameless_file(std::string_view name,
                                      const std::filesystem::path& folder = {});
+
+/// Says to the system that `bytes` bytes at `memory` will be filled soon, so that it may hand them
+/// out in large pages. A hint: nothing depends on it but time (filling fresh small pages takes
+/// several times as long as reading a binary file that is in memory).
+void prefer_large_pages(void* memory, std::size_t bytes);
+
+/// v.reserve(count), in large pages where that pays.
+template <class T>
+void reserve_large(std::vector<T>& v, std::size_t count) {
+    v.reserve(count);
+    if (v.capacity() * sizeof(T) >= std::size_t{8} << 20)
+        prefer_large_pages(v.data(), v.capacity() * sizeof(T));
+}
 
 }  // namespace treeform::detail::io

@@ -1,6 +1,5 @@
-#include <libmesh/io/draco_gltf.hpp>
+#include <libmesh/io/bytes_gltf.hpp>
 #include <libmesh/io/shapes_gltf.hpp>
-#include <libmesh/io/values_gltf.hpp>
 
 #include <algorithm>
 #include <cmath>

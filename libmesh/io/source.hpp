@@ -72,4 +72,25 @@ class source {
     mutable const char* release_at_ = nullptr;  ///< next position worth a system call
 };
 
+/// Of `size` parts that have about as many of whatever is counted.
+struct file_part {
+    std::uint64_t rank = 0;
+    std::uint64_t size = 1;
+
+    [[nodiscard]] std::uint64_t first(std::uint64_t count) const {
+        return count / size * rank + count % size * rank / size;
+    }
+    [[nodiscard]] std::uint64_t last(std::uint64_t count) const {
+        return file_part{rank + 1, size}.first(count);
+    }
+    [[nodiscard]] bool is_last() const { return rank + 1 == size; }
+};
+
+/// A row behind the points, counted from the first of all elements there, and the byte of the file
+/// where it begins.
+struct row_place {
+    std::uint64_t row = 0;
+    std::uint64_t byte = 0;
+};
+
 }  // namespace treeform::detail::io

@@ -13,12 +13,26 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace treeform::detail::io {
 
-/// A value of a table; for integers also its exact 64 bits.
+/// The names in a line: split at semicolons, else at commas, else at tabs, else at blanks,
+/// whichever it has; without quotes, and with underscores for the blanks within.
+[[nodiscard]] std::vector<std::string> split_heading(std::string_view line);
+
+/// Numbers of the columns that hold x, y and z, by their names in any case: x, y, z; pos_x, x_coord
+/// and the like; Points:0, as ParaView writes; easting, northing and elevation, as surveyors do,
+/// also by their first letters. None unless all three are there.
+[[nodiscard]] std::optional<std::array<std::size_t, 3>> find_axes(
+    const std::vector<std::string>& names);
+
+/// Whether there are a latitude and a longitude: angles, which are no coordinates of a point.
+[[nodiscard]] bool has_angles(const std::vector<std::string>& names);
+
+/// A value of a table; a whole number also bit for bit.
 struct text_cell {
     double value = 0.0;
     std::uint64_t bits = 0;

@@ -5,8 +5,11 @@
 #include <treeform/mesh/attributes.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -36,6 +39,24 @@ namespace treeform::detail::io {
     return std::all_of(vertices.columns.begin(), vertices.columns.end(), [](const column& c) {
         return c.role == column_role::data || c.type == scalar_type::float32 || size_of(c.type) < 4;
     });
+}
+
+/// A column with `value(i)` in row i.
+template <class T, class F>
+[[nodiscard]] column column_of(std::string name, std::size_t rows, const F& value) {
+    std::vector<T> values(rows);
+    for (std::size_t i = 0; i < rows; ++i) values[i] = value(i);
+    return column::of<T>(std::move(name), values);
+}
+
+/// Columns red, green and blue, and alpha unless all is opaque, of colors 0xRRGGBBAA.
+inline void add_color_columns(element& e, std::span<const std::uint32_t> colors) {
+    const bool opaque =
+        std::ranges::all_of(colors, [](std::uint32_t c) { return (c & 0xffU) == 0xffU; });
+    for (unsigned k = 0; k < (opaque ? 3U : 4U); ++k)
+        e.columns.push_back(column_of<std::uint8_t>(
+            std::array{"red", "green", "blue", "alpha"}[k], colors.size(),
+            [&](std::size_t i) { return static_cast<std::uint8_t>(colors[i] >> (24 - 8 * k)); }));
 }
 
 /// A column without its values.

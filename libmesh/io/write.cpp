@@ -1,18 +1,25 @@
 #include <libmesh/attributes/known_columns.hpp>
-#include <libmesh/io/corner_looks.hpp>
 #include <libmesh/io/formats.hpp>
 #include <libmesh/io/number.hpp>
+#include <libmesh/io/vertex_columns.hpp>
 #include <libmesh/io/writers.hpp>
 #include <treeform/mesh/write.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace treeform {
+
+namespace detail::io {
 
 namespace {
 
@@ -21,8 +28,6 @@ namespace {
 }
 
 }  // namespace
-
-namespace detail::io {
 
 void check_columns(const element& e) {
     for (const column& c : e.columns) {
@@ -48,7 +53,7 @@ void put_number(sink& out, const column& c, std::size_t i) {
 }
 
 std::vector<const column*> scalar_columns(const element* e,
-                                          std::span<const std::string_view> names) {
+                                          std::initializer_list<std::string_view> names) {
     std::vector<const column*> found;
     for (const std::string_view name : names) {
         const column* c = e == nullptr ? nullptr : e->find(name);
@@ -56,11 +61,6 @@ std::vector<const column*> scalar_columns(const element* e,
         found.push_back(c);
     }
     return found;
-}
-
-std::vector<const column*> scalar_columns(const mesh_file& file, std::string_view element_name,
-                                          std::span<const std::string_view> names) {
-    return scalar_columns(file.attributes.find(element_name), names);
 }
 
 std::vector<const column*> color_columns(const element* e) {
@@ -76,12 +76,6 @@ std::vector<const column*> color_columns(const element* e) {
     }
     return found.size() < 3 ? std::vector<const column*>() : found;
 }
-
-std::vector<const column*> color_columns(const mesh_file& file, std::string_view element_name) {
-    return color_columns(file.attributes.find(element_name));
-}
-
-}  // namespace detail::io
 
 namespace {
 
@@ -118,18 +112,16 @@ void check_faces(const mesh_file& file) {
 void check_attributes(const mesh_file& file) {
     for (const element& e : file.attributes.elements) {
         if (e.name == "vertex" && e.rows != file.mesh.points.size())
-            refuse_file("the number of rows of element vertex differs from the number of points");
-        if (e.name == "face" && e.rows != detail::io::stored_face_count(file))
-            refuse_file(
-                "the number of rows of element face differs from the number of stored faces");
-        detail::io::check_columns(e);
+            refuse_file("element vertex has another number of rows than there are points");
+        if (e.name == "face" && e.rows != stored_face_count(file))
+            refuse_file("element face has another number of rows than there are stored faces");
+        check_columns(e);
     }
 }
 
 }  // namespace
 
-double detail::io::largest_move(std::span<const point3> points, std::size_t first,
-                                const std::string& name) {
+double largest_move(std::span<const point3> points, std::size_t first, const std::string& name) {
     // Numbers from here on round away from the largest float: half a last place above it.
     constexpr double beyond = 0x1.ffffffp127;
     double largest = 0.0;
@@ -140,13 +132,39 @@ double detail::io::largest_move(std::span<const point3> points, std::size_t firs
             if (std::abs(x) >= beyond)
                 throw io_error(name + ": vertex " + std::to_string(first + v) +
                                " is beyond the range of float32");
-            largest = std::max(largest, std::abs(detail::base::nearest_float(x) - x));
+            largest = std::max(largest, std::abs(base::nearest_float(x) - x));
         }
     }
     return largest;
 }
 
 namespace {
+
+/// Columns of these names with the values that the points' corners have; none where some point has
+/// several. Points without any have zeros.
+template <class Row>
+[[nodiscard]] std::vector<column> values_of_points(const mesh& m,
+                                                   const std::vector<face>& rows_of_corner,
+                                                   const std::vector<Row>& rows,
+                                                   std::initializer_list<const char*> names) {
+    constexpr std::uint32_t none = corner_values::none;
+    if (rows_of_corner.empty()) return {};
+    std::vector<std::uint32_t> row_of(m.points.size(), none);
+    for (std::size_t f = 0; f < rows_of_corner.size(); ++f)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t row = rows_of_corner[f][k];
+            std::uint32_t& held = row_of[m.faces[f][k]];
+            if (row == none) return {};
+            if (held == none) held = row;
+            if (held != row && rows[held] != rows[row]) return {};
+        }
+    std::vector<column> columns;
+    for (const char* const name : names)
+        columns.push_back(column_of<double>(name, row_of.size(), [&](std::size_t v) {
+            return row_of[v] == none ? 0.0 : rows[row_of[v]][columns.size()];
+        }));
+    return columns;
+}
 
 class writing {
   public:
@@ -155,10 +173,10 @@ class writing {
         : file_(file),
           options_(options),
           name_(path.string()),
-          format_(detail::io::find_format(path, options)) {
+          format_(find_format(path, options)) {
         check_faces(file);
         check_attributes(file);
-        const bool text = detail::io::writes_text(format_, options);
+        const bool text = writes_text(format_, options);
         writer_ = text ? format_.text : format_.binary;
         result_.format = text ? format_.text_name : format_.binary_name;
         const bool single =
@@ -170,7 +188,7 @@ class writing {
             !fits_single(file.mesh.points))
             result_.written_as = precision::float64;
         if (result_.written_as == precision::float32)
-            result_.max_displacement = detail::io::largest_move(file.mesh.points, 0, name_);
+            result_.max_displacement = largest_move(file.mesh.points, 0, name_);
         if (!may_round && result_.max_displacement > 0.0)
             throw io_error(name_ + ": " + result_.format +
                            " would round certified coordinates; compute the result with "
@@ -183,17 +201,16 @@ class writing {
                            " cannot hold points without faces");
     }
 
-    write_result run(detail::io::sink& out) {
-        using detail::attribute::translation;
+    write_result run(sink& out) {
         const element* vertices = file_.attributes.find("vertex");
         std::optional<element> with_looks = looks_of_points(vertices);
         if (with_looks) vertices = &*with_looks;
         std::optional<element> translated;
         if (vertices != nullptr) {
             std::vector<value_range> ranges = file_.ranges;
-            if (ranges.empty()) detail::attribute::look_at_ranges(*vertices, ranges);
-            const translation to(*vertices, source_format(), format_.extension, ranges,
-                                 options_.drop, options_.rename);
+            if (ranges.empty()) attribute::look_at_ranges(*vertices, ranges);
+            const attribute::translation to(*vertices, source_format(), format_.extension, ranges,
+                                            options_.drop, options_.rename);
             if (to.changes()) vertices = &translated.emplace(to.apply(*vertices));
             result_.warnings = to.warnings();
         }
@@ -202,8 +219,8 @@ class writing {
                  .result = result_,
                  .out = out,
                  .vertices = vertices});
-        const bool text = detail::io::writes_text(format_, options_);
-        for (io_warning& w : detail::io::left_out(format_, file_, vertices, text))
+        const bool text = writes_text(format_, options_);
+        for (io_warning& w : left_out(format_, file_, vertices, text))
             result_.warnings.push_back(std::move(w));
         out.flush();
         return std::move(result_);
@@ -213,8 +230,8 @@ class writing {
     /// With what corners have, where the format holds that of points alone, and each has one; else
     /// none.
     [[nodiscard]] std::optional<element> looks_of_points(const element* vertices) const {
-        using detail::io::columns_held;
-        const detail::io::holdings& holds = format_.holds;
+        const holdings& holds = format_.holds;
+        const corner_values& corners = file_.attributes.corners;
         if (holds.points < columns_held::looks) return std::nullopt;
         element made{.name = "vertex", .rows = file_.mesh.points.size()};
         if (vertices != nullptr) made = *vertices;
@@ -224,8 +241,12 @@ class writing {
             for (column& c : columns) made.columns.push_back(std::move(c));
             changed = true;
         };
-        if (!holds.normals) add(detail::io::normals_of_points(file_));
-        if (!holds.texture) add(detail::io::texture_of_points(file_));
+        if (!holds.normals)
+            add(values_of_points(file_.mesh, corners.normal_of_corner, corners.normals,
+                                 {"nx", "ny", "nz"}));
+        if (!holds.texture)
+            add(values_of_points(file_.mesh, corners.texture_of_corner, corners.texture,
+                                 {"s", "t"}));
         return changed ? std::optional(std::move(made)) : std::nullopt;
     }
 
@@ -237,8 +258,8 @@ class writing {
     const mesh_file& file_;
     const write_options& options_;
     std::string name_;
-    const detail::io::known_format& format_;
-    detail::io::writer writer_ = nullptr;
+    const known_format& format_;
+    writer writer_ = nullptr;
     write_result result_{};
 };
 
@@ -282,12 +303,12 @@ write_result write_file(const std::filesystem::path& path, const mesh_file& file
     writing job(path, less.file(), less.options(), may_round);
     const auto goes_on = [&](double done) { return !options.progress || options.progress(done); };
     if (!goes_on(0.0)) return {.status = status::cancelled};
-    detail::io::output_file target(path);
-    detail::io::sink out(target.descriptor(), target.name(), [&] { return goes_on(0.0); });
+    output_file target(path);
+    sink out(target.descriptor(), target.name(), [&] { return goes_on(0.0); });
     write_result result;
     try {
         result = job.run(out);
-    } catch (const detail::io::writing_stopped&) {
+    } catch (const writing_stopped&) {
         return {.status = status::cancelled};
     }
     if (!goes_on(1.0)) result.status = status::cancelled;
@@ -297,30 +318,32 @@ write_result write_file(const std::filesystem::path& path, const mesh_file& file
 
 }  // namespace
 
-write_result write(const std::filesystem::path& path, const mesh_file& file,
-                   const write_options& options) {
-    return write_file(path, file, options, true);
-}
-
-write_result write(const std::filesystem::path& path, mesh surface, const write_options& options) {
-    return write_file(path, {.mesh = std::move(surface)}, options, true);
-}
-
-write_result detail::io::write_certified(const std::filesystem::path& path, mesh surface,
-                                         const write_options& options) {
+write_result write_certified(const std::filesystem::path& path, mesh surface,
+                             const write_options& options) {
     return write_file(path, {.mesh = std::move(surface)}, options, false);
 }
 
-write_result detail::io::write_certified(const std::filesystem::path& path, const mesh_file& file,
-                                         const write_options& options) {
+write_result write_certified(const std::filesystem::path& path, const mesh_file& file,
+                             const write_options& options) {
     return write_file(path, file, options, false);
+}
+
+}  // namespace detail::io
+
+write_result write(const std::filesystem::path& path, const mesh_file& file,
+                   const write_options& options) {
+    return detail::io::write_file(path, file, options, true);
+}
+
+write_result write(const std::filesystem::path& path, mesh surface, const write_options& options) {
+    return detail::io::write_file(path, {.mesh = std::move(surface)}, options, true);
 }
 
 std::string write_to_memory(const mesh_file& file, const write_options& options) {
     std::string bytes;
     detail::io::sink out(bytes);
-    const dropped_corners less(file, options);
-    (void)writing("memory", less.file(), less.options()).run(out);
+    const detail::io::dropped_corners less(file, options);
+    (void)detail::io::writing("memory", less.file(), less.options()).run(out);
     return bytes;
 }
 

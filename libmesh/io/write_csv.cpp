@@ -1,4 +1,3 @@
-#include <libmesh/io/declared_vertices.hpp>
 #include <libmesh/io/vertex_columns.hpp>
 #include <libmesh/io/writers.hpp>
 

@@ -1,4 +1,4 @@
-#include <libmesh/io/extension.hpp>
+#include <libmesh/io/detect.hpp>
 #include <libmesh/io/sink.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/mesh_file.hpp>

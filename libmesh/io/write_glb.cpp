@@ -43,7 +43,7 @@ using json = nlohmann::ordered_json;
     std::vector<const column*> numbers;
     const element* const faces = file.attributes.find("face");
     if (faces == nullptr) return numbers;
-    const auto colors = color_columns(file, "face");
+    const auto colors = color_columns(file.attributes.find("face"));
     for (const column& c : faces->columns) {
         if (c.role != column_role::data || c.list_length ||
             std::find(colors.begin(), colors.end(), &c) != colors.end())
@@ -341,7 +341,7 @@ class document_glb {
             names += (names.empty() ? "" : ", ") + name;
         };
         for (const std::string& name : attributes_.left_out()) add(name);
-        const auto face_colors = color_columns(job_.file, "face");
+        const auto face_colors = color_columns(job_.file.attributes.find("face"));
         if (const element* const faces = job_.file.attributes.find("face"))
             for (const column& c : faces->columns)
                 if (c.role == column_role::data &&

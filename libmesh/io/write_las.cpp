@@ -1,6 +1,5 @@
 #include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/las_plan.hpp>
-#include <libmesh/io/las_records.hpp>
 #include <libmesh/io/writers.hpp>
 #include <libmesh/laz/chunk_table.hpp>
 #include <treeform/tree/parallel.hpp>

@@ -1,4 +1,3 @@
-#include <libmesh/io/put_by_pieces.hpp>
 #include <libmesh/io/writers.hpp>
 
 #include <string_view>
@@ -15,11 +14,9 @@ struct vertex_looks {
 
     /// Unless corners have values of their own.
     vertex_looks(const write_job& job, const element* vertices) {
-        constexpr std::string_view textures[] = {"s", "t"};
-        constexpr std::string_view normals[] = {"nx", "ny", "nz"};
         const corner_values& corners = job.file.attributes.corners;
-        if (corners.texture.empty()) texture = scalar_columns(vertices, textures);
-        if (corners.normals.empty()) normal = scalar_columns(vertices, normals);
+        if (corners.texture.empty()) texture = scalar_columns(vertices, {"s", "t"});
+        if (corners.normals.empty()) normal = scalar_columns(vertices, {"nx", "ny", "nz"});
     }
 };
 

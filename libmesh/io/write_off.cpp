@@ -24,16 +24,12 @@ void put_values(sink& out, const std::vector<const column*>& columns, std::size_
 }
 
 struct vertex_columns {
-    std::vector<const column*> normal;
-    std::vector<const column*> color;
-    std::vector<const column*> texture;
+    std::vector<const column*> normal, color, texture;
 
-    explicit vertex_columns(const element* vertices) : color(color_columns(vertices)) {
-        constexpr std::string_view normals[] = {"nx", "ny", "nz"};
-        constexpr std::string_view textures[] = {"s", "t"};
-        normal = scalar_columns(vertices, normals);
-        texture = scalar_columns(vertices, textures);
-    }
+    explicit vertex_columns(const element* vertices)
+        : normal(scalar_columns(vertices, {"nx", "ny", "nz"})),
+          color(color_columns(vertices)),
+          texture(scalar_columns(vertices, {"s", "t"})) {}
     [[nodiscard]] std::string word() const {
         std::string word = texture.empty() ? "" : "ST";
         if (!color.empty()) word += 'C';
@@ -71,9 +67,8 @@ void write_off(const write_job& job) {
     }
     const element* face_element = file.attributes.find("face");
     const column* list = face_element == nullptr ? nullptr : face_element->find("off_color");
-    constexpr std::string_view index_name[] = {"color_index"};
-    auto colors = color_columns(file, "face");
-    if (colors.empty()) colors = scalar_columns(file, "face", index_name);
+    auto colors = color_columns(face_element);
+    if (colors.empty()) colors = scalar_columns(face_element, {"color_index"});
     for_each_stored_face(file, [&](std::size_t first, std::span<const std::uint32_t> corners) {
         out.number(corners.size());
         for (const std::uint32_t corner : corners) {

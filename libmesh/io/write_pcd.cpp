@@ -1,10 +1,9 @@
 #include <libmesh/base/byte_order.hpp>
-#include <libmesh/io/declared_vertices.hpp>
-#include <libmesh/io/file_part.hpp>
 #include <libmesh/io/lzf.hpp>
 #include <libmesh/io/number.hpp>
 #include <libmesh/io/pcd_header.hpp>
 #include <libmesh/io/scratch.hpp>
+#include <libmesh/io/source.hpp>
 #include <libmesh/io/vertex_columns.hpp>
 #include <libmesh/io/writers.hpp>
 

@@ -1,8 +1,5 @@
-#include <libmesh/io/declared_vertices.hpp>
-#include <libmesh/io/face_texture.hpp>
 #include <libmesh/io/number.hpp>
 #include <libmesh/io/ply_header.hpp>
-#include <libmesh/io/put_by_pieces.hpp>
 #include <libmesh/io/vertex_columns.hpp>
 #include <libmesh/io/writers.hpp>
 

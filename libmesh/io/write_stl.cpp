@@ -1,4 +1,3 @@
-#include <libmesh/io/put_by_pieces.hpp>
 #include <libmesh/io/writers.hpp>
 
 #include <algorithm>
@@ -95,8 +94,7 @@ void write_stl_binary(const write_job& job) {
     const mesh_file& file = job.file;
     job.out.put(binary_header(file.attributes.header));
     job.out.raw<std::endian::little>(static_cast<std::uint32_t>(file.mesh.faces.size()));
-    constexpr std::string_view names[] = {"stl_attribute"};
-    const auto bits = scalar_columns(file, "face", names);
+    const auto bits = scalar_columns(file.attributes.find("face"), {"stl_attribute"});
     put_by_pieces(job, file.mesh.faces.size(), [&](const write_job& piece, auto first, auto last) {
         for (std::size_t f = first; f < last; ++f) binary_facet(piece, f, bits);
     });

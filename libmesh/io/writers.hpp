@@ -5,16 +5,21 @@
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/io/number.hpp>
 #include <libmesh/io/sink.hpp>
+#include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/write.hpp>
+#include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -171,18 +176,13 @@ void put_bits(sink& out, const column& c, std::size_t i) {
     put_bits_as<order, std::uint64_t>(out, c, i);
 }
 
-/// The columns with these names, if all exist and have one value a row; else empty. The element may
-/// be null.
-[[nodiscard]] std::vector<const column*> scalar_columns(const element* e,
-                                                        std::span<const std::string_view> names);
-[[nodiscard]] std::vector<const column*> scalar_columns(const mesh_file& file,
-                                                        std::string_view element,
-                                                        std::span<const std::string_view> names);
+/// The columns of these names, all of them with one value a row; empty when one is missing. The
+/// element may be null.
+[[nodiscard]] std::vector<const column*> scalar_columns(
+    const element* e, std::initializer_list<std::string_view> names);
 
 /// The columns red, green, blue and, if it exists, alpha, by these names or their synonyms.
 [[nodiscard]] std::vector<const column*> color_columns(const element* e);
-[[nodiscard]] std::vector<const column*> color_columns(const mesh_file& file,
-                                                       std::string_view element);
 
 /// A color value from 0 to 1: integers are divided by 255, those of 16 bits by 65535; floats are
 /// unchanged.
@@ -190,6 +190,71 @@ void put_bits(sink& out, const column& c, std::size_t i) {
     const double value = c.number(row);
     if (c.type == scalar_type::uint16) return value / 65535.0;
     return c.type < scalar_type::float32 ? value / 255.0 : value;
+}
+
+/// Puts rows 0 to `rows` into the sink of `job`, in their order: `put(piece, first, last)` puts
+/// some into that of `piece`, which is `job` except for its sink. While some pieces are made, those
+/// before them are written.
+///
+/// \pre  `put` changes nothing but the sink, so that it can be called on many threads
+/// \same on any number of threads
+template <class Put>
+void put_by_pieces(const write_job& job, std::size_t rows, const Put& put) {
+    constexpr std::size_t rows_of_piece = std::size_t{1} << 12;
+    constexpr std::size_t pieces_at_once = 32;
+    if (rows <= rows_of_piece) return put(job, std::size_t{0}, rows);
+    std::array<std::vector<std::string>, 2> turns;  // one is made, the other one is written
+    for (auto& texts : turns) texts.resize(pieces_at_once);
+    const std::size_t pieces = chunk_count(rows, rows_of_piece);
+    for (std::size_t done = 0, turn = 0; done < pieces; done += pieces_at_once, turn ^= 1) {
+        const std::size_t some = std::min(pieces_at_once, pieces - done);
+        for_chunks(some + 1, 1, [&](std::size_t task, auto, auto) {
+            if (task == 0) {
+                for (std::string& text : turns[turn ^ 1]) {
+                    job.out.put(text);
+                    text.clear();
+                }
+                return;
+            }
+            std::string& text = turns[turn][task - 1];
+            sink out(text);
+            const write_job piece{job.file, job.options, job.result, out};
+            const std::size_t first = (done + task - 1) * rows_of_piece;
+            put(piece, first, std::min(first + rows_of_piece, rows));
+            out.flush();
+        });
+    }
+    for (const auto& texts : turns)
+        for (const std::string& text : texts) job.out.put(text);
+}
+
+/// The columns of the element "vertex" as they will be written: those of the file, without values,
+/// and those of the coordinates; what is missing of these stands ahead of all others.
+///
+/// `points` are all points; none when they will come by runs. A declared type stays where it can:
+/// text may have more digits than the type, bytes may not.
+[[nodiscard]] element declare_vertices(const write_job& job, bool text,
+                                       std::optional<std::span<const point3>> points);
+
+/// Which coordinates have a column whose type does not hold all of `points`.
+[[nodiscard]] std::array<bool, 3> outgrown_axes(const element& declared,
+                                                std::span<const point3> points);
+
+/// Of points that come by runs the types were chosen before they were known.
+///
+/// \throws std::invalid_argument when one does not fit
+void check_axes(const write_job& job, bool text, const element& declared,
+                std::span<const point3> points);
+
+/// The column with the values that belongs to number `i` of the declared ones, which is data.
+[[nodiscard]] inline const column& with_values(const element& declared, const element* source,
+                                               std::size_t i) {
+    return source->columns[i - (declared.columns.size() - source->columns.size())];
+}
+
+/// The column that a text format writes with the digits of a double whatever its type.
+[[nodiscard]] inline bool keeps_digits(const column& c) {
+    return c.role != column_role::data && c.type == scalar_type::float32;
 }
 
 }  // namespace treeform::detail::io

@@ -2,7 +2,7 @@
 /// \file
 /// Stores the points of a mesh in files while its faces are read.
 
-#include <libmesh/io/face_rows.hpp>
+#include <libmesh/io/point_rows.hpp>
 #include <libmesh/io/scratch.hpp>
 #include <libmesh/io/source.hpp>
 #include <libmesh/stream/communicator.hpp>

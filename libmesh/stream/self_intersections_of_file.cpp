@@ -1,5 +1,4 @@
 #include <libmesh/io/detect.hpp>
-#include <libmesh/io/extension.hpp>
 #include <libmesh/io/point_rows.hpp>
 #include <libmesh/stream/communicator.hpp>
 #include <libmesh/stream/tile_search.hpp>

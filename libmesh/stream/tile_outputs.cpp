@@ -1,7 +1,7 @@
-#include <libmesh/io/declared_vertices.hpp>
 #include <libmesh/io/formats.hpp>
 #include <libmesh/io/las_plan.hpp>
 #include <libmesh/io/vertex_columns.hpp>
+#include <libmesh/io/writers.hpp>
 #include <libmesh/stream/joined_parts.hpp>
 #include <libmesh/stream/kept_rows.hpp>
 #include <libmesh/stream/point_survey.hpp>

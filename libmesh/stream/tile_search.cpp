@@ -1,6 +1,5 @@
 #include <libmesh/base/add_to_box.hpp>
 #include <libmesh/io/detect.hpp>
-#include <libmesh/io/extension.hpp>
 #include <libmesh/stream/point_places.hpp>
 #include <libmesh/stream/rows_in_turn.hpp>
 #include <libmesh/stream/tile_search.hpp>

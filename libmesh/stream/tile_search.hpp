@@ -3,7 +3,8 @@
 /// The faces of a file in tiles on the disk, and the pairs of each tile. Steps are idempotent; a
 /// restart skips finished ones.
 
-#include <libmesh/io/face_rows.hpp>
+#include <libmesh/io/point_rows.hpp>
+#include <libmesh/stream/cancellable_progress.hpp>
 #include <libmesh/stream/communicator.hpp>
 #include <libmesh/stream/record_file.hpp>
 #include <libmesh/stream/space_cells.hpp>
