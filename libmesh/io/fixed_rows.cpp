@@ -30,14 +30,10 @@ void read_bits(std::byte* to, std::size_t rows, value_place from) {
 
 template <std::endian order>
 void read_data(column& c, std::size_t rows, value_place from) {
-    const std::size_t size = size_of(c.type);
     const std::size_t before = c.values.size();
-    c.values.resize(before + rows * size);
-    std::byte* const to = c.values.data() + before;
-    if (size == 1) return read_bits<order, std::uint8_t>(to, rows, from);
-    if (size == 2) return read_bits<order, std::uint16_t>(to, rows, from);
-    if (size == 4) return read_bits<order, std::uint32_t>(to, rows, from);
-    read_bits<order, std::uint64_t>(to, rows, from);
+    c.values.resize(before + rows * size_of(c.type));
+    with_bits(c.type,
+              [&]<class T>(T) { read_bits<order, T>(c.values.data() + before, rows, from); });
 }
 
 template <std::endian order>

@@ -192,16 +192,7 @@ void read_scaled(std::byte* to, const record_run& from, const las_dimension& d) 
 void read_dimension(std::byte* to, const record_run& from, const las_dimension& d) {
     if (d.bits > 0) return read_bits(to, from, d);
     if (d.scaling) return read_scaled(to, from, d);
-    switch (size_of(d.type)) {
-        case 1:
-            return read_values<std::uint8_t>(to, from, d.byte);
-        case 2:
-            return read_values<std::uint16_t>(to, from, d.byte);
-        case 4:
-            return read_values<std::uint32_t>(to, from, d.byte);
-        default:
-            return read_values<std::uint64_t>(to, from, d.byte);
-    }
+    with_bits(d.type, [&]<class T>(T) { read_values<T>(to, from, d.byte); });
 }
 
 }  // namespace

@@ -128,20 +128,25 @@ class las_opener {
                                        std::to_string(least));
     }
 
+    /// Reads `stated` records; says so where fewer are there.
+    void take_records(std::vector<las_record>& to, const char*& next, const char* end,
+                      std::uint32_t stated, bool extended) {
+        while (to.size() < stated) {
+            auto r = take_record(next, end, extended);
+            if (!r) break;
+            to.push_back(*std::move(r));
+        }
+        if (to.size() < stated)
+            warnings_.push_back({"records", "the header announces " + std::to_string(stated) +
+                                                (extended ? " extended" : "") + " records, " +
+                                                std::to_string(to.size()) + " are there"});
+    }
+
     void read_records() {
         las_header& h = file_.header;
-        const std::uint32_t stated = get<std::uint32_t>(at(100));
         const char* next = at(h.block.size());
         const char* const end = at(file_.first_point);
-        while (h.records.size() < stated) {
-            auto r = take_record(next, end, false);
-            if (!r) break;
-            h.records.push_back(*std::move(r));
-        }
-        if (h.records.size() < stated)
-            warnings_.push_back({"records", "the header announces " + std::to_string(stated) +
-                                                " records, but the file has " +
-                                                std::to_string(h.records.size())});
+        take_records(h.records, next, end, get<std::uint32_t>(at(100)), false);
         h.behind_records = bytes_between(next, end);
     }
 
@@ -150,20 +155,9 @@ class las_opener {
         if (h.version_minor == 3) read_waveforms();
         if (h.version_minor < 4) return;
         const auto first = get<std::uint64_t>(at(235));
-        const auto stated = get<std::uint32_t>(at(243));
-        if (stated == 0) return;
-        if (first >= file_.first_point && first <= in_.size()) {
-            const char* next = at(first);
-            while (h.extended_records.size() < stated) {
-                auto r = take_record(next, in_.end(), true);
-                if (!r) break;
-                h.extended_records.push_back(*std::move(r));
-            }
-        }
-        if (h.extended_records.size() < stated)
-            warnings_.push_back({"records", "the header announces " + std::to_string(stated) +
-                                                " extended records, but the file has " +
-                                                std::to_string(h.extended_records.size())});
+        const bool is_there = first >= file_.first_point && first <= in_.size();
+        const char* next = is_there ? at(first) : in_.end();
+        take_records(h.extended_records, next, in_.end(), get<std::uint32_t>(at(243)), true);
     }
 
     /// LAS 1.3 has one extended record, of waveforms, if they are not in a file of their own.

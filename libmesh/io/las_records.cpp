@@ -2,6 +2,7 @@
 #include <libmesh/base/words.hpp>
 #include <libmesh/io/las_plan.hpp>
 #include <libmesh/io/number.hpp>
+#include <libmesh/io/vertex_columns.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>
@@ -72,19 +73,6 @@ void put_same(const column& c, const record_rows& rows, std::size_t byte) {
         std::memcpy(&bits, c.values.data() + (rows.first + i) * sizeof(T), sizeof(T));
         base::store<std::endian::little>(reinterpret_cast<char*>(rows.to + i * rows.size + byte),
                                          bits);
-    }
-}
-
-void put_same_bits(const column& c, const record_rows& rows, std::size_t byte) {
-    switch (size_of(c.type)) {
-        case 1:
-            return put_same<std::uint8_t>(c, rows, byte);
-        case 2:
-            return put_same<std::uint16_t>(c, rows, byte);
-        case 4:
-            return put_same<std::uint32_t>(c, rows, byte);
-        default:
-            return put_same<std::uint64_t>(c, rows, byte);
     }
 }
 
@@ -276,7 +264,8 @@ void las_source::put(std::size_t first, std::size_t count, std::uint64_t number,
                 if (to.scaling)
                     put_scaled(*columns_[d], rows, to, fault);
                 else if (to.bits == 0 && columns_[d]->type == to.type)
-                    put_same_bits(*columns_[d], rows, to.byte);
+                    with_bits(to.type,
+                              [&]<class T>(T) { put_same<T>(*columns_[d], rows, to.byte); });
                 else if (to.bits > 0 && columns_[d]->type == scalar_type::uint8)
                     put_bytes_as_bits(*columns_[d], rows, to, fault);
                 else

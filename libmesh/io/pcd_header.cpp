@@ -234,18 +234,6 @@ class pcd_header_reader {
 
 }  // namespace
 
-std::string_view name_of(pcd_encoding encoding) {
-    switch (encoding) {
-        case pcd_encoding::ascii:
-            return "pcd-ascii";
-        case pcd_encoding::binary:
-            return "pcd-binary";
-        case pcd_encoding::compressed:
-            break;
-    }
-    return "pcd-binary-compressed";
-}
-
 pcd_header read_pcd_header(const source& in) { return pcd_header_reader(in).read(); }
 
 packed_pcd find_packed_pcd(const source& in, const pcd_header& header) {

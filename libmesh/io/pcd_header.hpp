@@ -16,7 +16,10 @@ namespace treeform::detail::io {
 enum class pcd_encoding : std::uint8_t { ascii, binary, compressed };
 
 /// "pcd-ascii", ...
-[[nodiscard]] std::string_view name_of(pcd_encoding encoding);
+[[nodiscard]] constexpr std::string_view name_of(pcd_encoding encoding) {
+    constexpr std::string_view names[] = {"pcd-ascii", "pcd-binary", "pcd-binary-compressed"};
+    return names[static_cast<std::size_t>(encoding)];
+}
 
 /// The position of a column's value in its row; and in a compressed file, in which the values of
 /// each field are contiguous: earlier fields have `fields_ahead` bytes for each point.

@@ -1,6 +1,8 @@
 #include <libmesh/io/ply_header.hpp>
 #include <libmesh/io/text.hpp>
+#include <libmesh/io/vertex_columns.hpp>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -125,15 +127,9 @@ class ply_header_reader {
     void format() {
         text_.skip_blanks();
         const char* const start = text_.at;
-        const std::string_view name = text_.word();
-        if (name == "ascii")
-            header_.encoding = ply_encoding::ascii;
-        else if (name == "binary_little_endian")
-            header_.encoding = ply_encoding::little_endian;
-        else if (name == "binary_big_endian")
-            header_.encoding = ply_encoding::big_endian;
-        else
-            fail_at(start, "unknown encoding");
+        const auto at = std::ranges::find(ply_encodings, text_.word());
+        if (at == ply_encodings.end()) fail_at(start, "unknown encoding");
+        header_.encoding = static_cast<ply_encoding>(at - ply_encodings.begin());
         if (next_word() != "1.0") text_.fail("not version 1.0 of the format");
         has_format_ = true;
     }
@@ -184,17 +180,14 @@ class ply_header_reader {
         if (!has_format_) text_.file.fail("no 'format' in the header");
         for (element& e : header_.elements) {
             for (column& c : e.columns) {
-                if (e.name == "vertex" && !c.list_length) take_axis(e, c);
+                if (e.name == "vertex" && !c.list_length && c.name.size() == 1 && c.name >= "x" &&
+                    c.name <= "z")
+                    take_role(e, c, role_of_axis(static_cast<std::size_t>(c.name[0] - 'x')));
                 if ((e.name == "face" || (e.name == "tristrips" && e.rows > 0)) && c.list_length &&
                     is_integer(c.type) && (c.name == "vertex_indices" || c.name == "vertex_index"))
                     take_role(e, c, column_role::corners);
             }
         }
-    }
-    static void take_axis(element& e, column& c) {
-        if (c.name == "x") take_role(e, c, column_role::x);
-        if (c.name == "y") take_role(e, c, column_role::y);
-        if (c.name == "z") take_role(e, c, column_role::z);
     }
     /// The first column of a name has the role; a second one is data.
     static void take_role(element& e, column& c, column_role role) {
@@ -210,18 +203,6 @@ class ply_header_reader {
 };
 
 }  // namespace
-
-std::string_view name_of(ply_encoding encoding) {
-    switch (encoding) {
-        case ply_encoding::ascii:
-            return "ascii";
-        case ply_encoding::little_endian:
-            return "binary_little_endian";
-        case ply_encoding::big_endian:
-            break;
-    }
-    return "binary_big_endian";
-}
 
 std::string_view name_of(scalar_type type) {
     return type_names[static_cast<std::size_t>(type)].first;

@@ -6,6 +6,7 @@
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -15,8 +16,10 @@ namespace treeform::detail::io {
 
 enum class ply_encoding : std::uint8_t { ascii, little_endian, big_endian };
 
-[[nodiscard]] std::string_view name_of(ply_encoding encoding);  ///< as in the file
-[[nodiscard]] std::string_view name_of(scalar_type type);       ///< as in the file: "uchar"
+/// As in the file, by `ply_encoding`.
+inline constexpr std::array<std::string_view, 3> ply_encodings{"ascii", "binary_little_endian",
+                                                               "binary_big_endian"};
+[[nodiscard]] std::string_view name_of(scalar_type type);  ///< as in the file: "uchar"
 
 /// After "comment": the name of a texture file follows.
 constexpr std::string_view texture_file_keyword = "TextureFile";

@@ -1,9 +1,11 @@
 #include <libmesh/io/detect.hpp>
 #include <libmesh/io/point_blocks.hpp>
+#include <libmesh/io/scratch.hpp>
 #include <libmesh/io/vertex_columns.hpp>
 #include <treeform/mesh/point_stream.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -36,6 +38,22 @@ namespace {
 }
 
 }  // namespace
+
+mesh_file read_all(const source& in, point_rows rows) {
+    if (rows.count > std::numeric_limits<std::uint32_t>::max())
+        in.fail("more points than 32-bit numbers can name");
+    mesh_file file = std::move(rows.head);
+    element& vertices = file.attributes.elements[0];
+    const auto count = static_cast<std::size_t>(rows.count);
+    if (count <= in.size()) {  // else packed so well that the number is to be seen first
+        start_columns(vertices, count);
+        for (column& c : vertices.columns) prefer_large_pages(c.values.data(), c.values.capacity());
+        reserve_large(file.mesh.points, count);
+    }
+    while (rows.append(file.mesh.points, vertices, count, file.warnings) > 0) continue;
+    vertices.rows = file.mesh.points.size();
+    return file;
+}
 
 point_blocks::point_blocks(const std::filesystem::path& path, const reading& how,
                            std::uint64_t first, row_use use, const record_index* known,

@@ -113,6 +113,9 @@ struct listed_points {
     const source& in, std::string_view format, const file_part& part, std::size_t most,
     bool even = true, std::span<const std::pair<std::string, std::string>> columns = {});
 
+/// All points of a file that has a row of "vertex" for each. \throws io_error
+[[nodiscard]] mesh_file read_all(const source& in, point_rows rows);
+
 [[noreturn]] inline void fail_in_blocks(const source& in, std::string_view reason) {
     throw io_error(io_error::kind::blocks, std::string(in.name()),
                    std::string(in.name()) + ": " + std::string(reason));

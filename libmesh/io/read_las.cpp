@@ -217,22 +217,7 @@ point_rows open_las_points(const source& in, std::uint64_t first) {
 }
 
 mesh_file read_las(const source& in) {
-    point_rows rows = open_las_points(in);
-    if (rows.count > std::numeric_limits<std::uint32_t>::max())
-        in.fail("more points than 32-bit numbers can name");
-    mesh_file file = std::move(rows.head);
-    element& vertices = file.attributes.elements[0];
-    const auto count = static_cast<std::size_t>(rows.count);
-    if (count <= in.size()) {  // else packed so well that the number is to be seen first
-        for (column& c : vertices.columns)
-            if (c.role == column_role::data) {
-                c.values.reserve(count * size_of(c.type));
-                prefer_large_pages(c.values.data(), count * size_of(c.type));
-            }
-        reserve_large(file.mesh.points, count);
-    }
-    while (rows.append(file.mesh.points, vertices, count, file.warnings) > 0) continue;
-    vertices.rows = file.mesh.points.size();
+    mesh_file file = read_all(in, open_las_points(in));
     file.stored_as = precision::float64;
     return file;
 }

@@ -166,16 +166,7 @@ void look_behind(bool more, warnings& said) {
 }  // namespace
 
 mesh_file read_pcd(const source& in) {
-    point_rows rows = open(in, scratch_place::memory);
-    if (rows.count > std::numeric_limits<std::uint32_t>::max())
-        in.fail("more points than 32-bit numbers can name");
-    mesh_file file = std::move(rows.head);
-    element& vertices = file.attributes.elements[0];
-    const auto count = static_cast<std::size_t>(rows.count);
-    start_columns(vertices, count);
-    reserve_large(file.mesh.points, count);
-    while (rows.append(file.mesh.points, vertices, count, file.warnings) > 0) continue;
-    vertices.rows = count;
+    mesh_file file = read_all(in, open(in, scratch_place::memory));
     file.stored_as = fits_single(file.mesh.points) ? precision::float32 : precision::float64;
     return file;
 }

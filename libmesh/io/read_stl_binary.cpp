@@ -62,6 +62,14 @@ std::uint32_t facet_count(const source& in, std::vector<io_warning>& warnings) {
     return static_cast<std::uint32_t>(count);
 }
 
+/// Everything but points and facets; of these, how many there are.
+mesh_file stl_head(const source& in) {
+    mesh_file head{.indexed = false, .stored_as = precision::float32, .format = "stl-binary"};
+    head.stored_faces = facet_count(in, head.warnings);
+    head.attributes.header.assign(in.begin(), 80);
+    return head;
+}
+
 /// Where the corners of a facet are.
 std::array<point3, 3> corners_of(const char* facet) {
     std::array<point3, 3> corners;
@@ -98,14 +106,8 @@ class facet_bits {
 }  // namespace
 
 mesh_file read_stl_binary(const source& in) {
-    std::vector<io_warning> warnings;
-    const std::uint32_t count = facet_count(in, warnings);
-    mesh_file file{.stored_faces = count,
-                   .indexed = false,
-                   .stored_as = precision::float32,
-                   .format = "stl-binary",
-                   .warnings = std::move(warnings)};
-    file.attributes.header.assign(in.begin(), 80);
+    mesh_file file = stl_head(in);
+    const auto count = static_cast<std::uint32_t>(file.stored_faces);
     reserve_large(file.mesh.points, std::size_t{count} * 3);
     reserve_large(file.mesh.faces, count);
     facet_bits bits;
@@ -136,11 +138,8 @@ mesh_file read_stl_binary(const source& in) {
 }
 
 face_rows open_stl_faces(const source& in, const file_part& part) {
-    face_rows rows;
-    const std::uint32_t count = facet_count(in, rows.head.warnings);
-    rows.head.indexed = false;
-    rows.head.stored_as = precision::float32;
-    rows.head.format = "stl-binary";
+    face_rows rows{.head = stl_head(in)};
+    const auto count = static_cast<std::uint32_t>(rows.head.stored_faces);
     rows.points = std::uint64_t{3} * count;
     rows.stored_faces = count;
     const char* const facets = in.begin() + header_bytes;
@@ -169,13 +168,8 @@ face_rows open_stl_faces(const source& in, const file_part& part) {
 }
 
 point_rows open_stl_points(const source& in, std::uint64_t first) {
-    point_rows rows;
-    const std::uint32_t count = facet_count(in, rows.head.warnings);
-    rows.head.stored_faces = count;
-    rows.head.indexed = false;
-    rows.head.stored_as = precision::float32;
-    rows.head.format = "stl-binary";
-    rows.head.attributes.header.assign(in.begin(), 80);
+    point_rows rows{.head = stl_head(in)};
+    const auto count = static_cast<std::uint32_t>(rows.head.stored_faces);
     element& faces = rows.head.attributes.find_or_add("face", count);
     faces.columns.push_back({.name = bits_name, .type = scalar_type::uint16});
     const element declared = faces;

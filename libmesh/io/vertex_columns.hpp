@@ -41,6 +41,17 @@ namespace treeform::detail::io {
     });
 }
 
+/// `f(T{})` for the unsigned type T of as many bytes, in which bits are moved as they stand: numbers
+/// on their way through another type would lose some of NaN.
+template <class F>
+void with_bits(scalar_type type, F&& f) {
+    const std::size_t size = size_of(type);
+    if (size == 1) return f(std::uint8_t{});
+    if (size == 2) return f(std::uint16_t{});
+    if (size == 4) return f(std::uint32_t{});
+    f(std::uint64_t{});
+}
+
 /// A column with `value(i)` in row i.
 template <class T, class F>
 [[nodiscard]] column column_of(std::string name, std::size_t rows, const F& value) {

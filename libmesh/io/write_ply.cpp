@@ -52,7 +52,7 @@ class ply_writer {
     void put_header() {
         sink& out = job_.out;
         out.put("ply\nformat ");
-        out.put(name_of(encoding_));
+        out.put(ply_encodings[static_cast<std::size_t>(encoding_)]);
         out.put(" 1.0\n");
         for (const auto& line : job_.file.attributes.comments) put_remark("comment", line);
         for (const auto& name : job_.file.attributes.texture_files)

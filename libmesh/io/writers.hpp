@@ -5,6 +5,7 @@
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/io/number.hpp>
 #include <libmesh/io/sink.hpp>
+#include <libmesh/io/vertex_columns.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/write.hpp>
@@ -158,22 +159,13 @@ void for_each_stored_face(const mesh_file& file, F&& f) {
 /// Writes value `i` of a column as text.
 void put_number(sink& out, const column& c, std::size_t i);
 
-template <std::endian order, class T>
-void put_bits_as(sink& out, const column& c, std::size_t i) {
-    T bits;
-    std::memcpy(&bits, c.values.data() + i * sizeof bits, sizeof bits);
-    out.raw<order>(bits);
-}
-
-/// Writes value `i` of a column bit for bit, since conversion to another type would change NaN
-/// payloads.
+/// Value `i` of a column as it stands, bit for bit.
 template <std::endian order>
 void put_bits(sink& out, const column& c, std::size_t i) {
-    const std::size_t size = size_of(c.type);
-    if (size == 1) return put_bits_as<order, std::uint8_t>(out, c, i);
-    if (size == 2) return put_bits_as<order, std::uint16_t>(out, c, i);
-    if (size == 4) return put_bits_as<order, std::uint32_t>(out, c, i);
-    put_bits_as<order, std::uint64_t>(out, c, i);
+    with_bits(c.type, [&]<class T>(T bits) {
+        std::memcpy(&bits, c.values.data() + i * sizeof bits, sizeof bits);
+        out.raw<order>(bits);
+    });
 }
 
 /// The columns of these names, all of them with one value a row; empty when one is missing. The
