@@ -1,5 +1,5 @@
 #include <libmesh/attributes/known_columns.hpp>
-#include <libmesh/carry/join_las.hpp>
+#include <libmesh/carry/carried.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
 

@@ -1,5 +1,5 @@
 #include <libmesh/base/byte_order.hpp>
-#include <libmesh/carry/join_las.hpp>
+#include <libmesh/carry/carried.hpp>
 
 #include <algorithm>
 #include <array>

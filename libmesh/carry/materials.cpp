@@ -1,4 +1,4 @@
-#include <libmesh/carry/materials.hpp>
+#include <libmesh/carry/carried.hpp>
 #include <treeform/mesh/carry.hpp>
 
 #include <algorithm>

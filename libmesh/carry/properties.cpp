@@ -1,7 +1,4 @@
-#include <libmesh/carry/corners.hpp>
-#include <libmesh/carry/face_kinds.hpp>
-#include <libmesh/carry/face_shares.hpp>
-#include <libmesh/carry/materials.hpp>
+#include <libmesh/carry/carried.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/carry.hpp>
 
@@ -33,34 +30,6 @@ bool can_be_carried(const column& c) { return c.role == column_role::data && !c.
 
 bool is_single_value(const element& e, const column& c) {
     return can_be_carried(c) && !(has_normals(e) && is_normal(c.name));
-}
-
-/// A property by its name, and where each input has it.
-struct property {
-    std::string name;
-    scalar_type type;
-    std::vector<const column*> of_input;  ///< null where it has none
-};
-
-std::vector<property> properties_of(std::span<const carry_source> inputs, const char* name) {
-    std::vector<property> all;
-    for (std::size_t k = 0; k < inputs.size(); ++k) {
-        const element* e = inputs[k].file->attributes.find(name);
-        if (e == nullptr) continue;
-        for (const column& c : e->columns) {
-            if (!is_single_value(*e, c)) continue;
-            auto at = std::find_if(all.begin(), all.end(),
-                                   [&](const property& p) { return p.name == c.name; });
-            if (at == all.end()) {
-                all.push_back({c.name, c.type, {}});
-                all.back().of_input.resize(inputs.size(), nullptr);
-                at = all.end() - 1;
-            }
-            if (at->type != c.type) at->type = scalar_type::float64;
-            at->of_input[k] = &c;
-        }
-    }
-    return all;
 }
 
 template <class T>
@@ -184,47 +153,6 @@ void carry_normals(element& rows, std::span<const carry_source> inputs, const me
         rows.columns.push_back(column::of<float>(std::array{"nx", "ny", "nz"}[axis], values[axis]));
 }
 
-/// Rows of numbers, all of one length, each once.
-class distinct_rows {
-  public:
-    distinct_rows() = default;
-    distinct_rows(const distinct_rows&) = delete;
-    distinct_rows& operator=(const distinct_rows&) = delete;
-
-    /// As they came, from 0. \pre no number is NaN
-    std::uint32_t number_of(std::span<const double> row) {
-        length_ = row.size();
-        values_.insert(values_.end(), row.begin(), row.end());
-        const auto [at, is_new] = numbers_.insert(static_cast<std::uint32_t>(numbers_.size()));
-        if (!is_new) values_.resize(values_.size() - length_);
-        return *at;
-    }
-
-  private:
-    [[nodiscard]] std::span<const double> row(std::uint32_t number) const {
-        return std::span(values_).subspan(number * length_, length_);
-    }
-    struct hash {
-        const distinct_rows* of;
-        std::size_t operator()(std::uint32_t number) const {
-            std::size_t all = 0;
-            for (const double x : of->row(number))
-                all = (all ^ std::hash<double>()(x)) * 0x9E3779B97F4A7C15U;
-            return all ^ (all >> 32U);
-        }
-    };
-    struct equal {
-        const distinct_rows* of;
-        bool operator()(std::uint32_t a, std::uint32_t b) const {
-            return std::ranges::equal(of->row(a), of->row(b));
-        }
-    };
-
-    std::size_t length_ = 0;
-    std::vector<double> values_{};
-    std::unordered_set<std::uint32_t, hash, equal> numbers_{0, hash{this}, equal{this}};
-};
-
 bool any_has_normals(std::span<const carry_source> inputs) {
     return std::any_of(inputs.begin(), inputs.end(), [](const carry_source& s) {
         const element* points = s.file->attributes.find("vertex");
@@ -234,28 +162,25 @@ bool any_has_normals(std::span<const carry_source> inputs) {
 
 }  // namespace
 
-std::vector<std::uint32_t> groups_of_faces(std::span<const carry_source> inputs,
-                                           const common_of_group& by) {
-    std::vector<property> properties;
-    if (by.values) properties = properties_of(inputs, "face");
-    const face_kinds kinds(by.values ? inputs : inputs.first(0), by.corners);
-    if (properties.empty() && kinds.empty() && !by.input) return {};
-    constexpr double nothing = -std::numeric_limits<double>::infinity();
-    distinct_rows rows;
-    std::vector<std::uint32_t> groups;
-    std::vector<double> values;
-    for (std::uint32_t k = 0; k < inputs.size(); ++k)
-        for (std::uint32_t f = 0; f < inputs[k].file->mesh.faces.size(); ++f) {
-            values.assign(1, by.input ? static_cast<double>(k) : 0.0);
-            for (const property& p : properties) {
-                const column* column = p.of_input[k];
-                const double value = column ? column->number(inputs[k].stored_face(f)) : nothing;
-                values.push_back(std::isnan(value) ? nothing : value);
+std::vector<property> properties_of(std::span<const carry_source> inputs, const char* name) {
+    std::vector<property> all;
+    for (std::size_t k = 0; k < inputs.size(); ++k) {
+        const element* e = inputs[k].file->attributes.find(name);
+        if (e == nullptr) continue;
+        for (const column& c : e->columns) {
+            if (!is_single_value(*e, c)) continue;
+            auto at = std::find_if(all.begin(), all.end(),
+                                   [&](const property& p) { return p.name == c.name; });
+            if (at == all.end()) {
+                all.push_back({c.name, c.type, {}});
+                all.back().of_input.resize(inputs.size(), nullptr);
+                at = all.end() - 1;
             }
-            kinds.append(k, f, values);
-            groups.push_back(rows.number_of(values));
+            if (at->type != c.type) at->type = scalar_type::float64;
+            at->of_input[k] = &c;
         }
-    return groups;
+    }
+    return all;
 }
 
 }  // namespace treeform::detail::carry
@@ -314,10 +239,6 @@ void carry_sources::carry(mesh_file& file, std::span<const std::uint32_t> face_s
     const std::vector<operand_element> vertices = of_input(vertex_source);
     const std::vector<operand_element> cut = of_input(face_of_new_vertex);
     carry_all(file, *this, {faces, vertices, cut, corner_source});
-}
-
-std::vector<std::uint32_t> carry_sources::face_groups(bool by_values, bool by_input) const {
-    return groups_of_faces(all_, {.values = by_values, .input = by_input});
 }
 
 bool carry_sources::has_vertex_values() const {

@@ -1,7 +1,11 @@
+#include <libmesh/attributes/scene_parts.hpp>
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/carry/solid_parts.hpp>
+#include <libmesh/topology/select_faces.hpp>
 #include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/weld.hpp>
 
 #include <algorithm>
@@ -63,8 +67,12 @@ solid_part with_own_points(mesh_view whole, scene_part&& from) {
     return part;
 }
 
-}  // namespace
-
+/// The parts of a file as it numbers its vertices (`scene_parts`), those as one of which an edge
+/// with one face of the part has the coordinates of such an edge of the other: they are patches of
+/// one surface. Solids that touch stay apart. In the order of their lowest faces, which are
+/// ascending; of parts that are one, the box is that of the first.
+///
+/// \cost O(V log V + F log F)
 std::vector<scene_part> surface_parts(const carry_source& input) {
     const mesh_view whole = input.file->mesh;
     std::vector<std::uint32_t> stored;
@@ -88,6 +96,8 @@ std::vector<scene_part> surface_parts(const carry_source& input) {
     return named;
 }
 
+}  // namespace
+
 std::vector<solid_part> solid_parts(const carry_source& input) {
     std::vector<solid_part> parts;
     std::vector<scene_part> named = surface_parts(input);
@@ -98,3 +108,29 @@ std::vector<solid_part> solid_parts(const carry_source& input) {
 }
 
 }  // namespace treeform::detail::carry
+
+namespace treeform {
+
+std::vector<file_part> split_parts(const carry_source& source) {
+    const mesh_file& whole = *source.file;
+    std::vector<file_part> parts;
+    for (scene_part& of : detail::carry::surface_parts(source)) {
+        file_part part{.name = std::move(of.name)};
+        part.file.mesh = select_faces(whole.mesh, of.faces);
+        part.file.stored_faces = of.faces.size();
+        part.file.indexed = whole.indexed;
+        part.file.stored_as = whole.stored_as;
+        part.file.format = whole.format;
+        std::vector<face> kept;
+        for (const std::uint32_t f : of.faces) {
+            kept.push_back(whole.mesh.faces[f]);
+            part.stored_face.push_back(source.stored_face(f));
+        }
+        carry_sources(source).carry(part.file, of.faces,
+                                    detail::base::used_points(whole.mesh.points.size(), kept));
+        parts.push_back(std::move(part));
+    }
+    return parts;
+}
+
+}  // namespace treeform

@@ -5,7 +5,7 @@
 #include <libmesh/io/readers.hpp>
 #include <libmesh/io/scratch.hpp>
 #include <libmesh/io/vertex_columns.hpp>
-#include <libmesh/laz/chunk_table.hpp>
+#include <libmesh/laz/chunk.hpp>
 #include <libmesh/laz/entropy.hpp>
 #include <treeform/tree/parallel.hpp>
 

@@ -1,7 +1,7 @@
 #include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/las_plan.hpp>
 #include <libmesh/io/writers.hpp>
-#include <libmesh/laz/chunk_table.hpp>
+#include <libmesh/laz/chunk.hpp>
 #include <treeform/tree/parallel.hpp>
 
 #include <algorithm>

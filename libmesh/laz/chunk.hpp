@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// A chunk of a LAZ file: consecutive point records, compressed independently of others.
+/// A chunk of a LAZ file: consecutive point records, compressed without regard to others. Where the
+/// chunks are, and how many points each has.
 
 #include <cstddef>
 #include <cstdint>
@@ -58,5 +59,22 @@ void unpack_chunk(std::span<const item> items, std::span<const std::uint8_t> pac
 /// \pre `items` were returned by `items_of`
 [[nodiscard]] std::vector<std::uint8_t> pack_chunk(std::span<const item> items, std::uint32_t count,
                                                    const std::uint8_t* records);
+
+struct chunk {
+    std::uint32_t points = 0;
+    std::uint32_t bytes = 0;
+};
+
+/// The chunks of a table that `packed` begins with: a version, the number of chunks, and their
+/// compressed sizes. Where sizes vary, `points` of each are in the table; else they are 0 here.
+///
+/// `most` is how many chunks there can be: a table that says more is damaged.
+///
+/// \throws damaged
+[[nodiscard]] std::vector<chunk> read_chunk_table(std::span<const std::uint8_t> packed,
+                                                  bool sizes_vary, std::size_t most);
+
+[[nodiscard]] std::vector<std::uint8_t> write_chunk_table(std::span<const chunk> chunks,
+                                                          bool sizes_vary);
 
 }  // namespace treeform::detail::laz

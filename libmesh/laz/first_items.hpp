@@ -5,7 +5,6 @@
 ///
 /// \source Isenburg, LASzip: Lossless Compression of LiDAR Data, PE&RS 79 (2013)
 
-#include <libmesh/laz/bytes.hpp>
 #include <libmesh/laz/entropy.hpp>
 #include <libmesh/laz/integer_code.hpp>
 #include <libmesh/laz/items.hpp>
@@ -112,11 +111,11 @@ class first_gps_time_item {
         if (step_ == 0) {
             const unsigned code = c.symbol(first_step_, same ? 0 : 2);
             if (code == 1) move(step_ = steps_.code(c, 0, 0, 0));
-            if (code == 2) whole(c, is);
+            if (code == 2) time_ = bits64(c, is);
         } else {
             const unsigned code = c.symbol(multiple_, same ? most + 2 : most + 1);
             if (code <= most) by_multiple(c, static_cast<int>(code));
-            if (code == most + 1) whole(c, is);
+            if (code == most + 1) time_ = bits64(c, is);
         }
         put64(p, time_);
     }
@@ -125,12 +124,6 @@ class first_gps_time_item {
     static constexpr unsigned most = 509;  ///< largest multiple
 
     void move(std::int32_t by) { time_ += static_cast<std::uint64_t>(std::int64_t{by}); }
-
-    template <class Coder>
-    void whole(Coder& c, std::uint64_t is) {
-        const std::uint32_t low = c.bits(32, static_cast<std::uint32_t>(is));
-        time_ = std::uint64_t{c.bits(32, static_cast<std::uint32_t>(is >> 32))} << 32 | low;
-    }
 
     template <class Coder>
     void by_multiple(Coder& c, int multiple) {

@@ -5,7 +5,6 @@
 ///
 /// \source Isenburg, LASzip (2013), "GPS time"; LASzip for LAS 1.4, Specification Document
 
-#include <libmesh/laz/bytes.hpp>
 #include <libmesh/laz/entropy.hpp>
 #include <libmesh/laz/integer_code.hpp>
 

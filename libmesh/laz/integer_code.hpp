@@ -1,9 +1,11 @@
 #pragma once
 /// \file
-/// Integers coded by their difference to a prediction: its number of bits, then the bits.
+/// Numbers in point records, which are little endian. Whole numbers by their difference to a
+/// prediction: how many bits it takes, then the bits.
 ///
 /// \source Isenburg, LASzip (2013), "Entropy coding"
 
+#include <libmesh/base/byte_order.hpp>
 #include <libmesh/laz/entropy.hpp>
 
 #include <bit>
@@ -11,6 +13,47 @@
 #include <vector>
 
 namespace treeform::detail::laz {
+
+[[nodiscard]] inline std::uint16_t get16(const std::uint8_t* p) {
+    return base::load<std::uint16_t, std::endian::little>(reinterpret_cast<const char*>(p));
+}
+inline void put16(std::uint8_t* p, std::uint32_t x) {
+    base::store<std::endian::little>(reinterpret_cast<char*>(p), static_cast<std::uint16_t>(x));
+}
+[[nodiscard]] inline std::int32_t get32(const std::uint8_t* p) {
+    return base::load<std::int32_t, std::endian::little>(reinterpret_cast<const char*>(p));
+}
+inline void put32(std::uint8_t* p, std::int32_t x) {
+    base::store<std::endian::little>(reinterpret_cast<char*>(p), x);
+}
+[[nodiscard]] inline std::uint64_t get64(const std::uint8_t* p) {
+    return base::load<std::uint64_t, std::endian::little>(reinterpret_cast<const char*>(p));
+}
+inline void put64(std::uint8_t* p, std::uint64_t x) {
+    base::store<std::endian::little>(reinterpret_cast<char*>(p), x);
+}
+
+/// Sums and differences of 32 bits go around.
+[[nodiscard]] inline std::int32_t sum(std::int32_t a, std::int32_t b) {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
+}
+[[nodiscard]] inline std::int32_t difference(std::int32_t a, std::int32_t b) {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
+}
+[[nodiscard]] inline std::int32_t product(std::int32_t a, std::int32_t b) {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(b));
+}
+
+/// `x` modulo 256.
+[[nodiscard]] inline std::uint8_t low_byte(int x) { return static_cast<std::uint8_t>(x); }
+[[nodiscard]] inline int clamp_byte(int x) { return x < 0 ? 0 : x > 255 ? 255 : x; }
+
+/// A number of 64 bits as it is.
+template <class Coder>
+std::uint64_t bits64(Coder& c, std::uint64_t is) {
+    const std::uint32_t low = c.bits(32, static_cast<std::uint32_t>(is));
+    return std::uint64_t{c.bits(32, static_cast<std::uint32_t>(is >> 32))} << 32 | low;
+}
 
 class integer_code {
   public:

@@ -3,24 +3,93 @@
 /// The items of point records in formats 0 to 5, each predicted from the previous point. `code`
 /// reads or writes the item at `p`, depending on the coder.
 ///
-/// \source Isenburg, LASzip: Lossless Compression of LiDAR Data, PE&RS 79 (2013)
+/// \source Isenburg, LASzip: Lossless Compression of LiDAR Data, PE&RS 79 (2013); LASzip for LAS
+///         1.4, Specification Document, for the tables of return maps and levels
 
-#include <libmesh/laz/bytes.hpp>
 #include <libmesh/laz/entropy.hpp>
 #include <libmesh/laz/gps_time_code.hpp>
 #include <libmesh/laz/integer_code.hpp>
-#include <libmesh/laz/median5.hpp>
-#include <libmesh/laz/returns.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <vector>
 
 namespace treeform::detail::laz {
 
-/// Models of contexts. They allocate memory on first use, and most data use few of them.
+/// Of up to 7 returns: the valid combinations have numbers of their own up to four returns.
+[[nodiscard]] inline unsigned return_map(unsigned returns, unsigned number) {
+    static constexpr std::array<std::array<std::uint8_t, 8>, 8> map{{
+        {15, 14, 13, 12, 11, 10, 9, 8},
+        {14, 0, 1, 3, 6, 10, 10, 9},
+        {13, 1, 2, 4, 7, 11, 11, 10},
+        {12, 3, 4, 5, 8, 12, 12, 11},
+        {11, 6, 7, 8, 9, 13, 13, 12},
+        {10, 10, 11, 12, 13, 14, 14, 13},
+        {9, 10, 11, 12, 13, 14, 15, 14},
+        {8, 9, 10, 11, 12, 13, 14, 15},
+    }};
+    return map[returns][number];
+}
+
+/// Of up to 15 returns: six contexts.
+[[nodiscard]] inline unsigned return_map_of_six(unsigned returns, unsigned number) {
+    static constexpr std::array<std::array<std::uint8_t, 16>, 16> map{{
+        {0, 1, 2, 3, 4, 5, 3, 4, 4, 5, 5, 5, 5, 5, 5, 5},
+        {1, 0, 1, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3},
+        {2, 1, 2, 4, 4, 4, 4, 4, 4, 4, 4, 3, 3, 3, 3, 3},
+        {3, 3, 4, 5, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4},
+        {4, 3, 4, 4, 5, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4},
+        {5, 3, 4, 4, 4, 5, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4},
+        {3, 3, 4, 4, 4, 4, 5, 4, 4, 4, 4, 4, 4, 4, 4, 4},
+        {4, 3, 4, 4, 4, 4, 4, 5, 4, 4, 4, 4, 4, 4, 4, 4},
+        {4, 3, 4, 4, 4, 4, 4, 4, 5, 4, 4, 4, 4, 4, 4, 4},
+        {5, 3, 4, 4, 4, 4, 4, 4, 4, 5, 4, 4, 4, 4, 4, 4},
+        {5, 3, 4, 4, 4, 4, 4, 4, 4, 4, 5, 4, 4, 4, 4, 4},
+        {5, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 5, 5, 4, 4, 4},
+        {5, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 5, 5, 5, 4, 4},
+        {5, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 5, 5, 5, 4},
+        {5, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 5, 5, 5},
+        {5, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 5, 5},
+    }};
+    return map[returns][number];
+}
+
+/// How far a return is from the last one of its pulse; at most 7.
+[[nodiscard]] inline unsigned return_level(unsigned returns, unsigned number) {
+    return std::min(returns > number ? returns - number : number - returns, 7u);
+}
+
+/// Five numbers in order. Each new one pushes out the largest or the smallest, in turn. (When it
+/// lies on the other side of the median, it is the other end's turn once more.)
+class median5 {
+  public:
+    [[nodiscard]] std::int32_t get() const { return sorted_[2]; }
+
+    void add(std::int32_t x) {
+        if (drop_largest_) {
+            if (x >= sorted_[2]) drop_largest_ = false;
+            int i = 4;
+            for (; i > 0 && x < sorted_[at(i - 1)]; --i) sorted_[at(i)] = sorted_[at(i - 1)];
+            sorted_[at(i)] = x;
+        } else {
+            if (x <= sorted_[2]) drop_largest_ = true;
+            int i = 0;
+            for (; i < 4 && sorted_[at(i + 1)] < x; ++i) sorted_[at(i)] = sorted_[at(i + 1)];
+            sorted_[at(i)] = x;
+        }
+    }
+
+  private:
+    [[nodiscard]] static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+    std::array<std::int32_t, 5> sorted_{};
+    bool drop_largest_ = true;
+};
+
+/// Contexts that are few where most data have few different values: models take memory when used.
 [[nodiscard]] inline std::vector<symbol_model> models(std::size_t count, unsigned symbols) {
     return std::vector<symbol_model>(count, symbol_model(symbols));
 }
@@ -234,8 +303,7 @@ class wave_packet_item {
             last_step_ = steps_.code(c, last_step_, by);
             return was + static_cast<std::uint64_t>(std::int64_t{last_step_});
         }
-        const std::uint32_t low = c.bits(32, static_cast<std::uint32_t>(is));
-        return std::uint64_t{c.bits(32, static_cast<std::uint32_t>(is >> 32))} << 32 | low;
+        return bits64(c, is);
     }
 
     std::array<std::uint8_t, size> last_{};

@@ -6,7 +6,7 @@
 
 #include <libmesh/laz/gps_time_code.hpp>
 #include <libmesh/laz/items.hpp>
-#include <libmesh/laz/layers.hpp>
+#include <libmesh/laz/layered_items.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,9 @@
 // Chunks of LAZ: what is packed comes back, and what is damaged is said to be.
 
 #include <libmesh/laz/chunk.hpp>
-#include <libmesh/laz/chunk_table.hpp>
 #include <libmesh/laz/entropy.hpp>
 #include <libmesh/laz/integer_code.hpp>
-#include <libmesh/laz/median5.hpp>
+#include <libmesh/laz/items.hpp>
 
 #include <doctest/doctest.h>
 #include <support/las_bytes.hpp>
