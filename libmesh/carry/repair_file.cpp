@@ -13,37 +13,35 @@ namespace {
 using detail::carry::solid_part;
 
 void add(repair_statistics& sum, const repair_statistics& part) {
-    sum.tetrahedra += part.tetrahedra;
-    sum.degenerate += part.degenerate;
-    sum.repeated += part.repeated;
-    sum.closed_edges += part.closed_edges;
-    sum.split_edges += part.split_edges;
+    using s = repair_statistics;
+    for (const auto count : {&s::tetrahedra,
+                             &s::degenerate,
+                             &s::repeated,
+                             &s::closed_edges,
+                             &s::split_edges,
+                             &s::flipped,
+                             &s::turned_outward,
+                             &s::strays,
+                             &s::holes,
+                             &s::hole_edges,
+                             &s::filled,
+                             &s::open_edges,
+                             &s::pairs,
+                             &s::removed,
+                             &s::labeled_cells,
+                             &s::split_vertices,
+                             &s::detached,
+                             &s::touching,
+                             &s::vanished_components,
+                             &s::dropped_shells,
+                             &s::sheets})
+        sum.*count += part.*count;
+    for (const auto amount : {&s::dropped_area, &s::flipped_area, &s::volume_before,
+                              &s::volume_after, &s::area_before, &s::area_after, &s::area_lost})
+        sum.*amount += part.*amount;
     sum.gap_limit = std::max(sum.gap_limit, part.gap_limit);
     sum.widest_closed = std::max(sum.widest_closed, part.widest_closed);
-    sum.flipped += part.flipped;
-    sum.turned_outward += part.turned_outward;
-    sum.strays += part.strays;
-    sum.holes += part.holes;
-    sum.hole_edges += part.hole_edges;
-    sum.filled += part.filled;
-    sum.open_edges += part.open_edges;
     sum.resolved = sum.resolved || part.resolved;
-    sum.pairs += part.pairs;
-    sum.removed += part.removed;
-    sum.labeled_cells += part.labeled_cells;
-    sum.dropped_area += part.dropped_area;
-    sum.flipped_area += part.flipped_area;
-    sum.split_vertices += part.split_vertices;
-    sum.detached += part.detached;
-    sum.touching += part.touching;
-    sum.vanished_components += part.vanished_components;
-    sum.dropped_shells += part.dropped_shells;
-    sum.sheets += part.sheets;
-    sum.volume_before += part.volume_before;
-    sum.volume_after += part.volume_after;
-    sum.area_before += part.area_before;
-    sum.area_after += part.area_after;
-    sum.area_lost += part.area_lost;
 }
 
 bool is_as_asked(const certificate& known) {
@@ -190,20 +188,15 @@ solid_defects find_solid_defects(const carry_source& input, const progress_callb
     const std::vector<solid_part> parts = detail::carry::solid_parts(input);
     if (parts.empty()) return find_solid_defects(input.file->mesh, progress);
     faces_done part_of(progress, input.file->mesh.faces.size());
+    using d = solid_defects;
     solid_defects all;
     all.nonfinite_vertices = find_defects(input.file->mesh).nonfinite_points.size();
     for (const solid_part& part : parts) {
         const solid_defects found = find_solid_defects(part.mesh, part_of.next(part.faces.size()));
-        all.unusable_faces += found.unusable_faces;
-        all.tetrahedra += found.tetrahedra;
-        all.degenerate += found.degenerate;
-        all.repeated += found.repeated;
-        all.open_edges += found.open_edges;
-        all.nonmanifold_edges += found.nonmanifold_edges;
-        all.misoriented_edges += found.misoriented_edges;
-        all.nonmanifold_vertices += found.nonmanifold_vertices;
-        all.meeting_pairs += found.meeting_pairs;
-        all.inverted += found.inverted;
+        for (const auto count : {&d::unusable_faces, &d::tetrahedra, &d::degenerate, &d::repeated,
+                                 &d::open_edges, &d::nonmanifold_edges, &d::misoriented_edges,
+                                 &d::nonmanifold_vertices, &d::meeting_pairs, &d::inverted})
+            all.*count += found.*count;
         all.wrongly_nested = all.wrongly_nested || found.wrongly_nested;
         all.status = found.status;
         if (found.status == treeform::status::cancelled) break;

@@ -4,6 +4,7 @@
 
 #include <libmesh/io/source.hpp>
 #include <libmesh/io/zip_archive.hpp>
+#include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/aabb.hpp>
 
@@ -50,6 +51,9 @@ struct placed_3mf {
     treeform::transform<3> transform{};
     std::string part_number{};
 };
+
+/// Of corners without texture coordinates.
+inline constexpr face no_texture{corner_values::none, corner_values::none, corner_values::none};
 
 /// A mesh or components.
 struct object_3mf {

@@ -34,34 +34,7 @@ struct property_group_3mf {
 /// By their numbers in the part.
 using property_groups_3mf = std::map<std::uint32_t, property_group_3mf>;
 
-/// Gives the triangles of an object what they refer to.
-class triangle_properties {
-  public:
-    /// \throws io_error when the object refers to what is not there
-    triangle_properties(const xml_part& part, const property_groups_3mf& groups,
-                        pugi::xml_node object, object_3mf& to, unread_3mf& unread);
-
-    /// For the triangle that was appended last.
-    void add(pugi::xml_node triangle);
-
-  private:
-    [[nodiscard]] const property_group_3mf* find(pugi::xml_node user) const;
-    void check(pugi::xml_node user, const property_group_3mf& group, std::uint32_t index) const;
-    void set(const property_group_3mf& group, const face& indices);
-
-    const xml_part& part_;
-    const property_groups_3mf& groups_;
-    object_3mf& to_;
-    unread_3mf& unread_;
-    const property_group_3mf* group_of_object_ = nullptr;
-    std::optional<std::uint32_t> index_of_object_{};
-};
-
 constexpr std::size_t longest_name = 1024;
-
-[[nodiscard]] std::uint32_t size_of_list(std::size_t size) {
-    return static_cast<std::uint32_t>(size);
-}
 
 /// "#RRGGBB" or "#RRGGBBAA".
 [[nodiscard]] std::uint32_t color_of(const xml_part& part, pugi::xml_node element,
@@ -77,52 +50,6 @@ constexpr std::size_t longest_name = 1024;
     part.fail(element, std::string(attribute) + " is no color #RRGGBB or #RRGGBBAA");
 }
 
-/// Calls f(entry) for each child of that name, and returns how many there were.
-template <class F>
-[[nodiscard]] std::uint32_t for_each_entry(pugi::xml_node group, const std::string& name, F&& f) {
-    std::uint32_t count = 0;
-    for (const pugi::xml_node entry : group.children(name.c_str())) {
-        f(entry);
-        ++count;
-    }
-    return count;
-}
-
-[[nodiscard]] property_group_3mf read_base_materials(const xml_part& part, pugi::xml_node group,
-                                                     model_3mf& model) {
-    property_group_3mf read{.first_color = size_of_list(model.palette.size()),
-                            .first_material = size_of_list(model.materials.size())};
-    const std::string name = std::string(prefix_of(group.name())) + "base";
-    read.count = for_each_entry(group, name, [&](pugi::xml_node base) {
-        std::string material = part.required(base, "name");
-        if (material.size() > longest_name) part.fail(base, "has a name without end");
-        model.palette.push_back(color_of(part, base, "displaycolor"));
-        model.materials.push_back(std::move(material));
-    });
-    return read;
-}
-
-[[nodiscard]] property_group_3mf read_colors(const xml_part& part, pugi::xml_node group,
-                                             model_3mf& model) {
-    property_group_3mf read{.first_color = size_of_list(model.palette.size())};
-    const std::string name = std::string(prefix_of(group.name())) + "color";
-    read.count = for_each_entry(group, name, [&](pugi::xml_node color) {
-        model.palette.push_back(color_of(part, color, "color"));
-    });
-    return read;
-}
-
-[[nodiscard]] property_group_3mf read_texture(const xml_part& part, pugi::xml_node group,
-                                              model_3mf& model) {
-    property_group_3mf read{.first_texture = size_of_list(model.texture.size())};
-    const std::string name = std::string(prefix_of(group.name())) + "tex2coord";
-    read.count = for_each_entry(group, name, [&](pugi::xml_node place) {
-        model.texture.push_back({part.number(place, "u"), part.number(place, "v"), 0.0});
-    });
-    model.unread.images = true;
-    return read;
-}
-
 /// Base materials, a group of colors or of texture coordinates, whose entries are appended to those
 /// of the model. Mixtures of these are known by name only: they have no count. None for a resource
 /// that is no group.
@@ -131,83 +58,119 @@ template <class F>
 std::optional<property_group_3mf> read_property_group(const xml_part& part, pugi::xml_node resource,
                                                       model_3mf& model) {
     const std::string_view kind = local_name(resource.name());
-    const std::string_view space = namespace_of(resource, prefix_of(resource.name()));
-    if (space == core_3mf && kind == "basematerials")
-        return read_base_materials(part, resource, model);
-    if (space != materials_3mf) return std::nullopt;
-    if (kind == "colorgroup") return read_colors(part, resource, model);
-    if (kind == "texture2dgroup") return read_texture(part, resource, model);
-    if (kind == "compositematerials" || kind == "multiproperties") return property_group_3mf{};
-    return std::nullopt;
-}
-
-triangle_properties::triangle_properties(const xml_part& part, const property_groups_3mf& groups,
-                                         pugi::xml_node object, object_3mf& to, unread_3mf& unread)
-    : part_(part), groups_(groups), to_(to), unread_(unread) {
-    group_of_object_ = find(object);
-    if (group_of_object_ == nullptr) return;
-    index_of_object_ = part.optional_integer(object, "pindex");
-    if (index_of_object_) check(object, *group_of_object_, *index_of_object_);
-}
-
-void triangle_properties::add(pugi::xml_node triangle) {
-    const property_group_3mf* group = find(triangle);
-    const std::optional<std::uint32_t> first = part_.optional_integer(triangle, "p1");
-    if (group != nullptr && !first) part_.fail(triangle, "has a pid and no p1");
-    if (group == nullptr) group = group_of_object_;
-    if (group == nullptr) return;
-    face indices{};
-    if (first) {
-        indices = {*first, part_.optional_integer(triangle, "p2").value_or(*first),
-                   part_.optional_integer(triangle, "p3").value_or(*first)};
-        for (const std::uint32_t index : indices) check(triangle, *group, index);
-    } else if (index_of_object_) {
-        indices.fill(*index_of_object_);
-    } else {
-        return;
-    }
-    set(*group, indices);
-}
-
-const property_group_3mf* triangle_properties::find(pugi::xml_node user) const {
-    const std::optional<std::uint32_t> id = part_.optional_integer(user, "pid");
-    if (!id) return nullptr;
-    const auto found = groups_.find(*id);
-    if (found == groups_.end())
-        part_.fail(user, "pid=" + std::to_string(*id) + " names no group of properties");
-    return &found->second;
-}
-
-void triangle_properties::check(pugi::xml_node user, const property_group_3mf& group,
-                                std::uint32_t index) const {
-    const bool mixture = !group.first_color && !group.first_texture;
-    if (!mixture && index >= group.count)
-        part_.fail(user, "property " + std::to_string(index) + " is out of range: its group has " +
-                             std::to_string(group.count));
-}
-
-void triangle_properties::set(const property_group_3mf& group, const face& indices) {
-    const std::size_t last = to_.faces.size() - 1;
-    const auto shifted = [&](std::uint32_t first) {
-        return face{first + indices[0], first + indices[1], first + indices[2]};
+    const std::string prefix(prefix_of(resource.name()));
+    const std::string_view space = namespace_of(resource, prefix);
+    property_group_3mf group;
+    const auto size = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
+    const auto for_each = [&](const char* name, const auto& add) {
+        for (const pugi::xml_node entry : resource.children((prefix + name).c_str())) {
+            add(entry);
+            ++group.count;
+        }
     };
-    if (group.first_color) {
-        to_.colors.resize(last, face{});
-        to_.colors.push_back(shifted(*group.first_color));
+    if (space == core_3mf && kind == "basematerials") {
+        group.first_color = size(model.palette);
+        group.first_material = size(model.materials);
+        for_each("base", [&](pugi::xml_node base) {
+            std::string material = part.required(base, "name");
+            if (material.size() > longest_name) part.fail(base, "has a name without end");
+            model.palette.push_back(color_of(part, base, "displaycolor"));
+            model.materials.push_back(std::move(material));
+        });
+        return group;
     }
-    if (group.first_material) {
-        to_.materials.resize(last, 0);
-        to_.materials.push_back(*group.first_material + indices[0]);
+    if (space != materials_3mf) return std::nullopt;
+    if (kind == "colorgroup") {
+        group.first_color = size(model.palette);
+        for_each("color", [&](pugi::xml_node color) {
+            model.palette.push_back(color_of(part, color, "color"));
+        });
+    } else if (kind == "texture2dgroup") {
+        group.first_texture = size(model.texture);
+        for_each("tex2coord", [&](pugi::xml_node place) {
+            model.texture.push_back({part.number(place, "u"), part.number(place, "v"), 0.0});
+        });
+        model.unread.images = true;
+    } else if (kind != "compositematerials" && kind != "multiproperties") {
+        return std::nullopt;
     }
-    if (group.first_texture) {
-        constexpr std::uint32_t none = corner_values::none;
-        to_.texture.resize(last, face{none, none, none});
-        to_.texture.push_back(shifted(*group.first_texture));
-    }
-    if (!group.first_color && !group.first_texture) ++unread_.property_uses;
+    return group;
 }
 
-constexpr std::size_t longest_object_name = 1024;
+/// Gives the triangles of an object what they refer to.
+class triangle_properties {
+  public:
+    /// \throws io_error when the object refers to what is not there
+    triangle_properties(const xml_part& part, const property_groups_3mf& groups,
+                        pugi::xml_node object, object_3mf& to, unread_3mf& unread)
+        : part_(part), groups_(groups), to_(to), unread_(unread) {
+        group_of_object_ = find(object);
+        if (group_of_object_ == nullptr) return;
+        index_of_object_ = part.optional_integer(object, "pindex");
+        if (index_of_object_) check(object, *group_of_object_, *index_of_object_);
+    }
+
+    /// For the triangle that was appended last.
+    void add(pugi::xml_node triangle) {
+        const property_group_3mf* group = find(triangle);
+        const std::optional<std::uint32_t> first = part_.optional_integer(triangle, "p1");
+        if (group != nullptr && !first) part_.fail(triangle, "has a pid and no p1");
+        if (group == nullptr) group = group_of_object_;
+        if (group == nullptr || (!first && !index_of_object_)) return;
+        face indices{};
+        indices.fill(first ? *first : *index_of_object_);
+        if (first) {
+            indices[1] = part_.optional_integer(triangle, "p2").value_or(*first);
+            indices[2] = part_.optional_integer(triangle, "p3").value_or(*first);
+            for (const std::uint32_t index : indices) check(triangle, *group, index);
+        }
+        set(*group, indices);
+    }
+
+  private:
+    [[nodiscard]] const property_group_3mf* find(pugi::xml_node user) const {
+        const std::optional<std::uint32_t> id = part_.optional_integer(user, "pid");
+        if (!id) return nullptr;
+        const auto found = groups_.find(*id);
+        if (found == groups_.end())
+            part_.fail(user, "pid=" + std::to_string(*id) + " names no group of properties");
+        return &found->second;
+    }
+
+    void check(pugi::xml_node user, const property_group_3mf& group, std::uint32_t index) const {
+        const bool mixture = !group.first_color && !group.first_texture;
+        if (!mixture && index >= group.count)
+            part_.fail(user, "property " + std::to_string(index) +
+                                 " is out of range: its group has " + std::to_string(group.count));
+    }
+
+    void set(const property_group_3mf& group, const face& indices) {
+        const std::size_t last = to_.faces.size() - 1;
+        const auto shifted = [&](std::uint32_t first) {
+            return face{first + indices[0], first + indices[1], first + indices[2]};
+        };
+        if (group.first_color) {
+            to_.colors.resize(last, face{});
+            to_.colors.push_back(shifted(*group.first_color));
+        }
+        if (group.first_material) {
+            to_.materials.resize(last, 0);
+            to_.materials.push_back(*group.first_material + indices[0]);
+        }
+        if (group.first_texture) {
+            to_.texture.resize(last, no_texture);
+            to_.texture.push_back(shifted(*group.first_texture));
+        }
+        if (!group.first_color && !group.first_texture) ++unread_.property_uses;
+    }
+
+    const xml_part& part_;
+    const property_groups_3mf& groups_;
+    object_3mf& to_;
+    unread_3mf& unread_;
+    const property_group_3mf* group_of_object_ = nullptr;
+    std::optional<std::uint32_t> index_of_object_{};
+};
 
 /// Which objects of which parts are needed. Parts are numbered in the order in which they are
 /// named.
@@ -373,7 +336,7 @@ class part_reader {
 
     [[nodiscard]] std::string name_in(pugi::xml_node node, const char* attribute) const {
         std::string name = node.attribute(attribute).value();
-        if (name.size() > longest_object_name) xml_.fail(node, "has a name that is too long");
+        if (name.size() > longest_name) xml_.fail(node, "has a name without end");
         return name;
     }
 
@@ -420,8 +383,7 @@ class part_reader {
         }
         if (!object.colors.empty()) object.colors.resize(object.faces.size());
         if (!object.materials.empty()) object.materials.resize(object.faces.size());
-        constexpr std::uint32_t none = corner_values::none;
-        if (!object.texture.empty()) object.texture.resize(object.faces.size(), {none, none, none});
+        if (!object.texture.empty()) object.texture.resize(object.faces.size(), no_texture);
     }
 
     const xml_part& xml_;

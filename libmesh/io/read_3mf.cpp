@@ -29,8 +29,6 @@ struct looks_3mf {
     std::vector<face> texture{};  ///< of corners, in the texture coordinates of the model
 };
 
-constexpr face no_texture{corner_values::none, corner_values::none, corner_values::none};
-
 /// The palette number of each point; none where a face or two faces want several.
 [[nodiscard]] std::optional<std::vector<std::uint32_t>> colors_of_points(
     const mesh& mesh, const std::vector<face>& colors) {

@@ -32,41 +32,6 @@ struct face_look {
     friend bool operator==(const face_look&, const face_look&) = default;
 };
 
-/// The materials of parts with the colors of their faces; else the colors of faces; else the colors
-/// of points, a corner each. Where only some faces have a look, the others are white. Colors are
-/// 0xRRGGBBAA.
-class face_looks {
-  public:
-    explicit face_looks(const write_job& job);
-
-    [[nodiscard]] const face_look& of(std::uint32_t triangle) const {
-        return looks_.empty() ? none_ : looks_[triangle];
-    }
-    /// Names and colors, in the order in which triangles first have them.
-    [[nodiscard]] const auto& materials() const { return materials_; }
-    [[nodiscard]] const std::vector<std::uint32_t>& colors() const { return colors_; }
-    /// Whether points have colors that are not among these.
-    [[nodiscard]] bool leaves_out_points() const { return leaves_out_points_; }
-    /// Whether some color is none of 8 bits a channel.
-    [[nodiscard]] bool rounds_colors() const { return rounds_colors_; }
-    /// Whether the colors of materials are in files of which nothing is known here.
-    [[nodiscard]] bool lacks_colors() const { return lacks_colors_; }
-
-  private:
-    [[nodiscard]] std::uint32_t color_entry(std::uint32_t color);
-    [[nodiscard]] std::uint32_t material_entry(const std::string& name, std::uint32_t color);
-
-    face_look none_{};
-    std::vector<face_look> looks_{};
-    std::vector<std::pair<std::string, std::uint32_t>> materials_{};
-    std::vector<std::uint32_t> colors_{};
-    std::map<std::pair<std::string, std::uint32_t>, std::uint32_t> number_of_material_{};
-    std::map<std::uint32_t, std::uint32_t> number_of_color_{};
-    bool leaves_out_points_ = false;
-    bool rounds_colors_ = false;
-    bool lacks_colors_ = false;
-};
-
 constexpr std::uint32_t white = 0xffffffff;
 
 /// 0xRRGGBBAA.
@@ -83,55 +48,73 @@ constexpr std::uint32_t white = 0xffffffff;
     return color;
 }
 
-face_looks::face_looks(const write_job& job) {
-    const mesh_file& file = job.file;
-    const auto& parts = file.attributes.parts;
-    const auto of_faces = color_columns(file.attributes.find("face"));
-    auto of_points = color_columns(job.vertices);
-    const bool named =
-        std::any_of(parts.begin(), parts.end(), [](const part& p) { return !p.material.empty(); });
-    leaves_out_points_ = (named || !of_faces.empty()) && !of_points.empty();
-    if (leaves_out_points_) of_points.clear();
-    lacks_colors_ = named && of_faces.empty() && !file.attributes.material_files.empty();
-    if (!named && of_faces.empty() && of_points.empty()) return;
-    const std::string nameless;
-    std::size_t next = 0;
-    for (std::uint32_t f = 0; f < file.mesh.faces.size(); ++f) {
-        const std::size_t row = face_row(file, f);
-        while (next < parts.size() && parts[next].first_face <= row) ++next;
-        const std::string& material = next > 0 ? parts[next - 1].material : nameless;
-        const std::uint32_t color =
-            of_faces.empty() ? white : color_of_row(of_faces, row, rounds_colors_);
-        face_look look;
-        if (!material.empty()) {
-            look.list = look_list::materials;
-            look.entries.fill(material_entry(material, color));
-        } else if (!of_points.empty()) {
-            look.list = look_list::colors;
-            for (std::size_t k = 0; k < 3; ++k)
-                look.entries[k] =
-                    color_entry(color_of_row(of_points, file.mesh.faces[f][k], rounds_colors_));
-        } else {
-            look.list = look_list::colors;
-            look.entries.fill(color_entry(color));
+/// The materials of parts with the colors of their faces; else the colors of faces; else the colors
+/// of points, a corner each. Where only some faces have a look, the others are white. Colors are
+/// 0xRRGGBBAA.
+class face_looks {
+  public:
+    explicit face_looks(const write_job& job) {
+        const mesh_file& file = job.file;
+        const auto& parts = file.attributes.parts;
+        const auto of_faces = color_columns(file.attributes.find("face"));
+        auto of_points = color_columns(job.vertices);
+        const bool named = std::any_of(parts.begin(), parts.end(),
+                                       [](const part& p) { return !p.material.empty(); });
+        leaves_out_points = (named || !of_faces.empty()) && !of_points.empty();
+        if (leaves_out_points) of_points.clear();
+        lacks_colors = named && of_faces.empty() && !file.attributes.material_files.empty();
+        if (!named && of_faces.empty() && of_points.empty()) return;
+        const std::string nameless;
+        std::size_t next = 0;
+        for (std::uint32_t f = 0; f < file.mesh.faces.size(); ++f) {
+            const std::size_t row = face_row(file, f);
+            while (next < parts.size() && parts[next].first_face <= row) ++next;
+            const std::string& material = next > 0 ? parts[next - 1].material : nameless;
+            const std::uint32_t color =
+                of_faces.empty() ? white : color_of_row(of_faces, row, rounds_colors);
+            face_look look;
+            if (!material.empty()) {
+                look.list = look_list::materials;
+                look.entries.fill(entry(number_of_material_, materials, {material, color}));
+            } else if (!of_points.empty()) {
+                look.list = look_list::colors;
+                for (std::size_t k = 0; k < 3; ++k)
+                    look.entries[k] =
+                        entry(number_of_color_, colors,
+                              color_of_row(of_points, file.mesh.faces[f][k], rounds_colors));
+            } else {
+                look.list = look_list::colors;
+                look.entries.fill(entry(number_of_color_, colors, color));
+            }
+            looks_.push_back(look);
         }
-        looks_.push_back(look);
     }
-}
 
-std::uint32_t face_looks::color_entry(std::uint32_t color) {
-    const auto number = static_cast<std::uint32_t>(colors_.size());
-    const auto [at, is_new] = number_of_color_.emplace(color, number);
-    if (is_new) colors_.push_back(color);
-    return at->second;
-}
+    [[nodiscard]] const face_look& of(std::uint32_t triangle) const {
+        return looks_.empty() ? none_ : looks_[triangle];
+    }
 
-std::uint32_t face_looks::material_entry(const std::string& name, std::uint32_t color) {
-    const auto number = static_cast<std::uint32_t>(materials_.size());
-    const auto [at, is_new] = number_of_material_.emplace(std::pair(name, color), number);
-    if (is_new) materials_.emplace_back(name, color);
-    return at->second;
-}
+    /// Names and colors, in the order in which triangles first have them.
+    std::vector<std::pair<std::string, std::uint32_t>> materials{};
+    std::vector<std::uint32_t> colors{};
+    bool leaves_out_points = false;  ///< points have colors that are not among these
+    bool rounds_colors = false;      ///< some color is none of 8 bits a channel
+    bool lacks_colors = false;  ///< colors of materials are in files of which nothing is known here
+
+  private:
+    template <class Entry>
+    [[nodiscard]] static std::uint32_t entry(std::map<Entry, std::uint32_t>& numbers,
+                                             std::vector<Entry>& list, const Entry& wanted) {
+        const auto [at, is_new] = numbers.emplace(wanted, static_cast<std::uint32_t>(list.size()));
+        if (is_new) list.push_back(wanted);
+        return at->second;
+    }
+
+    face_look none_{};
+    std::vector<face_look> looks_{};
+    std::map<std::pair<std::string, std::uint32_t>, std::uint32_t> number_of_material_{};
+    std::map<std::uint32_t, std::uint32_t> number_of_color_{};
+};
 
 constexpr std::string_view xml_head = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
 
@@ -206,15 +189,15 @@ class model_writer {
         const mesh& m = job_.file.mesh;
         std::size_t names = 0;
         for (const written_object& o : objects_) names += o.part.name.size() + 64;
-        for (const auto& [name, color] : looks_.materials()) names += name.size() + 16;
+        for (const auto& [name, color] : looks_.materials) names += name.size() + 16;
         return 4096 + 6 * names + 160 * (m.points.size() + m.faces.size()) +
-               64 * looks_.colors().size();
+               64 * looks_.colors.size();
     }
 
     void write() {
         put(xml_head, "<model unit=\"", unit_of(job_.file), "\" xml:lang=\"en-US\" xmlns=\"",
             core_3mf, "\"");
-        if (!looks_.colors().empty()) put(" xmlns:m=\"", materials_3mf, "\"");
+        if (!looks_.colors.empty()) put(" xmlns:m=\"", materials_3mf, "\"");
         put(">\n<metadata name=\"Application\">treeform</metadata>\n<resources>\n");
         put_materials();
         put_colors();
@@ -225,17 +208,16 @@ class model_writer {
             put("<item objectid=\"", id, "\"/>\n");
         put("</build>\n</model>\n");
         drain();
-        if (looks_.leaves_out_points())
+        if (looks_.leaves_out_points)
             job_.result.warnings.push_back(
                 {"colors-dropped",
                  "colors of points left out, since their faces have colors or materials"});
         if (count_named(job_.file) > objects_.size())
             job_.result.warnings.push_back(
-                {"left-out",
-                 "names of parts left out, since parts that share points are one object"});
-        if (looks_.rounds_colors())
+                {"left-out", "names of parts left out: those that share points are one object"});
+        if (looks_.rounds_colors)
             job_.result.warnings.push_back({"colors", "colors are rounded to 8 bits"});
-        if (looks_.lacks_colors())
+        if (looks_.lacks_colors)
             job_.result.warnings.push_back(
                 {"materials", "materials are written in white, since " +
                                   job_.file.attributes.material_files[0] +
@@ -258,10 +240,10 @@ class model_writer {
     }
 
     void put_materials() {
-        if (looks_.materials().empty()) return;
+        if (looks_.materials.empty()) return;
         materials_id_ = next_id_++;
         put("<basematerials id=\"", materials_id_, "\">\n");
-        for (const auto& [name, color] : looks_.materials()) {
+        for (const auto& [name, color] : looks_.materials) {
             put("<base name=\"", xml_text(name), "\" displaycolor=\"");
             put_color(color);
             put("\"/>\n");
@@ -270,10 +252,10 @@ class model_writer {
     }
 
     void put_colors() {
-        if (looks_.colors().empty()) return;
+        if (looks_.colors.empty()) return;
         colors_id_ = next_id_++;
         put("<m:colorgroup id=\"", colors_id_, "\">\n");
-        for (const std::uint32_t color : looks_.colors()) {
+        for (const std::uint32_t color : looks_.colors) {
             put("<m:color color=\"");
             put_color(color);
             put("\"/>\n");
