@@ -15,10 +15,6 @@ namespace {
 
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 
-std::string name_of(const part& p) {
-    return p.object.empty() || p.group.empty() ? p.object + p.group : p.object + "/" + p.group;
-}
-
 /// Names by their first mention; 0 is that of the faces ahead of all.
 struct name_table {
     std::vector<std::string> names{std::string()};
@@ -29,7 +25,7 @@ struct name_table {
         for (const part& p : parts) {
             const auto [at, is_new] =
                 known.try_emplace({p.object, p.group}, static_cast<std::uint32_t>(names.size()));
-            if (is_new) names.push_back(name_of(p));
+            if (is_new) names.push_back(part_name(p));
             of_part.push_back(at->second);
         }
     }

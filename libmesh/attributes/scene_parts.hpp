@@ -16,10 +16,15 @@ namespace treeform {
 
 /// Faces of a mesh that form a body.
 struct scene_part {
-    std::string name{};                  ///< "object", "object/group", "group" or empty
+    std::string name{};                  ///< as of `part_name`
     std::vector<std::uint32_t> faces{};  ///< ascending
     std::optional<box3> box{};           ///< of their corners that are finite
 };
+
+/// "object", "object/group", "group" or empty.
+[[nodiscard]] inline std::string part_name(const part& p) {
+    return p.object.empty() || p.group.empty() ? p.object + p.group : p.object + "/" + p.group;
+}
 
 /// The parts of `mesh`, in the order of their first faces. Each face is in exactly one part.
 ///

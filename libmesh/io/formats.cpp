@@ -1,4 +1,5 @@
 #include <libmesh/attributes/known_columns.hpp>
+#include <libmesh/base/used_points.hpp>
 #include <libmesh/io/detect.hpp>
 #include <libmesh/io/formats.hpp>
 
@@ -172,14 +173,6 @@ void add_names(std::string& list, const element* e, held what, bool alpha, std::
     return rest;
 }
 
-/// Of no face.
-[[nodiscard]] std::size_t count_loose_points(const mesh& m) {
-    std::vector<bool> is_used(m.points.size(), false);
-    for (const face& f : m.faces)
-        for (const std::uint32_t corner : f) is_used[corner] = true;
-    return static_cast<std::size_t>(std::ranges::count(is_used, false));
-}
-
 /// Which column is which; empty where they have no names.
 [[nodiscard]] std::string names_left_out(const element* points) {
     std::string names;
@@ -194,6 +187,10 @@ void add_names(std::string& list, const element* e, held what, bool alpha, std::
 }
 
 }  // namespace
+
+std::size_t count_loose_points(const mesh& m) {
+    return m.points.size() - base::used_points(m.points.size(), m.faces).size();
+}
 
 std::vector<io_warning> left_out(const known_format& format, const mesh_file& file,
                                  const element* points, bool text) {

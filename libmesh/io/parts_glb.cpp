@@ -1,3 +1,5 @@
+#include <libmesh/attributes/scene_parts.hpp>
+#include <libmesh/io/formats.hpp>
 #include <libmesh/io/parts_glb.hpp>
 
 #include <algorithm>
@@ -41,10 +43,6 @@ constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
     return material;
 }
 
-[[nodiscard]] std::string name_of_glb(const part& p) {
-    return p.object.empty() || p.group.empty() ? p.object + p.group : p.object + "/" + p.group;
-}
-
 /// Where parts start: triangles and names. The first starts at 0.
 [[nodiscard]] std::vector<std::pair<std::uint32_t, std::string>> starts_of(const mesh_file& file) {
     std::vector<std::pair<std::uint32_t, std::string>> starts{{0, {}}};
@@ -53,7 +51,7 @@ constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
     for (std::uint32_t f = 0; f < file.mesh.faces.size() && next < parts.size(); ++f) {
         if (parts[next].first_face > face_row(file, f)) continue;
         while (next < parts.size() && parts[next].first_face <= face_row(file, f)) ++next;
-        std::string name = name_of_glb(parts[next - 1]);
+        std::string name = part_name(parts[next - 1]);
         if (name == starts.back().second) continue;
         if (starts.back().first == f)
             starts.back().second = std::move(name);
@@ -111,14 +109,9 @@ class part_builder {
     bool keeps_all_;
 };
 
-void say_unused(const write_job& job) {
-    std::vector<bool> used(job.file.mesh.points.size(), false);
-    for (const face& f : job.file.mesh.faces)
-        for (const std::uint32_t corner : f) used[corner] = true;
-    const auto unused = std::count(used.begin(), used.end(), false);
-    if (unused > 0)
-        job.result.warnings.push_back(
-            {"left-out", std::to_string(unused) + " points without faces left out"});
+[[nodiscard]] bool is_in_range(const std::array<double, 2>& uv) {
+    constexpr double most = std::numeric_limits<float>::max();
+    return std::abs(uv[0]) < most && std::abs(uv[1]) < most;
 }
 
 }  // namespace
@@ -131,7 +124,10 @@ layout_glb lay_out(const write_job& job) {
     const corner_values& corners = file.attributes.corners;
     const bool keeps_all =
         starts.size() == 1 && corners.texture_of_corner.empty() && corners.normal_of_corner.empty();
-    if (!keeps_all) say_unused(job);
+    const std::size_t unused = keeps_all ? 0 : count_loose_points(file.mesh);
+    if (unused > 0)
+        job.result.warnings.push_back(
+            {"left-out", std::to_string(unused) + " points that no face has were left out"});
     for (std::size_t s = 0; s < starts.size(); ++s) {
         const std::size_t end =
             s + 1 < starts.size() ? starts[s + 1].first : file.mesh.faces.size();
@@ -179,40 +175,17 @@ std::array<double, 2> attributes_glb::stored_texture(const vertex_glb& v) const 
     return {texture_[0]->number(v.point), texture_[1]->number(v.point)};
 }
 
-namespace {
-
-[[nodiscard]] bool has_length(const point3& n) {
-    const double length = std::hypot(n.x, n.y, n.z);
-    return length > 0.0 && std::isfinite(length);
+std::size_t attributes_glb::count_normals(const part_glb& part) const {
+    return static_cast<std::size_t>(std::ranges::count_if(part.vertices, [&](const vertex_glb& v) {
+        const point3 n = stored_normal(v);
+        const double length = std::hypot(n.x, n.y, n.z);
+        return length > 0.0 && std::isfinite(length);
+    }));
 }
 
-[[nodiscard]] bool is_in_range(const std::array<double, 2>& uv) {
-    constexpr double most = std::numeric_limits<float>::max();
-    return std::abs(uv[0]) < most && std::abs(uv[1]) < most;
-}
-
-}  // namespace
-
-bool attributes_glb::has_normals(const part_glb& part) const {
-    return std::all_of(part.vertices.begin(), part.vertices.end(),
-                       [&](const vertex_glb& v) { return has_length(stored_normal(v)); });
-}
-
-bool attributes_glb::lacks_normals(const part_glb& part) const {
-    return !has_normals(part) &&
-           std::any_of(part.vertices.begin(), part.vertices.end(),
-                       [&](const vertex_glb& v) { return has_length(stored_normal(v)); });
-}
-
-bool attributes_glb::has_texture(const part_glb& part) const {
-    return std::any_of(part.vertices.begin(), part.vertices.end(),
-                       [&](const vertex_glb& v) { return is_in_range(stored_texture(v)); });
-}
-
-bool attributes_glb::lacks_texture(const part_glb& part) const {
-    return has_texture(part) &&
-           !std::all_of(part.vertices.begin(), part.vertices.end(),
-                        [&](const vertex_glb& v) { return is_in_range(stored_texture(v)); });
+std::size_t attributes_glb::count_texture(const part_glb& part) const {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        part.vertices, [&](const vertex_glb& v) { return is_in_range(stored_texture(v)); }));
 }
 
 std::array<float, 3> attributes_glb::normal(const vertex_glb& v) const {

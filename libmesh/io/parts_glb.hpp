@@ -53,17 +53,12 @@ class attributes_glb {
   public:
     explicit attributes_glb(const write_job& job);
 
-    /// Whether vertices of the part have the attribute.
-    [[nodiscard]] bool has_normals(const part_glb& part) const;
-    [[nodiscard]] bool has_texture(const part_glb& part) const;
+    /// How many vertices of the part have a normal that has a length, and texture coordinates.
+    [[nodiscard]] std::size_t count_normals(const part_glb& part) const;
+    [[nodiscard]] std::size_t count_texture(const part_glb& part) const;
     [[nodiscard]] bool has_colors() const { return !colors_.empty(); }
 
-    /// Whether some vertex of the part has no valid normal (texture coordinates), although the part
-    /// has some.
-    [[nodiscard]] bool lacks_normals(const part_glb& part) const;
-    [[nodiscard]] bool lacks_texture(const part_glb& part) const;
-
-    /// The normal, scaled to length 1.
+    /// Of length 1.
     [[nodiscard]] std::array<float, 3> normal(const vertex_glb& v) const;
     /// The texture coordinates, with v from the upper edge; 0 0 if there are none.
     [[nodiscard]] std::array<float, 2> texture(const vertex_glb& v) const;

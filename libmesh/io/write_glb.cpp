@@ -104,8 +104,12 @@ class document_glb {
         : job_(job), layout_(lay_out(job)), attributes_(job), numbers_(numbers_of_faces(job.file)) {
         offset_ = choose_offset(job, box_of(job.file.mesh.points));
         for (const part_glb& p : layout_.parts) {
-            with_normals_.push_back(attributes_.has_normals(p));
-            with_texture_.push_back(attributes_.has_texture(p));
+            const std::size_t normals = attributes_.count_normals(p);
+            const std::size_t textures = attributes_.count_texture(p);
+            with_normals_.push_back(normals == p.vertices.size());
+            with_texture_.push_back(textures > 0);
+            leaves_out_normals_ = leaves_out_normals_ || (normals > 0 && !with_normals_.back());
+            lacks_texture_ = lacks_texture_ || (textures > 0 && textures < p.vertices.size());
         }
         plan_views();
         say_what_is_left_out();
@@ -326,16 +330,12 @@ class document_glb {
     }
 
     void say_what_is_left_out() const {
-        std::size_t normal_parts = 0;
-        std::size_t texture_parts = 0;
-        for (const part_glb& p : layout_.parts) {
-            normal_parts += attributes_.lacks_normals(p) ? 1 : 0;
-            texture_parts += attributes_.lacks_texture(p) ? 1 : 0;
-        }
         const std::string in_all =
-            "some corners have none or one of length 0, and glb has one for every corner or none";
-        if (normal_parts > 0) warn("corner-values", "normals left out: " + in_all);
-        if (texture_parts > 0) warn("corner-values", "corners without texture coordinates got 0 0");
+            "some corners have none or none of a length: glb holds those of "
+            "all or none";
+        if (leaves_out_normals_) warn("corner-values", "normals left out: " + in_all);
+        if (lacks_texture_)
+            warn("corner-values", "texture coordinates 0 0 for corners that have none");
         std::string names;
         const auto add = [&](const std::string& name) {
             names += (names.empty() ? "" : ", ") + name;
@@ -358,6 +358,8 @@ class document_glb {
     point3 offset_{};
     std::vector<bool> with_normals_{};
     std::vector<bool> with_texture_{};
+    bool leaves_out_normals_ = false;
+    bool lacks_texture_ = false;
     std::vector<view_glb> views_{};
     std::vector<std::size_t> number_of_view_{};
     std::vector<std::size_t> used_{};  ///< bytes of views that accessors have

@@ -1,3 +1,4 @@
+#include <libmesh/attributes/scene_parts.hpp>
 #include <libmesh/io/writers.hpp>
 
 #include <algorithm>
@@ -108,8 +109,7 @@ void write_stl_text(const write_job& job) {
     part now = next_part > 0 ? parts[0] : part{};
     const auto put_name = [&](std::string_view keyword) {
         job.out.put(keyword);
-        const bool has_both = !now.object.empty() && !now.group.empty();
-        const std::string name = now.object + (has_both ? "/" : "") + now.group;
+        const std::string name = part_name(now);
         if (!name.empty()) job.out.put(' ' + one_line(name));
         job.out.put('\n');
     };
