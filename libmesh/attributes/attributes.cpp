@@ -31,8 +31,7 @@ column gather(const column& c, std::span<const std::uint32_t> rows) {
 
 template <class Row>
 const Row* named(const std::vector<Row>& rows, std::string_view name) {
-    const auto at =
-        std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.name == name; });
+    const auto at = std::ranges::find(rows, name, &Row::name);
     return at == rows.end() ? nullptr : &*at;
 }
 

@@ -201,9 +201,9 @@ class joiner {
                 declare_place(joined, c, first);
                 continue;
             }
-            const auto at = std::find_if(
-                joined.columns.begin(), joined.columns.end(),
-                [&](const column& d) { return d.role == column_role::data && d.name == c.name; });
+            const auto at = std::ranges::find_if(joined.columns, [&](const column& d) {
+                return d.role == column_role::data && d.name == c.name;
+            });
             if (at == joined.columns.end())
                 joined.columns.push_back(
                     {.name = c.name, .type = c.type, .list_length = c.list_length});
@@ -214,8 +214,7 @@ class joiner {
 
     /// Of what is no data. The type in which texture coordinates are written is to hold all.
     static void declare_place(element& joined, const column& c, bool first) {
-        const auto at = std::find_if(joined.columns.begin(), joined.columns.end(),
-                                     [&](const column& d) { return d.role == c.role; });
+        const auto at = std::ranges::find(joined.columns, c.role, &column::role);
         if (c.role == column_role::texture && at != joined.columns.end())
             widen(*at, c);
         else if (first || c.role == column_role::texture)

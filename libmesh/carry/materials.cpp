@@ -13,8 +13,7 @@ namespace {
 
 bool has_materials(const carry_source& input) {
     const auto& parts = input.file->attributes.parts;
-    return std::any_of(parts.begin(), parts.end(),
-                       [](const part& p) { return !p.material.empty(); });
+    return std::ranges::any_of(parts, [](const part& p) { return !p.material.empty(); });
 }
 
 /// The part of a face of an input; one without names where it is in none.

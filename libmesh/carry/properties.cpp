@@ -169,8 +169,7 @@ std::vector<property> properties_of(std::span<const carry_source> inputs, const 
         if (e == nullptr) continue;
         for (const column& c : e->columns) {
             if (!is_single_value(*e, c)) continue;
-            auto at = std::find_if(all.begin(), all.end(),
-                                   [&](const property& p) { return p.name == c.name; });
+            auto at = std::ranges::find(all, c.name, &property::name);
             if (at == all.end()) {
                 all.push_back({c.name, c.type, {}});
                 all.back().of_input.resize(inputs.size(), nullptr);

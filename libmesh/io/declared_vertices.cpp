@@ -39,8 +39,7 @@ element declare_vertices(const write_job& job, bool text,
     std::ptrdiff_t added = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const column_role role = role_of_axis(axis);
-        const auto at = std::find_if(e.columns.begin(), e.columns.end(),
-                                     [&](const column& c) { return c.role == role; });
+        const auto at = std::ranges::find(e.columns, role, &column::role);
         if (at == e.columns.end())
             e.columns.insert(e.columns.begin() + added++,
                              {.name = std::string(1, "xyz"[axis]), .type = wanted, .role = role});

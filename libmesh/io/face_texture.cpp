@@ -151,8 +151,7 @@ template <class T>
 void take_face_texture(mesh_file& file) {
     for (element& e : file.attributes.elements) {
         if (e.name != "face" || e.rows == 0) continue;
-        const auto at = std::find_if(e.columns.begin(), e.columns.end(),
-                                     [](const column& c) { return c.name == face_texture_name; });
+        const auto at = std::ranges::find(e.columns, face_texture_name, &column::name);
         if (at == e.columns.end() || !take_if_all_fit(file, *at)) continue;
         *at = declaration(*at);
         at->role = column_role::texture;

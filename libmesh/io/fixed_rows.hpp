@@ -50,6 +50,21 @@ void read_data(Values& values, column& c) {
     c.list_begin.push_back(c.size());
 }
 
+/// Appends a row to the columns of `e`, but for that of corners, which `take_corners` reads; what
+/// that returns.
+template <class Values, class F>
+bool read_row(Values& values, element& e, const F& take_corners) {
+    bool taken = true;
+    values.begin_row();
+    for (column& c : e.columns)
+        if (c.role == column_role::corners)
+            taken = take_corners(c);
+        else
+            read_data(values, c);
+    values.end_row();
+    return taken;
+}
+
 /// Value by value, for text and for rows with lists.
 template <class Values>
 void append_vertices_one_by_one(Values& values, element& vertices, std::vector<point3>& points,

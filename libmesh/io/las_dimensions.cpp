@@ -134,9 +134,8 @@ void add_wave_packet(packed_dimensions& to) {
 [[nodiscard]] std::string unique_name(const std::vector<extra_group>& groups,
                                       const std::string& name) {
     const auto is_taken = [&](const std::string& wanted) {
-        return std::any_of(groups.begin(), groups.end(), [&](const extra_group& g) {
-            return std::any_of(g.values.begin(), g.values.end(),
-                               [&](const las_dimension& d) { return d.name == wanted; });
+        return std::ranges::any_of(groups, [&](const extra_group& g) {
+            return std::ranges::count(g.values, wanted, &las_dimension::name) > 0;
         });
     };
     std::string unique = name;

@@ -49,10 +49,9 @@ template <class T>
 
 [[nodiscard]] const las_record* find_record(std::span<const las_record> records,
                                             std::string_view user_id, std::uint16_t id) {
-    const auto found = std::find_if(records.begin(), records.end(), [&](const las_record& r) {
-        return r.record_id == id && r.user_id.c_str() == user_id;
-    });
-    return found == records.end() ? nullptr : &*found;
+    for (const las_record& r : records)
+        if (r.record_id == id && r.user_id.c_str() == user_id) return &r;
+    return nullptr;
 }
 
 class las_opener {

@@ -29,9 +29,8 @@ namespace {
 /// order they lay.
 void drop_untrue(std::vector<las_record>& records, std::vector<io_warning>& warnings) {
     const auto is_copc = [](const las_record& r) { return is_named(r, "copc"); };
-    if (std::any_of(records.begin(), records.end(), is_copc) &&
-        std::none_of(warnings.begin(), warnings.end(),
-                     [](const io_warning& w) { return w.code == "copc"; }))
+    if (std::ranges::any_of(records, is_copc) &&
+        std::ranges::count(warnings, "copc", &io_warning::code) == 0)
         warnings.push_back({"copc", "the index of a COPC file is left out"});
     std::erase_if(records,
                   [&](const las_record& r) { return is_copc(r) || is_named(r, "laszip encoded"); });
@@ -120,8 +119,7 @@ class las_planner {
     }
 
     [[nodiscard]] bool has(std::string_view name) const {
-        return std::any_of(columns_.begin(), columns_.end(),
-                           [&](const column* c) { return c->name == name; });
+        return std::ranges::count(columns_, name, &column::name) > 0;
     }
 
     [[nodiscard]] las_features features() const {
@@ -164,9 +162,8 @@ class las_planner {
         std::vector<std::byte> descriptions;
         if (old != records.end())
             for (extra_group& g : extra_groups(old->data, 0, 0xffff)) {
-                if (std::none_of(g.values.begin(), g.values.end(),
-                                 [&](const las_dimension& d) { return has(d.name); }))
-                    continue;
+                const auto is_there = [&](const las_dimension& d) { return has(d.name); };
+                if (std::ranges::none_of(g.values, is_there)) continue;
                 for (const las_dimension& d : g.values)
                     add_dimension(d.name, d.type, take(d.name), d.scaling);
                 descriptions.insert(descriptions.end(), g.description.begin(), g.description.end());

@@ -33,9 +33,9 @@ inline constexpr const char* triangle_sets_3mf =
 inline constexpr const char* model_relationship_3mf =
     "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
 
-/// The units of models; the second is the default.
-inline constexpr std::array<const char*, 6> units_3mf{"micron", "millimeter", "centimeter",
-                                                      "inch",   "foot",       "meter"};
+/// The units that a model may have; the second is that of a model which names none.
+inline constexpr std::array<std::string_view, 6> units_3mf{"micron", "millimeter", "centimeter",
+                                                           "inch",   "foot",       "meter"};
 
 /// An object of the package: the number of its part, and its own in that part.
 struct object_key {
@@ -84,8 +84,8 @@ struct model_3mf {
     std::vector<std::string> parts{};  ///< names in the archive; the first is the root
     std::map<object_key, object_3mf> objects{};
     std::vector<placed_3mf> items{};
-    std::string unit = units_3mf[1];
-    /// Colors 0xRRGGBBAA; the first is for faces without a color.
+    std::string unit{units_3mf[1]};
+    /// Colors 0xRRGGBBAA; the first is that of faces without a color.
     std::vector<std::uint32_t> palette{0xffffffff};
     std::vector<std::string> materials{{}};  ///< names; the first is for faces without a material
     std::vector<std::array<double, 3>> texture{};

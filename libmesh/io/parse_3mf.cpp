@@ -243,9 +243,7 @@ class part_reader {
     void read_unit(pugi::xml_node root) {
         const pugi::xml_attribute unit = root.attribute("unit");
         if (!unit) return;
-        const auto found = std::find_if(units_3mf.begin(), units_3mf.end(), [&](const char* known) {
-            return std::strcmp(known, unit.value()) == 0;
-        });
+        const auto found = std::ranges::find(units_3mf, std::string_view(unit.value()));
         if (found == units_3mf.end()) xml_.fail(root, "has a unit that 3MF does not define");
         model_.unit = *found;
     }

@@ -25,9 +25,8 @@ constexpr const char* instancing = "EXT_mesh_gpu_instancing";
     constexpr std::array<std::string_view, 9> looks{
         "KHR_materials_", "KHR_technique", "KHR_texture_", "EXT_texture_", "MSFT_texture_",
         "EXT_materials_", "KHR_lights_",   "EXT_lights_",  "KHR_xmp"};
-    return std::find(read.begin(), read.end(), name) != read.end() ||
-           std::any_of(looks.begin(), looks.end(),
-                       [&](std::string_view start) { return name.starts_with(start); });
+    const auto begins = [&](std::string_view start) { return name.starts_with(start); };
+    return std::ranges::count(read, name) > 0 || std::ranges::any_of(looks, begins);
 }
 
 /// Whether it is 1.0, which has no numbers for things but names.

@@ -73,7 +73,7 @@ class part_builder {
             for_each_corner(part, [&](std::uint32_t f, std::size_t k) {
                 part.vertices.push_back(vertex(f, k));
             });
-            std::sort(part.vertices.begin(), part.vertices.end());
+            std::ranges::sort(part.vertices);
             part.vertices.erase(std::unique(part.vertices.begin(), part.vertices.end()),
                                 part.vertices.end());
         }
@@ -151,8 +151,7 @@ attributes_glb::attributes_glb(const write_job& job) : file_(job.file), vertices
     if (texture_.empty()) texture_ = scalar_columns(vertices_, {"texture_u", "texture_v"});
     colors_ = color_columns(vertices_);
     for (const scalar_type type : {scalar_type::uint8, scalar_type::uint16})
-        if (std::all_of(colors_.begin(), colors_.end(),
-                        [&](const column* c) { return c->type == type; }))
+        if (std::ranges::all_of(colors_, [&](const column* c) { return c->type == type; }))
             color_type_ = type;
 }
 

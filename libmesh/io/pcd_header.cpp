@@ -192,8 +192,7 @@ class pcd_header_reader {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::string name(1, "xyz"[axis]);
             auto& columns = header_.vertices.columns;
-            const auto at = std::find_if(columns.begin(), columns.end(),
-                                         [&](const column& c) { return c.name == name; });
+            const auto at = std::ranges::find(columns, name, &column::name);
             if (at == columns.end()) text_.file.fail("no field " + name);
             at->role = role_of_axis(axis);
         }

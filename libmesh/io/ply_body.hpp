@@ -22,8 +22,7 @@ inline constexpr std::uint32_t most_numbers = std::numeric_limits<std::uint32_t>
 
 /// The element "vertex", which must exist and have all coordinates.
 [[nodiscard]] inline element& vertices_of(const source& in, std::vector<element>& elements) {
-    const auto at = std::find_if(elements.begin(), elements.end(),
-                                 [](const element& e) { return e.name == "vertex"; });
+    const auto at = std::ranges::find(elements, "vertex", &element::name);
     if (at == elements.end()) in.fail("no element 'vertex' in the header");
     for (const auto role : {column_role::x, column_role::y, column_role::z})
         if (with_role(*at, role) == nullptr) in.fail("element 'vertex' lacks one of x, y, z");

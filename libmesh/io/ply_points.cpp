@@ -218,13 +218,11 @@ class ply_points {
             element row;
             restart(row, e);
             for (std::size_t left = e.rows; left > 0; --left) {
-                values_.begin_row();
                 for (column& c : row.columns) {
                     c.values.clear();
                     c.list_begin.clear();
-                    read_data(values_, c);
                 }
-                values_.end_row();
+                (void)io::read_row(values_, row, [](const column&) { return true; });
             }
             if constexpr (!has_bytes<Values>) lines_ahead_ += e.rows;
         }
@@ -250,18 +248,10 @@ class ply_points {
     }
 
     void read_row(row_block& block) {
-        values_.begin_row();
         const std::size_t corners = block.corners.size();
-        bool is_face = true;
-        for (column& c : block.rows.columns) {
-            if (c.role == column_role::corners)
-                is_face = read_corners(c, block);
-            else
-                read_data(values_, c);
-        }
-        values_.end_row();
         ++row_;
-        if (is_face) {
+        if (io::read_row(values_, block.rows,
+                         [&](const column& c) { return read_corners(c, block); })) {
             ++block.rows.rows;
             return;
         }

@@ -63,12 +63,8 @@ class body_reader {
     }
 
     void read_rows(element& e) {
-        if (e.columns.empty()) return;
-        for (std::size_t row = 0; row < e.rows; ++row) {
-            values_.begin_row();
-            for (column& c : e.columns) read_data(values_, c);
-            values_.end_row();
-        }
+        for (std::size_t row = 0; row < e.rows && !e.columns.empty(); ++row)
+            (void)read_row(values_, e, [](const column&) { return true; });
     }
 
     void read_vertices(element& e) {
@@ -80,16 +76,7 @@ class body_reader {
         reserve_large(file_.mesh.faces, e.rows);
         std::size_t kept = 0;
         for (std::size_t row = 0; row < e.rows; ++row) {
-            values_.begin_row();
-            bool is_face = true;
-            for (column& c : e.columns) {
-                if (c.role == column_role::corners)
-                    is_face = read_corners(c);
-                else
-                    read_data(values_, c);
-            }
-            values_.end_row();
-            if (is_face)
+            if (read_row(values_, e, [&](const column& c) { return read_corners(c); }))
                 ++kept;
             else
                 drop_last_row(e);
@@ -112,22 +99,14 @@ class body_reader {
     }
 
     void read_strips(element& e) {
-        for (std::size_t row = 0; row < e.rows; ++row) {
-            values_.begin_row();
-            for (column& c : e.columns) {
-                if (c.role == column_role::corners)
-                    read_strip_list(c);
-                else
-                    read_data(values_, c);
-            }
-            values_.end_row();
-        }
+        for (std::size_t row = 0; row < e.rows; ++row)
+            (void)read_row(values_, e, [&](const column& c) { return read_strip_list(c); });
     }
 
     /// Each vertex from the third on is that of a triangle with the two before it; every second
     /// triangle is turned over. -1 ends a strip. Triangles that repeat a vertex, by which strips
     /// are joined, stay: other readers number the faces so, too.
-    void read_strip_list(const column& c) {
+    bool read_strip_list(const column& c) {
         std::uint32_t a = 0, b = 0;  // the two before
         std::size_t place = 0;       // in its strip
         for (std::size_t left = values_.length(c); left > 0; --left) {
@@ -142,6 +121,7 @@ class body_reader {
             b = v;
             ++place;
         }
+        return true;
     }
 
     /// What is written of them are faces.

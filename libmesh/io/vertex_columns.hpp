@@ -29,8 +29,7 @@ namespace treeform::detail::io {
 }
 
 [[nodiscard]] inline const column* with_role(const element& e, column_role role) {
-    const auto at = std::find_if(e.columns.begin(), e.columns.end(),
-                                 [&](const column& c) { return c.role == role; });
+    const auto at = std::ranges::find(e.columns, role, &column::role);
     return at == e.columns.end() ? nullptr : &*at;
 }
 

@@ -45,10 +45,7 @@ void check_columns(const element& e) {
 void put_number(sink& out, const column& c, std::size_t i) {
     with_type(c.type, [&]<class T>(T value) {
         std::memcpy(&value, c.values.data() + i * sizeof(T), sizeof(T));
-        if constexpr (sizeof(T) == 1)
-            out.number(static_cast<int>(value));  // else it would be a character
-        else
-            out.number(value);
+        out.number(value);
     });
 }
 

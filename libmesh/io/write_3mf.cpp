@@ -169,9 +169,9 @@ struct written_object {
 /// The unit that was read, or that of models which name none.
 [[nodiscard]] std::string unit_of(const mesh_file& file) {
     for (const std::string& line : file.attributes.obj_info)
-        for (const char* const unit : units_3mf)
-            if (line == std::string("unit ") + unit) return unit;
-    return units_3mf[1];
+        for (const std::string_view unit : units_3mf)
+            if (line == "unit " + std::string(unit)) return std::string(unit);
+    return std::string(units_3mf[1]);
 }
 
 /// The text of the model part, which goes to the archive piece by piece.

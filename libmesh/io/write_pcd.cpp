@@ -268,12 +268,10 @@ class pcd_writer {
 
     void put_coordinate(sink& out, const column& c, double x) {
         with_type(is_text() && keeps_digits(c) ? scalar_type::float64 : c.type, [&]<class T>(T) {
-            if (!is_text())
-                out.raw<std::endian::little>(static_cast<T>(x));
-            else if constexpr (sizeof(T) == 1)
-                out.number(static_cast<int>(x));
-            else
+            if (is_text())
                 out.number(static_cast<T>(x));
+            else
+                out.raw<std::endian::little>(static_cast<T>(x));
         });
     }
 

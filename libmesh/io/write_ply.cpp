@@ -66,13 +66,13 @@ class ply_writer {
     }
 
     void put_points(std::span<const point3> points, const element* source) {
-        const element& e = *find_vertices();
+        const element& e = *find("vertex");
         check_axes(job_, is_text(), e, points);
         put_rows(e, source, points.size(), points);
     }
 
     void put_behind(const row_block& block) {
-        const element& e = *std::ranges::find(names_, block.rows.name, &element::name);
+        const element& e = *find(block.rows.name);
         if (e.name != "face") return put_rows(e, &block.rows, block.rows.rows, {});
         face_values_.clear();
         for (std::size_t i = 0; i < e.columns.size(); ++i)
@@ -96,14 +96,12 @@ class ply_writer {
           count_(whole.count_),
           face_values_(whole.face_values_) {}
 
-    [[nodiscard]] std::vector<element>::iterator find_vertices() {
-        return std::find_if(names_.begin(), names_.end(),
-                            [](const element& e) { return e.name == "vertex"; });
+    [[nodiscard]] std::vector<element>::iterator find(std::string_view name) {
+        return std::ranges::find(names_, name, &element::name);
     }
 
     element& declared(std::string_view name, std::size_t rows, std::size_t place) {
-        const auto at = std::find_if(names_.begin(), names_.end(),
-                                     [&](const element& e) { return e.name == name; });
+        const auto at = find(name);
         if (at != names_.end()) return *at;
         return *names_.insert(names_.begin() + static_cast<std::ptrdiff_t>(place),
                               {.name = std::string(name), .rows = rows});
@@ -119,8 +117,7 @@ class ply_writer {
 
     void declare_faces() {
         const std::size_t count = stored_face_count(job_.file);
-        const auto at = std::find_if(names_.begin(), names_.end(),
-                                     [](const element& e) { return e.name == "face"; });
+        const auto at = find("face");
         if (at == names_.end() && count == 0) return;
         element& e = declared("face", count, at == names_.end() ? 1 : 0);
         declare_face_columns(e);
@@ -215,21 +212,14 @@ class ply_writer {
     /// `value` as one of that type.
     template <class V>
     void put_as(scalar_type type, V value) {
-        if (!is_text()) {
-            with_type(type, [&]<class T>(T) {
-                if (encoding_ == ply_encoding::big_endian)
-                    job_.out.raw<std::endian::big>(static_cast<T>(value));
-                else
-                    job_.out.raw<std::endian::little>(static_cast<T>(value));
-            });
-            return;
-        }
-        put_blank();
+        if (is_text()) put_blank();
         with_type(type, [&]<class T>(T) {
-            if constexpr (sizeof(T) == 1)
-                job_.out.number(static_cast<int>(value));
-            else
+            if (is_text())
                 job_.out.number(static_cast<T>(value));
+            else if (encoding_ == ply_encoding::big_endian)
+                job_.out.raw<std::endian::big>(static_cast<T>(value));
+            else
+                job_.out.raw<std::endian::little>(static_cast<T>(value));
         });
     }
 
