@@ -258,13 +258,9 @@ class json_writer {
                 put_value("depth", loop.depth);
                 put_value("area", loop.area);
                 put_value("length", loop.length);
-                out_.put("\"points\":[");
-                for (const point2& p : points_of(section, loop)) {
-                    out_.put(&p == points_of(section, loop).data() ? "[" : ",[");
-                    put_numbers(out_, std::array{p.x, p.y}, ',');
-                    out_.put(']');
-                }
-                out_.put("]}");
+                put_points(loop.first_point, loop.point_count, [&](std::size_t p) {
+                    return std::array{section.points[p].x, section.points[p].y};
+                });
             }
             out_.put("]}");
         }
@@ -279,14 +275,9 @@ class json_writer {
             put_value("level", line.level);
             put_flags(line.closed, line.oriented);
             put_value("length", line.length);
-            out_.put("\"points\":[");
-            for (std::size_t p = 0; p < line.point_count; ++p) {
-                const point3& q = all.points[line.first_point + p];
-                out_.put(p == 0 ? "[" : ",[");
-                put_numbers(out_, std::array{q.x, q.y, q.z}, ',');
-                out_.put(']');
-            }
-            out_.put("]}");
+            put_points(line.first_point, line.point_count, [&](std::size_t p) {
+                return std::array{all.points[p].x, all.points[p].y, all.points[p].z};
+            });
         }
         out_.put("]}\n");
     }
@@ -296,9 +287,16 @@ class json_writer {
                                                                 const section_layer& layer) {
         return std::span(section.loops).subspan(layer.first_loop, layer.loop_count);
     }
-    [[nodiscard]] static std::span<const point2> points_of(const section_result& section,
-                                                           const section_loop& loop) {
-        return std::span(section.points).subspan(loop.first_point, loop.point_count);
+    /// The last member of what has them.
+    template <class F>
+    void put_points(std::size_t first, std::size_t count, const F& coordinates_of) {
+        out_.put("\"points\":[");
+        for (std::size_t p = first; p < first + count; ++p) {
+            out_.put(p == first ? "[" : ",[");
+            put_numbers(out_, coordinates_of(p), ',');
+            out_.put(']');
+        }
+        out_.put("]}");
     }
     void put_start(const std::string& unit) {
         out_.put('{');

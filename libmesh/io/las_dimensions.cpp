@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 #include <utility>
 
@@ -34,7 +35,7 @@ class packed_dimensions {
         at_ += size_of(type);
     }
     /// Values of a byte, from its lowest bit on.
-    void add_bits(std::span<const std::pair<const char*, unsigned>> parts) {
+    void add_bits(std::initializer_list<std::pair<const char*, unsigned>> parts) {
         unsigned shift = 0;
         for (const auto& [name, bits] : parts) {
             to_.push_back({name, scalar_type::uint8, at_, shift, bits});
@@ -49,36 +50,28 @@ class packed_dimensions {
     std::size_t at_;
 };
 
-using parts_of_byte = std::pair<const char*, unsigned>;
-
 void add_legacy(packed_dimensions& to) {
-    constexpr std::array<parts_of_byte, 4> returns{{{"return_number", 3},
-                                                    {"number_of_returns", 3},
-                                                    {"scan_direction_flag", 1},
-                                                    {"edge_of_flight_line", 1}}};
-    constexpr std::array<parts_of_byte, 4> classes{
-        {{"classification", 5}, {"synthetic", 1}, {"key_point", 1}, {"withheld", 1}}};
     to.add("intensity", scalar_type::uint16);
-    to.add_bits(returns);
-    to.add_bits(classes);
+    to.add_bits({{"return_number", 3},
+                 {"number_of_returns", 3},
+                 {"scan_direction_flag", 1},
+                 {"edge_of_flight_line", 1}});
+    to.add_bits({{"classification", 5}, {"synthetic", 1}, {"key_point", 1}, {"withheld", 1}});
     to.add("scan_angle_rank", scalar_type::int8);
     to.add("user_data", scalar_type::uint8);
     to.add("point_source_id", scalar_type::uint16);
 }
 
 void add_extended(packed_dimensions& to) {
-    constexpr std::array<parts_of_byte, 2> returns{
-        {{"return_number", 4}, {"number_of_returns", 4}}};
-    constexpr std::array<parts_of_byte, 7> flags{{{"synthetic", 1},
-                                                  {"key_point", 1},
-                                                  {"withheld", 1},
-                                                  {"overlap", 1},
-                                                  {"scanner_channel", 2},
-                                                  {"scan_direction_flag", 1},
-                                                  {"edge_of_flight_line", 1}}};
     to.add("intensity", scalar_type::uint16);
-    to.add_bits(returns);
-    to.add_bits(flags);
+    to.add_bits({{"return_number", 4}, {"number_of_returns", 4}});
+    to.add_bits({{"synthetic", 1},
+                 {"key_point", 1},
+                 {"withheld", 1},
+                 {"overlap", 1},
+                 {"scanner_channel", 2},
+                 {"scan_direction_flag", 1},
+                 {"edge_of_flight_line", 1}});
     to.add("classification", scalar_type::uint8);
     to.add("user_data", scalar_type::uint8);
     to.add("scan_angle", scalar_type::int16);

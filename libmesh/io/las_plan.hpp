@@ -78,6 +78,20 @@ void extend(las_header& header);
 [[nodiscard]] las_plan plan_las(const write_job& job, std::optional<std::span<const point3>> points,
                                 bool packed);
 
+/// What of points is stored otherwise than it was to be.
+struct las_changes {
+    double moved = 0.0;        ///< the furthest that a coordinate is from the one to be written
+    double rounded_by = 0.0;   ///< how far a value of extra bytes with a scale is from a step of it
+    std::string rounded{};     ///< its column
+    std::uint64_t wholes = 0;  ///< numbers that those with a point in the file do not hold
+    std::vector<std::string> of_wholes{};  ///< columns that have such
+    std::uint64_t without_value = 0;       ///< values that are no number, for which there is none
+
+    void add(const las_changes& more);
+    /// In words, but for `moved`.
+    void remark(std::vector<io_warning>& warnings) const;
+};
+
 /// Bounds and counts of points that were written.
 class las_tally {
   public:
@@ -85,47 +99,16 @@ class las_tally {
 
     /// Records that follow one another.
     void add(const std::uint8_t* records, std::size_t count);
-    void moved(double by) {
-        if (by > max_displacement_) max_displacement_ = by;
-    }
-    /// The furthest that a coordinate is from the one that was to be written.
-    [[nodiscard]] double max_displacement() const { return max_displacement_; }
-
-    /// A value of extra bytes with a scale that is no step of it, and how far it is from one.
-    struct rounded_value {
-        std::string column{};
-        double by = 0.0;
-    };
-    void rounded(const rounded_value& value) {
-        if (value.by > rounded_.by) rounded_ = value;
-    }
-    /// Whole numbers that the numbers with a point in the file do not hold, and of which columns.
-    struct rounded_wholes {
-        std::uint64_t count = 0;
-        std::vector<std::string> columns{};
-
-        void add(const rounded_wholes& more) {
-            count += more.count;
-            for (const std::string& name : more.columns)
-                if (std::ranges::find(columns, name) == columns.end()) columns.push_back(name);
-        }
-    };
-    void rounded(const rounded_wholes& values) { wholes_.add(values); }
-    void without_value(std::uint64_t count) { without_value_ += count; }
-    /// What of values is other than it was to be, in words.
-    void remark(std::vector<io_warning>& warnings) const;
 
     /// Puts bounds and counts into a header. `count` is the number of points.
     void put(std::vector<std::byte>& block, const las_grid& grid, std::uint64_t count,
              unsigned version_minor, unsigned format) const;
 
+    las_changes changes{};
+
   private:
     std::size_t record_size_;
     unsigned return_bits_;  ///< 3 or 4
-    double max_displacement_ = 0.0;
-    rounded_value rounded_{};
-    rounded_wholes wholes_{};
-    std::uint64_t without_value_ = 0;
     std::uint64_t seen_ = 0;
     std::array<std::int32_t, 3> low_{};
     std::array<std::int32_t, 3> high_{};

@@ -16,14 +16,11 @@ namespace {
 
 constexpr auto nobody = std::numeric_limits<std::size_t>::max();
 
-/// The first point of a chunk that cannot be stored, and why.
+/// The first point of a chunk that cannot be stored, and why; and what changes of the others.
 struct chunk_fault {
     std::size_t point = nobody;
     std::string reason{};
-    double moved = 0.0;
-    las_tally::rounded_value rounded{};
-    las_tally::rounded_wholes wholes{};
-    std::uint64_t without_value = 0;
+    las_changes changes{};
 
     void at(std::size_t i, const std::string& why) {
         if (i >= point) return;
@@ -58,7 +55,7 @@ void put_axes(std::span<const point3> points, const record_rows& rows, const las
                 continue;
             }
             const double by = grid.coordinate(axis, static_cast<std::int32_t>(step)) - x;
-            fault.moved = std::max(fault.moved, std::abs(by));
+            fault.changes.moved = std::max(fault.changes.moved, std::abs(by));
             base::store<std::endian::little>(
                 reinterpret_cast<char*>(rows.to + i * rows.size + 4 * axis),
                 static_cast<std::int32_t>(step));
@@ -131,7 +128,7 @@ void put_converted(const column& c, const record_rows& rows, const las_dimension
                                                  static_cast<T>(value));
         }
     });
-    if (rounded > 0) fault.wholes.add({rounded, {c.name}});
+    if (rounded > 0) fault.changes.add({.wholes = rounded, .of_wholes = {c.name}});
 }
 
 /// The nearest of the numbers that stand for values, or the one that stands for none.
@@ -144,7 +141,7 @@ void put_scaled(const column& c, const record_rows& rows, const las_dimension& d
             double stored = (value - s.offset) / s.scale;
             if constexpr (std::is_integral_v<T>) stored = std::nearbyint(stored);
             if (std::isnan(value)) {
-                if (!s.no_data) ++fault.without_value;
+                if (!s.no_data) ++fault.changes.without_value;
                 stored = s.no_data.value_or(0.0);
             }
             if constexpr (std::is_integral_v<T>) {
@@ -157,7 +154,8 @@ void put_scaled(const column& c, const record_rows& rows, const las_dimension& d
             const double by = std::abs(product + s.offset - value);
             constexpr double digits = 1e-12;  // what the rounding of a product and a sum may do
             const bool is_step = by <= digits * (std::abs(value) + std::abs(s.offset));
-            if (!is_step && by > fault.rounded.by) fault.rounded = {c.name, by};
+            if (!is_step && by > fault.changes.rounded_by)
+                fault.changes.add({.rounded_by = by, .rounded = c.name});
             base::store<std::endian::little>(
                 reinterpret_cast<char*>(rows.to + i * rows.size + d.byte), static_cast<T>(stored));
         }
@@ -174,23 +172,33 @@ void put_single_return(const record_rows& rows, const las_dimension& d) {
 
 }  // namespace
 
-void las_tally::remark(std::vector<io_warning>& warnings) const {
-    if (rounded_.by > 0.0)
-        warnings.push_back({"extra-bytes", "values of " + rounded_.column +
-                                               " are rounded to its scale in the LAS file, by at "
-                                               "most " +
-                                               std::to_string(rounded_.by)});
-    if (wholes_.count > 0) {
+void las_changes::add(const las_changes& more) {
+    moved = std::max(moved, more.moved);
+    if (more.rounded_by > rounded_by) rounded = more.rounded;
+    rounded_by = std::max(rounded_by, more.rounded_by);
+    wholes += more.wholes;
+    for (const std::string& name : more.of_wholes)
+        if (std::ranges::count(of_wholes, name) == 0) of_wholes.push_back(name);
+    without_value += more.without_value;
+}
+
+void las_changes::remark(std::vector<io_warning>& warnings) const {
+    if (rounded_by > 0.0)
+        warnings.push_back({"extra-bytes", "values of " + rounded +
+                                               " are rounded to the steps of its scale in the "
+                                               "LAS file, by at most " +
+                                               std::to_string(rounded_by)});
+    if (wholes > 0) {
         std::string names;
-        for (const std::string& name : wholes_.columns) names += (names.empty() ? "" : ", ") + name;
-        warnings.push_back({"types", base::counted(wholes_.count, "whole number", "whole numbers") +
+        for (const std::string& name : of_wholes) names += (names.empty() ? "" : ", ") + name;
+        warnings.push_back({"types", base::counted(wholes, "whole number", "whole numbers") +
                                          " of " + names +
                                          " rounded: LAS stores floating-point numbers there"});
     }
-    if (without_value_ > 0)
-        warnings.push_back({"extra-bytes", std::to_string(without_value_) +
-                                               " values of extra bytes are NaN and are stored as "
-                                               "0: their description has no no-data value"});
+    if (without_value > 0)
+        warnings.push_back({"extra-bytes", std::to_string(without_value) +
+                                               " values of extra bytes are no number, and are "
+                                               "stored as 0: their description names no other"});
 }
 
 las_tally::las_tally(const las_plan& plan)
@@ -278,10 +286,7 @@ void las_source::put(std::size_t first, std::size_t count, std::uint64_t number,
         if (f.point != nobody)
             throw las_fault("point " + std::to_string(number + (f.point - first)) + ": " +
                             f.reason);
-        tally.moved(f.moved);
-        tally.rounded(f.rounded);
-        tally.rounded(f.wholes);
-        tally.without_value(f.without_value);
+        tally.changes.add(f.changes);
     }
     tally.add(records, count);
 }

@@ -1,5 +1,6 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/io/number.hpp>
+#include <libmesh/io/readers.hpp>
 #include <libmesh/io/urdf_shapes.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/read.hpp>
@@ -326,10 +327,9 @@ urdf_robot read_urdf(const std::filesystem::path& path,
 
 std::vector<transform<3>> urdf_robot::link_transforms(
     const std::map<std::string, double>& values) const {
-    const urdf_robot& robot = *this;
     const std::string name = "treeform::link_transforms: ";
     std::map<std::string_view, const urdf_joint*> joint_of;
-    for (const urdf_joint& joint : robot.joints) joint_of[joint.name] = &joint;
+    for (const urdf_joint& joint : joints) joint_of[joint.name] = &joint;
     for (const auto& [joint, value] : values) {
         const auto found = joint_of.find(joint);
         if (found == joint_of.end())
@@ -346,8 +346,8 @@ std::vector<transform<3>> urdf_robot::link_transforms(
         const double followed = other == values.end() ? 0.0 : other->second;
         return joint.mimic_line[0] * followed + joint.mimic_line[1];
     };
-    std::vector<transform<3>> at(robot.links.size());
-    for (const urdf_joint& joint : robot.joints)
+    std::vector<transform<3>> at(links.size());
+    for (const urdf_joint& joint : joints)
         at[joint.child] =
             at[joint.parent].after(joint.origin.after(motion_of(joint, value(joint))));
     return at;
@@ -355,17 +355,13 @@ std::vector<transform<3>> urdf_robot::link_transforms(
 
 std::vector<urdf_mesh> urdf_robot::parts(
     const std::function<mesh(const std::filesystem::path&)>& mesh_of_file) const {
-    const urdf_robot& robot = *this;
-    std::vector<mesh> of_link(robot.links.size());
-    for (const urdf_mesh& one : robot.meshes) {
+    std::vector<mesh> of_link(links.size());
+    for (const urdf_mesh& one : meshes) {
         const mesh from = one.file.empty() ? one.shape : mesh_of_file(one.file);
         mesh& to = of_link[one.link];
         const auto first = static_cast<std::uint32_t>(to.points.size());
         for (const point3& p : from.points) to.points.push_back(one.place(p));
-        const bool turned = one.place.mirrors();
-        for (const face& f : from.faces)
-            to.faces.push_back(
-                {first + f[0], first + f[turned ? 2 : 1], first + f[turned ? 1 : 2]});
+        detail::io::append_faces(to.faces, from.faces, first, one.place.mirrors());
     }
     std::vector<urdf_mesh> made;
     for (std::uint32_t link = 0; link < of_link.size(); ++link)

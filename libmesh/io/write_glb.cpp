@@ -226,25 +226,23 @@ class document_glb {
         const std::size_t count = part.vertices.size();
         constexpr int floats = 5126;
         constexpr int integers = 5125;
-        json attributes = {{"POSITION", accessors.size()}};
-        accessors.push_back(describe_next(positions, count, 12, floats, "VEC3"));
+        json attributes;
+        const auto add = [&](const char* name, std::size_t view, std::size_t element, int type,
+                             const char* shape) {
+            attributes[name] = accessors.size();
+            accessors.push_back(describe_next(view, count, element, type, shape));
+        };
+        add("POSITION", positions, 12, floats, "VEC3");
         add_bounds(part, accessors.back());
-        if (with_normals_[number]) {
-            attributes["NORMAL"] = accessors.size();
-            accessors.push_back(describe_next(normals, count, 12, floats, "VEC3"));
-        }
-        if (with_texture_[number]) {
-            attributes["TEXCOORD_0"] = accessors.size();
-            accessors.push_back(describe_next(texture, count, 8, floats, "VEC2"));
-        }
+        if (with_normals_[number]) add("NORMAL", normals, 12, floats, "VEC3");
+        if (with_texture_[number]) add("TEXCOORD_0", texture, 8, floats, "VEC2");
         if (attributes_.has_colors()) {
-            attributes["COLOR_0"] = accessors.size();
             const std::size_t size = size_of(attributes_.color_type());
-            accessors.push_back(describe_next(colors, count, views_[colors].stride,
-                                              size == 1   ? 5121
-                                              : size == 2 ? 5123
-                                                          : floats,
-                                              attributes_.colors().size() == 4 ? "VEC4" : "VEC3"));
+            add("COLOR_0", colors, views_[colors].stride,
+                size == 1   ? 5121
+                : size == 2 ? 5123
+                            : floats,
+                attributes_.colors().size() == 4 ? "VEC4" : "VEC3");
             if (size < 4) accessors.back()["normalized"] = true;
         }
         json all = json::array();

@@ -139,9 +139,8 @@ class las_writer {
                    plan_.header.point_format);
         const auto& block = plan_.header.block;
         job_.out.replace(0, {reinterpret_cast<const char*>(block.data()), block.size()});
-        job_.result.max_displacement =
-            std::max(job_.result.max_displacement, tally_.max_displacement());
-        tally_.remark(job_.result.warnings);
+        job_.result.max_displacement = std::max(job_.result.max_displacement, tally_.changes.moved);
+        tally_.changes.remark(job_.result.warnings);
     }
 
     [[nodiscard]] bool is_packed() const { return !plan_.items.empty(); }
