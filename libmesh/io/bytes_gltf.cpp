@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -101,9 +102,8 @@ struct row_gltf {
 }
 
 /// Writes the values of a sparse accessor over those in `dense`.
-void overwrite(buffers_gltf& buffers, const model_gltf& model, std::size_t number,
-               std::size_t element, std::string& dense) {
-    const accessor_gltf& accessor = model.accessors[number];
+void overwrite(buffers_gltf& buffers, std::size_t number, std::size_t element, std::string& dense) {
+    const accessor_gltf& accessor = buffers.model().accessors[number];
     const sparse_gltf& sparse = *accessor.sparse;
     const std::size_t index_size = size_of(sparse.index_type);
     if (sparse.index_type == scalar_type::float32 || sparse.count > accessor.count)
@@ -234,8 +234,8 @@ std::string_view buffers_gltf::load_file(std::size_t number, const std::string& 
     }
 }
 
-values_gltf::values_gltf(buffers_gltf& buffers, const model_gltf& model, std::size_t number) {
-    const accessor_gltf& accessor = model.accessors[number];
+values_gltf::values_gltf(buffers_gltf& buffers, std::size_t number) {
+    const accessor_gltf& accessor = buffers.model().accessors[number];
     components_ = accessor.components;
     type_ = accessor.type;
     normalized_ = accessor.normalized;
@@ -249,9 +249,9 @@ values_gltf::values_gltf(buffers_gltf& buffers, const model_gltf& model, std::si
     }
     row_gltf row;
     if (accessor.view) {
-        const auto found =
-            find_row(buffers.bytes_of_view(*accessor.view), model.views[*accessor.view].stride,
-                     accessor.offset, accessor.count, element);
+        const auto found = find_row(buffers.bytes_of_view(*accessor.view),
+                                    buffers.model().views[*accessor.view].stride, accessor.offset,
+                                    accessor.count, element);
         if (!found) buffers.fail("accessors", number, "goes beyond the end of its buffer view");
         row = *found;
     } else if (!accessor.sparse) {
@@ -266,7 +266,7 @@ values_gltf::values_gltf(buffers_gltf& buffers, const model_gltf& model, std::si
     dense_.assign(size_ * element, '\0');
     for (std::size_t i = 0; accessor.view && i < size_; ++i)
         std::memcpy(dense_.data() + i * element, row.first + i * row.stride, element);
-    overwrite(buffers, model, number, element, dense_);
+    overwrite(buffers, number, element, dense_);
     first_ = dense_.data();
     stride_ = element;
 }
@@ -276,18 +276,12 @@ double values_gltf::raw(std::size_t i, std::size_t component) const {
 }
 
 double values_gltf::as_share(double stored) const {
-    switch (type_) {
-        case scalar_type::int8:
-            return std::max(stored / 127.0, -1.0);
-        case scalar_type::uint8:
-            return stored / 255.0;
-        case scalar_type::int16:
-            return std::max(stored / 32767.0, -1.0);
-        case scalar_type::uint16:
-            return stored / 65535.0;
-        default:
+    return with_type(type_, [&]<class T>(T) {
+        if constexpr (std::is_floating_point_v<T> || sizeof(T) > 2)
             return stored;
-    }
+        else
+            return std::max(stored / std::numeric_limits<T>::max(), -1.0);
+    });
 }
 
 }  // namespace treeform::detail::io

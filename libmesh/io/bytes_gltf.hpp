@@ -50,7 +50,8 @@ class buffers_gltf {
         const auto at = given_.find(accessor);
         return at == given_.end() ? nullptr : &at->second;
     }
-    /// Size in bytes of the glTF itself.
+    [[nodiscard]] const model_gltf& model() const { return model_; }
+    /// Bytes of the glTF itself.
     [[nodiscard]] std::size_t file_size() const { return in_.size(); }
 
     /// Throws io_error "file: things[number] reason".
@@ -76,7 +77,7 @@ class buffers_gltf {
 class values_gltf {
   public:
     /// \throws io_error when the bytes do not hold the values
-    values_gltf(buffers_gltf& buffers, const model_gltf& model, std::size_t accessor);
+    values_gltf(buffers_gltf& buffers, std::size_t accessor);
     values_gltf(const values_gltf&) = delete;
     values_gltf& operator=(const values_gltf&) = delete;
     ~values_gltf() = default;
@@ -120,7 +121,6 @@ class values_gltf {
 /// \pre    `primitive.draco`
 /// \throws io_error for bytes that are damaged or announce more than they can hold, for another
 ///         number of values than that of the accessors, and without draco
-void unpack_draco(buffers_gltf& buffers, const model_gltf& model, std::size_t mesh,
-                  const primitive_gltf& primitive);
+void unpack_draco(buffers_gltf& buffers, std::size_t mesh, const primitive_gltf& primitive);
 
 }  // namespace treeform::detail::io

@@ -65,8 +65,7 @@ template <class T, class F>
 
 class unpacker {
   public:
-    unpacker(buffers_gltf& buffers, const model_gltf& model, std::size_t mesh)
-        : buffers_(buffers), model_(model), mesh_(mesh) {}
+    unpacker(buffers_gltf& buffers, std::size_t mesh) : buffers_(buffers), mesh_(mesh) {}
 
     void unpack(const primitive_gltf& primitive) {
         const std::string_view bytes = buffers_.bytes_of_view(primitive.draco->view);
@@ -93,7 +92,7 @@ class unpacker {
 
     void give_attribute(const draco::Mesh& mesh, const draco::PointAttribute& values,
                         std::size_t number) {
-        const accessor_gltf& accessor = model_.accessors[number];
+        const accessor_gltf& accessor = buffers_.model().accessors[number];
         const std::size_t count = mesh.num_points();
         if (accessor.components == 0 || accessor.count != count)
             fail("its size differs from that of its accessors");
@@ -104,7 +103,7 @@ class unpacker {
     }
 
     void give_indices(const draco::Mesh& mesh, std::size_t number) {
-        const accessor_gltf& accessor = model_.accessors[number];
+        const accessor_gltf& accessor = buffers_.model().accessors[number];
         const std::size_t count = std::size_t{3} * mesh.num_faces();
         if (accessor.components != 1 || accessor.count != count)
             fail("its size differs from that of its accessors");
@@ -117,7 +116,7 @@ class unpacker {
 
     template <class F>
     void give(std::size_t number, std::size_t count, F&& put) {
-        const accessor_gltf& accessor = model_.accessors[number];
+        const accessor_gltf& accessor = buffers_.model().accessors[number];
         std::string bytes = with_type(
             accessor.type, [&]<class T>(T) { return filled<T>(count, accessor.components, put); });
         if (bytes.empty()) fail("its types differ from those of its accessors");
@@ -125,7 +124,6 @@ class unpacker {
     }
 
     buffers_gltf& buffers_;
-    const model_gltf& model_;
     std::size_t mesh_;
 };
 
@@ -133,9 +131,8 @@ class unpacker {
 
 bool reads_draco() { return true; }
 
-void unpack_draco(buffers_gltf& buffers, const model_gltf& model, std::size_t mesh,
-                  const primitive_gltf& primitive) {
-    unpacker(buffers, model, mesh).unpack(primitive);
+void unpack_draco(buffers_gltf& buffers, std::size_t mesh, const primitive_gltf& primitive) {
+    unpacker(buffers, mesh).unpack(primitive);
 }
 
 }  // namespace treeform::detail::io

@@ -75,8 +75,7 @@ struct placed_node {
 }
 
 /// Transforms of EXT_mesh_gpu_instancing.
-[[nodiscard]] std::vector<transform<3>> instances_of(buffers_gltf& buffers, const model_gltf& model,
-                                                     std::size_t number,
+[[nodiscard]] std::vector<transform<3>> instances_of(buffers_gltf& buffers, std::size_t number,
                                                      const instances_gltf& instances) {
     std::vector<transform<3>> all;
     std::vector<point3> translations;
@@ -85,7 +84,7 @@ struct placed_node {
     const auto read = [&](const std::optional<std::size_t>& accessor, std::size_t components,
                           auto&& add) {
         if (!accessor) return;
-        const values_gltf values(buffers, model, *accessor);
+        const values_gltf values(buffers, *accessor);
         if (values.components() != components || (!all.empty() && values.size() != all.size()))
             buffers.fail("nodes", number, "has instances that do not fit each other");
         all.resize(values.size());
@@ -135,10 +134,16 @@ struct placed_node {
     return static_cast<std::uint8_t>(value > 0.0 ? std::min(std::round(value), 255.0) : 0.0);
 }
 
+/// One mesh of all that the nodes of the scene show, each as a part with a name of its own: that of
+/// the node, else of the mesh. Points that a transform has moved are doubles; others are as they
+/// are stored. Where a transform mirrors, faces are turned over.
+///
+/// \pre    the nodes are a tree
+/// \throws io_error for what does not fit
 class placer_gltf {
   public:
-    placer_gltf(const source& in, const model_gltf& model, buffers_gltf& buffers)
-        : in_(in), model_(model), buffers_(buffers) {}
+    placer_gltf(const source& in, buffers_gltf& buffers)
+        : in_(in), model_(buffers.model()), buffers_(buffers) {}
 
     [[nodiscard]] mesh_file place() {
         file_.indexed = false;
@@ -173,10 +178,10 @@ class placer_gltf {
             const node_gltf& node = model_.nodes[n.node];
             if (!node.mesh) continue;
             const auto [at, is_new] = shown_.try_emplace(*node.mesh);
-            if (is_new) at->second.outline = outline_of(buffers_, model_, *node.mesh, survey_);
+            if (is_new) at->second.outline = outline_of(buffers_, *node.mesh, survey_);
             std::uint64_t times = 1;
             if (node.instances) {
-                instances_[n.node] = instances_of(buffers_, model_, n.node, *node.instances);
+                instances_[n.node] = instances_of(buffers_, n.node, *node.instances);
                 times = instances_[n.node].size();
             }
             at->second.times += times;
@@ -202,7 +207,7 @@ class placer_gltf {
         const std::size_t mesh = *model_.nodes[number].mesh;
         shown_mesh& shown = shown_[mesh];
         if (!shown.local) {
-            shown.local = decode(buffers_, model_, mesh, shown.outline, survey_);
+            shown.local = decode(buffers_, mesh, shown.outline, survey_);
             shown.fits_float = fits_single(shown.local->points);
         }
         if (!shown.fits_float) file_.stored_as = precision::float64;
@@ -360,16 +365,6 @@ class placer_gltf {
     bool is_nameless_ = false;
 };
 
-/// One mesh of all that the nodes of the scene show, each as a part with a name of its own: that of
-/// the node, else of the mesh. Points that a transform has moved are doubles; others are as they
-/// are stored. Where a transform mirrors, faces are turned over.
-///
-/// \throws io_error for nodes that are no tree or too deep, and for what does not fit
-mesh_file place_gltf(const source& in, const model_gltf& model, buffers_gltf& buffers) {
-    refuse_no_tree(in, model);
-    return placer_gltf(in, model, buffers).place();
-}
-
 }  // namespace
 
 mesh_file read_gltf(const source& in, const std::filesystem::path& path) {
@@ -382,7 +377,8 @@ mesh_file read_gltf(const source& in, const std::filesystem::path& path) {
         return read_scene(in, path, parts.is_version_1 ? "glb" : "gltf");
     }
     buffers_gltf buffers(in, path, model, parts);
-    mesh_file file = place_gltf(in, model, buffers);
+    refuse_no_tree(in, model);
+    mesh_file file = placer_gltf(in, buffers).place();
     file.format = parts.json.data() == in.begin() ? "gltf" : "glb";
     if (parts.trailing > 0)
         file.warnings.push_back({"trailing-bytes", std::to_string(parts.trailing) +

@@ -45,14 +45,13 @@ struct attributes_gltf {
 }
 
 /// That the bytes are there; once for each accessor, since many primitives may have one.
-void check_bytes(buffers_gltf& buffers, const model_gltf& model, std::size_t accessor,
-                 survey_gltf& survey) {
-    if (survey.checked.insert(accessor).second) (void)values_gltf(buffers, model, accessor);
+void check_bytes(buffers_gltf& buffers, std::size_t accessor, survey_gltf& survey) {
+    if (survey.checked.insert(accessor).second) (void)values_gltf(buffers, accessor);
 }
 
-void check_type(const buffers_gltf& buffers, const model_gltf& model, std::size_t accessor,
-                std::size_t components, std::uint64_t count, const std::string& name) {
-    const accessor_gltf& a = model.accessors[accessor];
+void check_type(const buffers_gltf& buffers, std::size_t accessor, std::size_t components,
+                std::uint64_t count, const std::string& name) {
+    const accessor_gltf& a = buffers.model().accessors[accessor];
     if (a.components != components)
         buffers.fail("accessors", accessor, "has a type that " + name + " cannot have");
     if (a.count != count)
@@ -61,11 +60,11 @@ void check_type(const buffers_gltf& buffers, const model_gltf& model, std::size_
                          std::to_string(count) + " points");
 }
 
-void survey_colors(const buffers_gltf& buffers, const model_gltf& model, std::size_t accessor,
-                   std::uint64_t count, survey_gltf& survey) {
-    const accessor_gltf& a = model.accessors[accessor];
+void survey_colors(const buffers_gltf& buffers, std::size_t accessor, std::uint64_t count,
+                   survey_gltf& survey) {
+    const accessor_gltf& a = buffers.model().accessors[accessor];
     const bool has_alpha = a.components == 4;
-    check_type(buffers, model, accessor, has_alpha ? 4 : 3, count, "COLOR_0");
+    check_type(buffers, accessor, has_alpha ? 4 : 3, count, "COLOR_0");
     if (a.type != scalar_type::float32 && a.type != scalar_type::uint8 &&
         a.type != scalar_type::uint16)
         buffers.fail("accessors", accessor, "has a type that COLOR_0 cannot have");
@@ -77,18 +76,18 @@ void survey_colors(const buffers_gltf& buffers, const model_gltf& model, std::si
         survey.color_type = scalar_type::float32;
 }
 
-void survey_points(buffers_gltf& buffers, const model_gltf& model, const primitive_gltf& p,
-                   const attributes_gltf& a, survey_gltf& survey) {
-    const std::uint64_t count = model.accessors[*a.position].count;
-    check_type(buffers, model, *a.position, 3, count, "POSITION");
-    if (a.normal) check_type(buffers, model, *a.normal, 3, count, "NORMAL");
-    if (a.texture) check_type(buffers, model, *a.texture, 2, count, "TEXCOORD");
+void survey_points(buffers_gltf& buffers, const primitive_gltf& p, const attributes_gltf& a,
+                   survey_gltf& survey) {
+    const std::uint64_t count = buffers.model().accessors[*a.position].count;
+    check_type(buffers, *a.position, 3, count, "POSITION");
+    if (a.normal) check_type(buffers, *a.normal, 3, count, "NORMAL");
+    if (a.texture) check_type(buffers, *a.texture, 2, count, "TEXCOORD");
     for (const auto& used : {a.position, a.normal, a.texture, a.color})
-        if (used) check_bytes(buffers, model, *used, survey);
+        if (used) check_bytes(buffers, *used, survey);
     survey.points += count;
     survey.with_normals += a.normal ? count : 0;
     survey.with_texture += a.texture ? count : 0;
-    if (a.color) survey_colors(buffers, model, *a.color, count, survey);
+    if (a.color) survey_colors(buffers, *a.color, count, survey);
     for (const auto& [name, accessor] : p.attributes)
         if (name != "POSITION" && name != "NORMAL" && name != "COLOR_0" && accessor != a.texture)
             survey.unread.insert(name);
@@ -105,15 +104,14 @@ void survey_points(buffers_gltf& buffers, const model_gltf& model, const primiti
 
 class decoder {
   public:
-    decoder(buffers_gltf& buffers, const model_gltf& model, std::size_t mesh,
-            const survey_gltf& survey)
-        : buffers_(buffers), model_(model), mesh_(mesh), survey_(survey) {}
+    decoder(buffers_gltf& buffers, std::size_t mesh, const survey_gltf& survey)
+        : buffers_(buffers), mesh_(mesh), survey_(survey) {}
 
     [[nodiscard]] local_mesh_gltf decode(const outline_gltf& outline) {
         made_.points.reserve(outline.points);
         made_.faces.reserve(outline.faces);
         for (const shape_gltf& shape : outline.shapes) {
-            const attributes_gltf a = attributes_of(model_, *shape.primitive);
+            const attributes_gltf a = attributes_of(buffers_.model(), *shape.primitive);
             if (shape.adds_points) {
                 add_points(*a.position);
                 if (survey_.with_normals > 0) add_normals(a.normal);
@@ -129,7 +127,7 @@ class decoder {
 
   private:
     void add_points(std::size_t accessor) {
-        const values_gltf values(buffers_, model_, accessor);
+        const values_gltf values(buffers_, accessor);
         for (std::size_t i = 0; i < values.size(); ++i)
             made_.points.push_back({values.at(i, 0), values.at(i, 1), values.at(i, 2)});
     }
@@ -137,7 +135,7 @@ class decoder {
     void add_normals(const std::optional<std::size_t>& accessor) {
         made_.normals.resize(made_.points.size());
         if (!accessor) return;
-        const values_gltf values(buffers_, model_, *accessor);
+        const values_gltf values(buffers_, *accessor);
         const std::size_t first = made_.points.size() - values.size();
         for (std::size_t i = 0; i < values.size(); ++i)
             made_.normals[first + i] = {values.at(i, 0), values.at(i, 1), values.at(i, 2)};
@@ -147,9 +145,9 @@ class decoder {
     void add_texture(const std::optional<std::size_t>& accessor, const primitive_gltf& p) {
         made_.texture.resize(made_.points.size());
         if (!accessor) return;
-        const values_gltf values(buffers_, model_, *accessor);
+        const values_gltf values(buffers_, *accessor);
         const std::size_t first = made_.points.size() - values.size();
-        const auto& transform = material_of(model_, p).transform;
+        const auto& transform = material_of(buffers_.model(), p).transform;
         for (std::size_t i = 0; i < values.size(); ++i) {
             double u = values.at(i, 0);
             double v = values.at(i, 1);
@@ -185,7 +183,7 @@ class decoder {
                 put(full, 1.0);
             return;
         }
-        const values_gltf values(buffers_, model_, *accessor);
+        const values_gltf values(buffers_, *accessor);
         for (std::size_t i = 0; i < values.size(); ++i)
             for (std::size_t c = 0; c < channels; ++c)
                 if (c < values.components())
@@ -201,7 +199,7 @@ class decoder {
                 return static_cast<std::uint32_t>(shape.first_point + i);
             });
         }
-        const values_gltf indices(buffers_, model_, *p.indices);
+        const values_gltf indices(buffers_, *p.indices);
         for (std::size_t i = 0; i < indices.size(); ++i)
             if (indices.index(i) >= shape.points)
                 buffers_.fail("meshes", mesh_,
@@ -225,25 +223,23 @@ class decoder {
     }
 
     buffers_gltf& buffers_;
-    const model_gltf& model_;
     std::size_t mesh_;
     const survey_gltf& survey_;
     local_mesh_gltf made_{};
 };
 
-void check_indices(buffers_gltf& buffers, const model_gltf& model, std::size_t accessor,
-                   survey_gltf& survey) {
-    const accessor_gltf& a = model.accessors[accessor];
+void check_indices(buffers_gltf& buffers, std::size_t accessor, survey_gltf& survey) {
+    const accessor_gltf& a = buffers.model().accessors[accessor];
     if (a.components != 1 || (a.type != scalar_type::uint8 && a.type != scalar_type::uint16 &&
                               a.type != scalar_type::uint32))
-        buffers.fail("accessors", accessor, "has a type that indices cannot have");
-    check_bytes(buffers, model, accessor, survey);
+        buffers.fail("accessors", accessor, "has another type than indices have");
+    check_bytes(buffers, accessor, survey);
 }
 
 }  // namespace
 
-outline_gltf outline_of(buffers_gltf& buffers, const model_gltf& model, std::size_t mesh,
-                        survey_gltf& survey) {
+outline_gltf outline_of(buffers_gltf& buffers, std::size_t mesh, survey_gltf& survey) {
+    const model_gltf& model = buffers.model();
     outline_gltf outline;
     std::map<attributes_gltf, std::size_t> first_point;
     for (const primitive_gltf& p : model.meshes[mesh].primitives) {
@@ -254,15 +250,15 @@ outline_gltf outline_of(buffers_gltf& buffers, const model_gltf& model, std::siz
         }
         if (p.draco && !model.accessors[*a.position].view &&
             buffers.given_values(*a.position) == nullptr)
-            unpack_draco(buffers, model, mesh, p);
-        if (p.indices) check_indices(buffers, model, *p.indices, survey);
+            unpack_draco(buffers, mesh, p);
+        if (p.indices) check_indices(buffers, *p.indices, survey);
         const std::uint64_t points = model.accessors[*a.position].count;
         const std::uint64_t corners = p.indices ? model.accessors[*p.indices].count : points;
         survey.morphs = survey.morphs || p.morphs;
         survey.unread_of_faces.insert(p.face_properties.begin(), p.face_properties.end());
         const auto [at, is_new] = first_point.emplace(a, outline.points);
         if (is_new) {
-            survey_points(buffers, model, p, a, survey);
+            survey_points(buffers, p, a, survey);
             outline.points += points;
         }
         const std::uint64_t faces = triangle_count(p.mode, corners);
@@ -274,9 +270,9 @@ outline_gltf outline_of(buffers_gltf& buffers, const model_gltf& model, std::siz
     return outline;
 }
 
-local_mesh_gltf decode(buffers_gltf& buffers, const model_gltf& model, std::size_t mesh,
-                       const outline_gltf& outline, const survey_gltf& survey) {
-    return decoder(buffers, model, mesh, survey).decode(outline);
+local_mesh_gltf decode(buffers_gltf& buffers, std::size_t mesh, const outline_gltf& outline,
+                       const survey_gltf& survey) {
+    return decoder(buffers, mesh, survey).decode(outline);
 }
 
 }  // namespace treeform::detail::io

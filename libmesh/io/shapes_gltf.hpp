@@ -65,13 +65,11 @@ struct local_mesh_gltf {
 
 /// Counts the content of a mesh, checks that its bytes exist, and adds to the survey.
 ///
-/// \throws io_error if bytes are missing, and for attributes of invalid types
-[[nodiscard]] outline_gltf outline_of(buffers_gltf& buffers, const model_gltf& model,
-                                      std::size_t mesh, survey_gltf& survey);
+/// \throws io_error where they are not, and for attributes of types that they cannot have
+[[nodiscard]] outline_gltf outline_of(buffers_gltf& buffers, std::size_t mesh, survey_gltf& survey);
 
 /// \throws io_error naming the first index that is out of range
-[[nodiscard]] local_mesh_gltf decode(buffers_gltf& buffers, const model_gltf& model,
-                                     std::size_t mesh, const outline_gltf& outline,
-                                     const survey_gltf& survey);
+[[nodiscard]] local_mesh_gltf decode(buffers_gltf& buffers, std::size_t mesh,
+                                     const outline_gltf& outline, const survey_gltf& survey);
 
 }  // namespace treeform::detail::io
