@@ -3,6 +3,7 @@
 /// What sources of this room share: what of the inputs is carried to what is made of them, and
 /// where in a face a point is.
 
+#include <libmesh/attributes/scene_parts.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -99,5 +100,16 @@ struct property {
 ///         time, unless `mixed`
 [[nodiscard]] std::optional<las_header> join_las(std::span<const mesh_file> files,
                                                  std::span<const std::string> names, bool mixed);
+
+/// A part with its own points.
+struct solid_part {
+    std::string name{};
+    treeform::mesh mesh{};
+    std::vector<std::uint32_t> faces{};   ///< [F] in the whole, ascending
+    std::vector<std::uint32_t> points{};  ///< [V] in the whole, ascending
+};
+
+/// The parts of a file, as of `split_parts`, with their points; empty where there is but one.
+[[nodiscard]] std::vector<solid_part> solid_parts(const carry_source& input);
 
 }  // namespace treeform::detail::carry

@@ -1,5 +1,6 @@
 #include <libmesh/attributes/known_columns.hpp>
 #include <libmesh/carry/carried.hpp>
+#include <libmesh/io/vertex_columns.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
 
@@ -65,13 +66,10 @@ void append_nothing(column& to, std::size_t rows) {
         to.list_begin.insert(to.list_begin.end(), rows, to.list_begin.back());
         return;
     }
-    column filler{.name = to.name, .type = to.type};
-    with_type(to.type, [&]<class T>(T) {
-        const std::vector<T> values(
-            rows, std::is_floating_point_v<T> ? std::numeric_limits<T>::quiet_NaN() : T{});
-        filler = column::of<T>(to.name, values);
+    with_type(to.type, [&]<class T>(T nothing) {
+        if constexpr (std::is_floating_point_v<T>) nothing = std::numeric_limits<T>::quiet_NaN();
+        append_values(to, detail::io::column_of<T>(to.name, rows, [&](auto) { return nothing; }));
     });
-    append_values(to, filler);
 }
 
 void append_lists(column& to, const column& from) {

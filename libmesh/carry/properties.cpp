@@ -1,4 +1,5 @@
 #include <libmesh/carry/carried.hpp>
+#include <libmesh/io/vertex_columns.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/carry.hpp>
 
@@ -45,11 +46,9 @@ T nearest(double value) {
 /// `value_of(row)` for each row, in a column like `p`.
 template <class ValueOf>
 column make_values(const property& p, std::size_t rows, ValueOf value_of) {
-    return with_type(p.type, [&](auto zero) {
-        using T = decltype(zero);
-        std::vector<T> values(rows);
-        for (std::size_t row = 0; row < rows; ++row) values[row] = nearest<T>(value_of(row));
-        return column::of<T>(p.name, values);
+    return with_type(p.type, [&]<class T>(T) {
+        return io::column_of<T>(p.name, rows,
+                                [&](std::size_t row) { return nearest<T>(value_of(row)); });
     });
 }
 

@@ -1,5 +1,5 @@
 #include <libmesh/base/part_of_progress.hpp>
-#include <libmesh/carry/solid_parts.hpp>
+#include <libmesh/carry/carried.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/properties.hpp>
 

@@ -1,7 +1,7 @@
 #include <libmesh/attributes/scene_parts.hpp>
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/base/used_points.hpp>
-#include <libmesh/carry/solid_parts.hpp>
+#include <libmesh/carry/carried.hpp>
 #include <libmesh/topology/select_faces.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>

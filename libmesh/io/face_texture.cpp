@@ -75,43 +75,21 @@ template <class T>
 }
 
 template <class T>
-[[nodiscard]] bool all_fit(const mesh_file& file, const stored_values<T>& values) {
-    bool fit = true;
-    std::size_t face = 0;
-    for_each_stored_face(file, [&](std::size_t, std::span<const std::uint32_t> corners) {
-        fit = fit && fits(values, face++, corners.size());
-    });
-    return fit;
-}
-
-/// Gives corners their rows.
-class row_sharer {
-  public:
-    explicit row_sharer(std::size_t points, std::vector<texture_point>& rows)
-        : rows_(rows), last_(points, corner_values::none) {}
-
-    [[nodiscard]] std::uint32_t row_of(std::uint32_t point, const texture_point& value) {
-        std::uint32_t& last = last_[point];
-        if (last == corner_values::none || !is_same(rows_[last], value)) {
-            last = static_cast<std::uint32_t>(rows_.size());
-            rows_.push_back(value);
-        }
-        return last;
-    }
-
-  private:
-    std::vector<texture_point>& rows_;
-    std::vector<std::uint32_t> last_;  ///< [V] that was given to a corner there
-};
-
-template <class T>
 void take(mesh_file& file, const stored_values<T>& lists) {
     corner_values& values = file.attributes.corners;
     constexpr face nothing{corner_values::none, corner_values::none, corner_values::none};
     reserve_large(values.texture_of_corner, file.mesh.faces.size());
     values.texture_of_corner.assign(file.mesh.faces.size(), nothing);
     reserve_large(values.texture, file.mesh.points.size());
-    row_sharer sharer(file.mesh.points.size(), values.texture);
+    std::vector<std::uint32_t> last(file.mesh.points.size(), corner_values::none);
+    const auto row_of = [&](std::uint32_t point, const texture_point& value) {
+        std::uint32_t& row = last[point];  // that was given to a corner there
+        if (row == corner_values::none || !is_same(values.texture[row], value)) {
+            row = static_cast<std::uint32_t>(values.texture.size());
+            values.texture.push_back(value);
+        }
+        return row;
+    };
     std::size_t number = 0;
     for_each_stored_face(file, [&](std::size_t first, std::span<const std::uint32_t> corners) {
         const std::size_t begin = lists.begin(number);
@@ -120,9 +98,9 @@ void take(mesh_file& file, const stored_values<T>& lists) {
         std::uint32_t previous = corner_values::none;
         for (std::size_t i = 0; i < corners.size() && !empty; ++i) {
             const std::size_t at = begin + 2 * i;
-            const std::uint32_t row =
-                lists.is_none(at) ? corner_values::none
-                                  : sharer.row_of(corners[i], {lists.at(at), lists.at(at + 1), 0});
+            const std::uint32_t row = lists.is_none(at)
+                                          ? corner_values::none
+                                          : row_of(corners[i], {lists.at(at), lists.at(at + 1), 0});
             if (i == 0) first_row = row;
             if (i >= 2) values.texture_of_corner[first + i - 2] = {first_row, previous, row};
             previous = row;
@@ -134,9 +112,13 @@ void take(mesh_file& file, const stored_values<T>& lists) {
 template <class T>
 [[nodiscard]] bool take_if_all_fit(mesh_file& file, const column& c) {
     const stored_values<T> lists(c);
-    if (!all_fit(file, lists)) return false;
-    take(file, lists);
-    return true;
+    bool fit = true;
+    std::size_t face = 0;
+    for_each_stored_face(file, [&](std::size_t, std::span<const std::uint32_t> corners) {
+        fit = fit && fits(lists, face++, corners.size());
+    });
+    if (fit) take(file, lists);
+    return fit;
 }
 
 [[nodiscard]] bool take_if_all_fit(mesh_file& file, const column& c) {

@@ -1,5 +1,5 @@
 #include <libmesh/base/byte_order.hpp>
-#include <libmesh/io/las_file.hpp>
+#include <libmesh/io/las_dimensions.hpp>
 
 #include <algorithm>
 #include <cmath>

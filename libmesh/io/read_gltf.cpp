@@ -3,7 +3,6 @@
 #include <libmesh/io/model_gltf.hpp>
 #include <libmesh/io/readers.hpp>
 #include <libmesh/io/scratch.hpp>
-#include <libmesh/io/shapes_gltf.hpp>
 #include <libmesh/io/vertex_columns.hpp>
 #include <treeform/mesh/read.hpp>
 

@@ -1,6 +1,5 @@
 #include <libmesh/base/byte_order.hpp>
 #include <libmesh/io/las_dimensions.hpp>
-#include <libmesh/io/las_file.hpp>
 #include <libmesh/io/point_rows.hpp>
 #include <libmesh/io/readers.hpp>
 #include <libmesh/io/scratch.hpp>

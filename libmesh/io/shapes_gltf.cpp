@@ -1,5 +1,4 @@
 #include <libmesh/io/bytes_gltf.hpp>
-#include <libmesh/io/shapes_gltf.hpp>
 
 #include <algorithm>
 #include <cmath>

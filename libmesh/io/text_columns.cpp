@@ -1,6 +1,7 @@
 #include <libmesh/attributes/known_columns.hpp>
 #include <libmesh/io/number.hpp>
 #include <libmesh/io/text_columns.hpp>
+#include <libmesh/io/vertex_columns.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -222,13 +223,10 @@ void append_cells(column& to, std::span<const text_cell> cells, const cell_place
 
 void retype(column& c, scalar_type type) {
     if (c.type == type) return;
-    column made{.name = c.name, .type = type};
     with_type(type, [&]<class T>(T) {
-        std::vector<T> values(c.size());
-        for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<T>(c.number(i));
-        made = column::of<T>(c.name, values);
+        c = column_of<T>(c.name, c.size(),
+                         [&](std::size_t i) { return static_cast<T>(c.number(i)); });
     });
-    c = std::move(made);
 }
 
 }  // namespace treeform::detail::io

@@ -208,20 +208,18 @@ class model_writer {
             put("<item objectid=\"", id, "\"/>\n");
         put("</build>\n</model>\n");
         drain();
-        if (looks_.leaves_out_points)
-            job_.result.warnings.push_back(
-                {"colors-dropped",
-                 "colors of points left out, since their faces have colors or materials"});
-        if (count_named(job_.file) > objects_.size())
-            job_.result.warnings.push_back(
-                {"left-out", "names of parts left out: those that share points are one object"});
-        if (looks_.rounds_colors)
-            job_.result.warnings.push_back({"colors", "colors are rounded to 8 bits"});
+        const auto say = [&](bool is_so, const char* code, const std::string& text) {
+            if (is_so) job_.result.warnings.push_back({code, text});
+        };
+        say(looks_.leaves_out_points, "colors-dropped",
+            "colors of points left out: their faces have colors or materials");
+        say(count_named(job_.file) > objects_.size(), "left-out",
+            "names of parts left out: those that share points are one object");
+        say(looks_.rounds_colors, "colors", "colors are rounded to 8 bits");
         if (looks_.lacks_colors)
-            job_.result.warnings.push_back(
-                {"materials", "materials are written in white, since " +
-                                  job_.file.attributes.material_files[0] +
-                                  ", which has their colors, was not read"});
+            say(true, "materials",
+                "materials are written in white: " + job_.file.attributes.material_files[0] +
+                    ", which has their colors, was not read");
     }
 
   private:

@@ -66,25 +66,19 @@ void put_corner_values(sink& out, const corner_values& corners) {
 }
 
 /// The numbers that corners have for one kind of value.
-class row_numbers {
-  public:
-    /// `by_vertex`: those of their vertices.
-    explicit row_numbers(const std::vector<face>& fans, bool by_vertex)
-        : fans_(fans), by_vertex_(by_vertex) {}
+struct row_numbers {
+    const std::vector<face>& fans;
+    bool by_vertex;  ///< those of their vertices
 
     /// Of corner `corner` of the face whose first triangle is `first`, from 1; 0 where it has none.
     [[nodiscard]] std::uint64_t of(std::size_t first, std::size_t corner,
                                    std::uint32_t vertex) const {
-        if (by_vertex_) return std::uint64_t{vertex} + 1;
-        if (fans_.empty()) return 0;
+        if (by_vertex) return std::uint64_t{vertex} + 1;
+        if (fans.empty()) return 0;
         const auto [triangle, place] = place_in_fan(corner);
-        const std::uint32_t row = fans_[first + triangle][place];
+        const std::uint32_t row = fans[first + triangle][place];
         return row == corner_values::none ? 0 : std::uint64_t{row} + 1;
     }
-
-  private:
-    const std::vector<face>& fans_;
-    bool by_vertex_;
 };
 
 /// "f 1/1/1 2/2/2 3/3/3"
@@ -139,8 +133,7 @@ void put_faces(const write_job& job, const row_block& block) {
         const std::span<const std::uint32_t> all(block.corners);
         const std::vector<face> none;
         const vertex_looks looks(job, job.vertices);
-        const face_lines lines{row_numbers(none, !looks.texture.empty()),
-                               row_numbers(none, !looks.normal.empty())};
+        const face_lines lines{{none, !looks.texture.empty()}, {none, !looks.normal.empty()}};
         for (std::size_t f = first; f < last; ++f)
             lines.put(piece.out, f,
                       all.subspan(block.first_corner[f],
@@ -156,8 +149,8 @@ void write_obj(const write_job& job) {
     const vertex_looks looks(job, job.vertices);
     const corner_values& values = job.file.attributes.corners;
     put_corner_values(job.out, values);
-    const face_lines lines{row_numbers(values.texture_of_corner, !looks.texture.empty()),
-                           row_numbers(values.normal_of_corner, !looks.normal.empty())};
+    const face_lines lines{{values.texture_of_corner, !looks.texture.empty()},
+                           {values.normal_of_corner, !looks.normal.empty()}};
     const mesh_file& file = job.file;
     const auto& parts = file.attributes.parts;
     if (parts.empty() && file.stored_face.empty()) {
