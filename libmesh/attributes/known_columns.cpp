@@ -91,6 +91,15 @@ constexpr std::pair<std::string_view, std::string_view> also_called[] = {
     return format.empty() ? "ply" : format.substr(0, format.find('-'));
 }
 
+/// "pcd-binary" and "pcd" are PCD; "laz" is LAS.
+[[nodiscard]] dialect dialect_of(std::string_view format) {
+    const std::string_view family = family_of(format);
+    return family == "pcd" ? dialect::pcd : family == "las" ? dialect::las : dialect::ply;
+}
+
+/// What 1 in a channel of 8 bits is in one of 16, which are 255 and 65535 where they are full.
+constexpr double bytes_in_word = 257.0;
+
 [[nodiscard]] std::uint8_t nearest_byte(double value) {
     return static_cast<std::uint8_t>(value > 0.0 ? std::min(std::nearbyint(value), 255.0) : 0.0);
 }
@@ -119,8 +128,6 @@ void put_nearest(column& c, std::size_t row, double value) {
 
 }  // namespace
 
-std::span<const known_column> known_columns() { return all_known; }
-
 const known_column* find_known(std::string_view name) {
     std::string word = spelled(name);
     for (const auto& [called, meant] : also_called)
@@ -148,11 +155,6 @@ std::optional<std::size_t> normal_axis(std::string_view name) {
     const known_column* const k = find_known(name);
     if (k == nullptr || k->use != normal) return std::nullopt;
     return static_cast<std::size_t>(k->words(dialect::ply).name.back() - 'x');
-}
-
-dialect dialect_of(std::string_view format) {
-    const std::string_view family = family_of(format);
-    return family == "pcd" ? dialect::pcd : family == "las" ? dialect::las : dialect::ply;
 }
 
 void look_at_ranges(const element& rows, std::vector<value_range>& seen) {

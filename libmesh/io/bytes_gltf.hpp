@@ -88,7 +88,6 @@ class values_gltf {
 
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] std::size_t components() const { return components_; }
-    [[nodiscard]] scalar_type type() const { return type_; }
     /// As it is stored.
     [[nodiscard]] double raw(std::size_t i, std::size_t component) const;
     /// With whole numbers made -1 to 1 where the accessor is normalized.

@@ -104,12 +104,14 @@ class document_glb {
         : job_(job), layout_(lay_out(job)), attributes_(job), numbers_(numbers_of_faces(job.file)) {
         offset_ = choose_offset(job, box_of(job.file.mesh.points));
         for (const part_glb& p : layout_.parts) {
-            const std::size_t normals = attributes_.count_normals(p);
-            const std::size_t textures = attributes_.count_texture(p);
-            with_normals_.push_back(normals == p.vertices.size());
-            with_texture_.push_back(textures > 0);
-            leaves_out_normals_ = leaves_out_normals_ || (normals > 0 && !with_normals_.back());
-            lacks_texture_ = lacks_texture_ || (textures > 0 && textures < p.vertices.size());
+            const std::size_t normal_count = attributes_.count_normals(p);
+            const std::size_t texture_count = attributes_.count_texture(p);
+            with_normals_.push_back(normal_count == p.vertices.size());
+            with_texture_.push_back(texture_count > 0);
+            leaves_out_normals_ =
+                leaves_out_normals_ || (normal_count > 0 && !with_normals_.back());
+            lacks_texture_ =
+                lacks_texture_ || (texture_count > 0 && texture_count < p.vertices.size());
         }
         plan_views();
         say_what_is_left_out();

@@ -26,7 +26,6 @@ class xml_part {
     ~xml_part() = default;
 
     [[nodiscard]] pugi::xml_node root() const { return document_.document_element(); }
-    [[nodiscard]] const std::string& name() const { return name_; }
 
     /// The value of an attribute. \throws io_error if it is missing
     [[nodiscard]] const char* required(pugi::xml_node element, const char* attribute) const;
