@@ -106,8 +106,8 @@ class triangle_properties {
         : part_(part), groups_(groups), to_(to), unread_(unread) {
         group_of_object_ = find(object);
         if (group_of_object_ == nullptr) return;
-        index_of_object_ = part.optional_integer(object, "pindex");
-        if (index_of_object_) check(object, *group_of_object_, *index_of_object_);
+        index_of_object_ = part.optional_integer(object, "pindex").value_or(no_index);
+        if (index_of_object_ != no_index) check(object, *group_of_object_, index_of_object_);
     }
 
     /// For the triangle that was appended last.
@@ -116,9 +116,9 @@ class triangle_properties {
         const std::optional<std::uint32_t> first = part_.optional_integer(triangle, "p1");
         if (group != nullptr && !first) part_.fail(triangle, "has a pid and no p1");
         if (group == nullptr) group = group_of_object_;
-        if (group == nullptr || (!first && !index_of_object_)) return;
+        if (group == nullptr || (!first && index_of_object_ == no_index)) return;
         face indices{};
-        indices.fill(first ? *first : *index_of_object_);
+        indices.fill(first.value_or(index_of_object_));
         if (first) {
             indices[1] = part_.optional_integer(triangle, "p2").value_or(*first);
             indices[2] = part_.optional_integer(triangle, "p3").value_or(*first);
@@ -128,6 +128,8 @@ class triangle_properties {
     }
 
   private:
+    static constexpr std::uint32_t no_index = 0xffffffffU;  ///< numbers of the format have 31 bits
+
     [[nodiscard]] const property_group_3mf* find(pugi::xml_node user) const {
         const std::optional<std::uint32_t> id = part_.optional_integer(user, "pid");
         if (!id) return nullptr;
@@ -169,7 +171,7 @@ class triangle_properties {
     object_3mf& to_;
     unread_3mf& unread_;
     const property_group_3mf* group_of_object_ = nullptr;
-    std::optional<std::uint32_t> index_of_object_{};
+    std::uint32_t index_of_object_ = no_index;
 };
 
 /// Which objects of which parts are needed. Parts are numbered in the order in which they are
