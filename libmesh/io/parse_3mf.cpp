@@ -63,7 +63,8 @@ std::optional<property_group_3mf> read_property_group(const xml_part& part, pugi
     property_group_3mf group;
     const auto size = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
     const auto for_each = [&](const char* name, const auto& add) {
-        for (const pugi::xml_node entry : resource.children((prefix + name).c_str())) {
+        const std::string full = prefix + name;
+        for (const pugi::xml_node entry : resource.children(full.c_str())) {
             add(entry);
             ++group.count;
         }
