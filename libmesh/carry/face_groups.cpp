@@ -21,8 +21,8 @@ namespace treeform {
 namespace detail::carry {
 namespace {
 
-/// Appends what is equal for faces that look alike: none, one value, or the number of the face, as one
-/// whose corners differ is like no other.
+/// Appends what is equal for faces that look alike: none, one value, or the number of the face, as
+/// one whose corners differ is like no other.
 template <class Row>
 void append_kind(const std::vector<Row>& rows, const std::vector<face>& of_corner,
                  std::uint32_t input, std::uint32_t triangle, std::vector<double>& values) {

@@ -40,8 +40,8 @@ namespace treeform::detail::io {
     });
 }
 
-/// `f(T{})` for the unsigned type T of as many bytes. Bits are moved by it as they stand: numbers on
-/// their way through another type would lose some of NaN.
+/// `f(T{})` for the unsigned type T of as many bytes, by which bits are moved as they stand: on
+/// their way through another type, numbers would lose some of NaN.
 template <class F>
 void with_bits(scalar_type type, F&& f) {
     const std::size_t size = size_of(type);
