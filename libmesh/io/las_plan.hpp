@@ -100,9 +100,8 @@ class las_tally {
     /// Records that follow one another.
     void add(const std::uint8_t* records, std::size_t count);
 
-    /// Puts bounds and counts into a header. `count` is the number of points.
-    void put(std::vector<std::byte>& block, const las_grid& grid, std::uint64_t count,
-             unsigned version_minor, unsigned format) const;
+    /// Puts bounds and counts into the header. `count` is the number of points.
+    void put(las_plan& plan, std::uint64_t count) const;
 
     las_changes changes{};
 
@@ -115,23 +114,19 @@ class las_tally {
     std::array<std::uint64_t, 16> by_return_{};
 };
 
-/// Some points and their columns.
-class las_source {
-  public:
-    las_source(std::span<const point3> points, const element* vertices, const las_plan& plan);
-
-    /// The records of `count` points from `first` on; in parallel. `number` is that of the first in
-    /// the file, in errors.
-    ///
-    /// \throws las_fault naming the lowest point whose coordinates or values the format does not
-    ///         hold
-    void put(std::size_t first, std::size_t count, std::uint64_t number, std::uint8_t* records,
-             las_tally& tally) const;
-
-  private:
-    std::span<const point3> points_;
-    std::vector<const column*> columns_{};  ///< [dimensions]; null: zeros
-    const las_plan& plan_;
+/// Some rows of points, and the room for their records.
+struct record_rows {
+    std::size_t first = 0;
+    std::size_t count = 0;
+    std::uint8_t* to = nullptr;
+    std::size_t size = 0;  ///< of a record
 };
+
+/// Makes the records of some points and their columns; in parallel. `number` is that of the first
+/// of them in the file, in errors.
+///
+/// \throws las_fault naming the lowest point whose coordinates or values the format does not hold
+void put_records(std::span<const point3> points, const element* vertices, const las_plan& plan,
+                 const record_rows& rows, std::uint64_t number, las_tally& tally);
 
 }  // namespace treeform::detail::io

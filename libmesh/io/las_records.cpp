@@ -33,13 +33,6 @@ struct chunk_fault {
     return "a value of " + c.name + " is out of range for its LAS field: " + std::to_string(value);
 }
 
-struct record_rows {
-    std::size_t first = 0;  ///< row of the columns
-    std::size_t count = 0;
-    std::uint8_t* to = nullptr;
-    std::size_t size = 0;
-};
-
 void put_axes(std::span<const point3> points, const record_rows& rows, const las_grid& grid,
               chunk_fault& fault) {
     for (std::size_t i = 0; i < rows.count; ++i) {
@@ -220,13 +213,15 @@ void las_tally::add(const std::uint8_t* records, std::size_t count) {
     }
 }
 
-void las_tally::put(std::vector<std::byte>& block, const las_grid& grid, std::uint64_t count,
-                    unsigned version_minor, unsigned format) const {
+void las_tally::put(las_plan& plan, std::uint64_t count) const {
+    const las_grid& grid = plan.grid;
+    const unsigned version_minor = plan.header.version_minor;
     const auto at = [&](std::size_t byte, auto value) {
-        base::store<std::endian::little>(reinterpret_cast<char*>(block.data() + byte), value);
+        base::store<std::endian::little>(reinterpret_cast<char*>(plan.header.block.data() + byte),
+                                         value);
     };
     constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
-    const bool legacy = format < 6 && count <= most;
+    const bool legacy = plan.header.point_format < 6 && count <= most;
     if (!legacy && version_minor < 4)
         throw las_fault("more than 4294967295 points, which need LAS 1.4");
     at(107, static_cast<std::uint32_t>(legacy ? count : 0));
@@ -244,51 +239,43 @@ void las_tally::put(std::vector<std::byte>& block, const las_grid& grid, std::ui
     for (std::size_t r = 0; r < 15; ++r) at(255 + 8 * r, by_return_[r + 1]);
 }
 
-las_source::las_source(std::span<const point3> points, const element* vertices,
-                       const las_plan& plan)
-    : points_(points), columns_(plan.dimensions.size(), nullptr), plan_(plan) {
+void put_records(std::span<const point3> points, const element* vertices, const las_plan& plan,
+                 const record_rows& rows, std::uint64_t number, las_tally& tally) {
     std::vector<const column*> data;
     if (vertices != nullptr)
         for (const column& c : vertices->columns)
             if (c.role == column_role::data && !c.list_length) data.push_back(&c);
-    for (std::size_t d = 0; d < columns_.size(); ++d)
-        if (plan.column_of[d]) columns_[d] = data[*plan.column_of[d]];
-}
-
-void las_source::put(std::size_t first, std::size_t count, std::uint64_t number,
-                     std::uint8_t* records, las_tally& tally) const {
     constexpr std::size_t at_once = 512;
-    const std::size_t size = plan_.record_size;
-    std::vector<chunk_fault> faults(chunk_count(count, light_grain));
-    for_chunks(count, light_grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+    std::vector<chunk_fault> faults(chunk_count(rows.count, light_grain));
+    for_chunks(rows.count, light_grain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
         chunk_fault& fault = faults[chunk];
         for (std::size_t at = begin; at < end; at += at_once) {
-            const record_rows rows{first + at, std::min(at_once, end - at), records + at * size,
-                                   size};
-            put_axes(points_, rows, plan_.grid, fault);
-            for (std::size_t d = 0; d < columns_.size(); ++d) {
-                if (columns_[d] == nullptr) continue;
-                const las_dimension& to = plan_.dimensions[d];
+            const record_rows some{rows.first + at, std::min(at_once, end - at),
+                                   rows.to + at * rows.size, rows.size};
+            put_axes(points, some, plan.grid, fault);
+            for (std::size_t d = 0; d < plan.dimensions.size(); ++d) {
+                if (!plan.column_of[d]) continue;
+                const column& from = *data[*plan.column_of[d]];
+                const las_dimension& to = plan.dimensions[d];
                 if (to.scaling)
-                    put_scaled(*columns_[d], rows, to, fault);
-                else if (to.bits == 0 && columns_[d]->type == to.type)
-                    with_bits(to.type,
-                              [&]<class T>(T) { put_same<T>(*columns_[d], rows, to.byte); });
-                else if (to.bits > 0 && columns_[d]->type == scalar_type::uint8)
-                    put_bytes_as_bits(*columns_[d], rows, to, fault);
+                    put_scaled(from, some, to, fault);
+                else if (to.bits == 0 && from.type == to.type)
+                    with_bits(to.type, [&]<class T>(T) { put_same<T>(from, some, to.byte); });
+                else if (to.bits > 0 && from.type == scalar_type::uint8)
+                    put_bytes_as_bits(from, some, to, fault);
                 else
-                    put_converted(*columns_[d], rows, to, fault);
+                    put_converted(from, some, to, fault);
             }
-            for (const las_dimension& d : plan_.single_returns) put_single_return(rows, d);
+            for (const las_dimension& d : plan.single_returns) put_single_return(some, d);
         }
     });
     for (const chunk_fault& f : faults) {
         if (f.point != nobody)
-            throw las_fault("point " + std::to_string(number + (f.point - first)) + ": " +
+            throw las_fault("point " + std::to_string(number + (f.point - rows.first)) + ": " +
                             f.reason);
         tally.changes.add(f.changes);
     }
-    tally.add(records, count);
+    tally.add(rows.to, rows.count);
 }
 
 }  // namespace treeform::detail::io

@@ -1,5 +1,6 @@
 #include <libmesh/io/detect.hpp>
 #include <libmesh/io/point_blocks.hpp>
+#include <libmesh/io/record_index.hpp>
 #include <libmesh/io/scratch.hpp>
 #include <libmesh/io/vertex_columns.hpp>
 #include <treeform/mesh/point_stream.hpp>
@@ -38,6 +39,23 @@ namespace {
 }
 
 }  // namespace
+
+record_index scan_rows(const source& in, const char* body, const file_part& part,
+                       std::size_t most) {
+    text rows(in);
+    rows.at = body;
+    text_scan scan(rows, part, most);
+    bool hexadecimal = false;
+    for (rows.skip_spaces(); !rows.done() && scan.is_in_part(); rows.skip_spaces()) {
+        scan.add();
+        for (; !rows.done() && !is_newline(*rows.at); ++rows.at)
+            hexadecimal = hexadecimal || to_lower(*rows.at) == 'x';  // as 0x1.8p1
+        in.release_before(rows.at);
+    }
+    record_index found = std::move(scan).found();
+    found.hexadecimal = hexadecimal;
+    return found;
+}
 
 mesh_file read_all(const source& in, point_rows rows) {
     if (rows.count > std::numeric_limits<std::uint32_t>::max())

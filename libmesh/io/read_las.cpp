@@ -158,36 +158,15 @@ class chunk_run {
     std::size_t taken_ = 0;  ///< bytes of these
 };
 
-/// Records as they stand in the file.
-class plain_run {
-  public:
-    plain_run(const source& in, const las_file& file)
-        : in_(in), at_(in.begin() + file.first_point), size_(file.record_size), left_(file.count) {}
-
-    [[nodiscard]] std::span<const char> next(std::size_t most) {
-        const std::uint64_t rows = std::min<std::uint64_t>(most, left_);
-        const std::span<const char> some(at_, rows * size_);
-        at_ += some.size();
-        left_ -= rows;
-        in_.release_before(some.data());
-        return some;
-    }
-
-  private:
-    const source& in_;
-    const char* at_;
-    std::size_t size_;
-    std::uint64_t left_;
-};
-
-template <class Run>
-[[nodiscard]] auto rows_of(std::shared_ptr<Run> run, const las_file& file) {
+/// What appends the rows of the records that `next(most)` gives.
+template <class Next>
+[[nodiscard]] auto rows_of(Next next, const las_file& file) {
     const las_grid grid{file.header.scale, file.header.offset};
-    return [run, grid, size = file.record_size, dimensions = file.dimensions](
+    return [next, grid, size = file.record_size, dimensions = file.dimensions](
                std::vector<point3>& points, element& vertices, std::size_t most,
-               std::vector<io_warning>&) {
+               std::vector<io_warning>&) mutable {
         constexpr std::size_t at_once = std::size_t{1} << 18;
-        const std::span<const char> some = run->next(std::min(most, at_once));
+        const std::span<const char> some = next(std::min(most, at_once));
         append_las_rows(vertices, points, some.size() / size, some.data(), size, grid, dimensions);
         return some.size() / size;
     };
@@ -202,12 +181,20 @@ point_rows open_las_points(const source& in, std::uint64_t first) {
     if (file.packing) {
         const auto chunks = std::make_shared<chunk_run>(in, file);
         rows.left_out = chunks->pass_over(first);
-        rows.append = rows_of(chunks, file);
+        rows.append = rows_of([chunks](std::size_t most) { return chunks->next(most); }, file);
     } else {
         rows.left_out = first;
-        file.first_point += first * file.record_size;
-        file.count -= first;
-        rows.append = rows_of(std::make_shared<plain_run>(in, file), file);
+        const auto next = [&in, size = file.record_size, left = file.count - first,
+                           at = in.begin() + file.first_point +
+                                first * file.record_size](std::size_t most) mutable {
+            const std::uint64_t count = std::min<std::uint64_t>(most, left);
+            const std::span<const char> some(at, count * size);
+            at += some.size();
+            left -= count;
+            in.release_before(some.data());
+            return some;
+        };
+        rows.append = rows_of(next, file);
     }
     rows.head.format = file.packing ? "laz" : "las";
     rows.head.attributes.elements = {las_columns(file.dimensions)};

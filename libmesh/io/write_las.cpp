@@ -75,13 +75,14 @@ class las_writer {
     }
 
     void put_points(std::span<const point3> points, const element* vertices) {
-        const las_source from(points, vertices, plan_);
         for (std::size_t done = 0; done < points.size();) {
             const std::size_t room = at_once * laz_chunk - pending_.size() / plan_.record_size;
             const std::size_t some = std::min(room, points.size() - done);
             const std::size_t before = pending_.size();
             pending_.resize(before + some * plan_.record_size);
-            from.put(done, some, number_ + done, pending_.data() + before, tally_);
+            put_records(points, vertices, plan_,
+                        {done, some, pending_.data() + before, plan_.record_size}, number_ + done,
+                        tally_);
             done += some;
             if (some == room) put_pending();
         }
@@ -135,8 +136,7 @@ class las_writer {
 
     void finish_behind_points() {
         put_extended();
-        tally_.put(plan_.header.block, plan_.grid, count_, plan_.header.version_minor,
-                   plan_.header.point_format);
+        tally_.put(plan_, count_);
         const auto& block = plan_.header.block;
         job_.out.replace(0, {reinterpret_cast<const char*>(block.data()), block.size()});
         job_.result.max_displacement = std::max(job_.result.max_displacement, tally_.changes.moved);

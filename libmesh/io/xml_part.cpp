@@ -132,21 +132,17 @@ std::string_view namespace_of(pugi::xml_node element, std::string_view prefix) {
 }
 
 std::string xml_text(std::string_view text) {
+    constexpr std::string_view special = "\n\r\t&<>\"";
+    constexpr std::string_view instead[] = {" ", " ", " ", "&amp;", "&lt;", "&gt;", "&quot;"};
     std::string safe;
     while (!text.empty()) {
         const character c = first_character(text);
         const std::string_view bytes = text.substr(0, c.length > 0 ? c.length : 1);
         text.remove_prefix(bytes.size());
-        if (c.code == '\n' || c.code == '\r' || c.code == '\t')
-            safe += ' ';
-        else if (c.code == '&')
-            safe += "&amp;";
-        else if (c.code == '<')
-            safe += "&lt;";
-        else if (c.code == '>')
-            safe += "&gt;";
-        else if (c.code == '"')
-            safe += "&quot;";
+        const std::size_t at =
+            c.code < 0x80 ? special.find(static_cast<char>(c.code)) : special.npos;
+        if (at != special.npos)
+            safe += instead[at];
         else if (xml_holds(c))
             safe += bytes;
         else
