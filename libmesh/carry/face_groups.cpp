@@ -1,7 +1,7 @@
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/carry/carried.hpp>
 #include <libmesh/weld/edge_uses.hpp>
-#include <libmesh/weld/equal_firsts.hpp>
+#include <libmesh/weld/equal_points.hpp>
 #include <treeform/mesh/carry.hpp>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 /// them, and likewise points with lists.
 
 #include <libmesh/io/point_blocks.hpp>
-#include <libmesh/io/reading.hpp>
+#include <libmesh/io/detect.hpp>
 #include <libmesh/io/record_index.hpp>
 #include <libmesh/stream/communicator.hpp>
 

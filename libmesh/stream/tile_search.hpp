@@ -4,7 +4,6 @@
 /// restart skips finished ones.
 
 #include <libmesh/io/point_rows.hpp>
-#include <libmesh/stream/cancellable_progress.hpp>
 #include <libmesh/stream/communicator.hpp>
 #include <libmesh/stream/record_file.hpp>
 #include <libmesh/stream/space_cells.hpp>
