@@ -100,9 +100,10 @@ std::vector<part_pair> sorted_pairs(const char* function, std::span<const part_p
     std::vector<part_pair> sorted;
     for (const auto& [a, b] : pairs) {
         if (std::max(a, b) >= count)
-            throw std::invalid_argument(
-                std::string("treeform::") + function + ": an ignored pair names part " +
-                std::to_string(std::max(a, b)) + " of " + std::to_string(count));
+            throw std::invalid_argument(std::string("treeform::") + function +
+                                        ": an ignored pair has part " +
+                                        std::to_string(std::max(a, b)) + ", but there are " +
+                                        std::to_string(count) + " parts");
         sorted.push_back({std::min(a, b), std::max(a, b)});
     }
     std::sort(sorted.begin(), sorted.end());

@@ -14,7 +14,7 @@ namespace treeform::detail::attribute {
 
 /// Sets the columns red, green and blue of each row to the color of its class.
 ///
-/// \pre `classes` has one for each row, each of which has a color, "#rrggbb"
+/// \pre `classes` has one class for each row; `colors` has a color "#rrggbb" for each class
 inline void set_colors(element& rows, std::span<const std::uint8_t> classes,
                        std::span<const char* const> colors) {
     constexpr const char* names[] = {"red", "green", "blue"};

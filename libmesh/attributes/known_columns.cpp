@@ -97,7 +97,7 @@ constexpr std::pair<std::string_view, std::string_view> also_called[] = {
     return family == "pcd" ? dialect::pcd : family == "las" ? dialect::las : dialect::ply;
 }
 
-/// What 1 in a channel of 8 bits is in one of 16, which are 255 and 65535 where they are full.
+/// Factor from 8-bit to 16-bit color channels: 65535 / 255.
 constexpr double bytes_in_word = 257.0;
 
 [[nodiscard]] std::uint8_t nearest_byte(double value) {

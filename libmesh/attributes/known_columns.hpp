@@ -44,8 +44,8 @@ struct known_column {
 inline constexpr std::string_view packed_color = "rgb";
 inline constexpr std::string_view packed_color_with_alpha = "rgba";
 
-/// The column that a name means in any dialect, in any case, with underscores or without, and
-/// behind "scalar_" as CloudCompare has it; null where none is known.
+/// The column that a name means in any dialect; null if unknown. Ignores case, underscores and the
+/// prefix "scalar_" of CloudCompare.
 [[nodiscard]] const known_column* find_known(std::string_view name);
 
 /// Whether a name is that of a column with the given use: a normal, a texture coordinate or a
@@ -56,18 +56,21 @@ inline constexpr std::string_view packed_color_with_alpha = "rgba";
 /// The axis (0, 1 or 2) of a column of normals; empty for other names.
 [[nodiscard]] std::optional<std::size_t> normal_axis(std::string_view name);
 
-/// Least and greatest of columns whose scale shows in their values: colors that are floats or have
-/// 16 bits, and intensities that are floats. `seen` is of other rows, which are counted in.
+/// Extends `seen`, the ranges of earlier rows, by the values of `rows`. Only columns whose scale
+/// must be inferred from their values have ranges: colors in float or 16 bits, and intensities in
+/// float.
 void look_at_ranges(const element& rows, std::vector<value_range>& seen);
 
 /// Conversion of point columns to the names, types and scales of another format.
 class translation {
   public:
-    /// From `from` to `to`, both as `mesh_file::format` or an extension. A format is not translated
-    /// to itself: what a file has stays as it is. `ranges` is of all points, as far as it is known.
-    /// Columns named in `drop` are left out, and those in `rename` have another name before
-    /// anything else is done.
-    /// \throws std::invalid_argument naming one that is not there, or is there twice then
+    /// Converts from `from` to `to`, each named as in `mesh_file::format` or by extension. If both
+    /// are the same format, columns are not converted. `ranges` has the ranges of all points, as
+    /// far as known.
+    /// Columns named in `drop` are omitted and those in `rename` are renamed, before the
+    /// conversion.
+    /// \throws std::invalid_argument naming a column that does not exist, or a name that exists
+    ///         twice after renaming
     translation(const element& columns, std::string_view from, std::string_view to,
                 std::span<const value_range> ranges, std::span<const std::string> drop = {},
                 std::span<const std::pair<std::string, std::string>> rename = {});

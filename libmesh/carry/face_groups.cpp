@@ -84,11 +84,11 @@ class distinct_rows {
     std::unordered_set<std::uint32_t, hash, equal> numbers_{0, hash{this}, equal{this}};
 };
 
-/// What faces of a group have in common.
+/// The criteria for faces of a group.
 struct common_of_group {
-    bool values = true;   ///< as of `carry_sources::face_groups`
-    bool input = false;   ///< as there
-    bool corners = true;  ///< with `values`, also what corners have
+    bool values = true;   ///< as for `carry_sources::face_groups`
+    bool input = false;   ///< as for `carry_sources::face_groups`
+    bool corners = true;  ///< with `values`, also corner values
 };
 
 /// As `carry_sources::face_groups`.

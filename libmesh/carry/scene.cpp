@@ -17,7 +17,7 @@ namespace {
 constexpr const char* number_name = "texnumber";
 constexpr std::int32_t no_texture = -1;
 
-/// The column "texnumber" of faces, numbers in `texture_files`; null when there is none.
+/// The column "texnumber" of faces, with indices into `texture_files`; null if there is none.
 const column* texture_numbers(const mesh_file& file) {
     const element* faces = file.attributes.find("face");
     const column* c = faces == nullptr ? nullptr : faces->find(number_name);
@@ -53,7 +53,7 @@ class renumberer {
         }
         if (wrong > 0)
             warn(name, std::to_string(wrong) + (wrong == 1 ? " face has a" : " faces have a") +
-                           " " + number_name + " that names no texture file; -1 there");
+                           " " + number_name + " without a texture file; replaced by -1");
         const bool was_there = given != nullptr;
         element& faces = file.attributes.find_or_add("face", file.stored_faces);
         if (faces.set(column::of<std::int32_t>(number_name, numbers)) && !was_there)

@@ -67,10 +67,11 @@ solid_part with_own_points(mesh_view whole, scene_part&& from) {
     return part;
 }
 
-/// The parts of a file as it numbers its vertices (`scene_parts`), those as one of which an edge
-/// with one face of the part has the coordinates of such an edge of the other: they are patches of
-/// one surface. Solids that touch stay apart. In the order of their lowest faces, which are
-/// ascending; of parts that are one, the box is that of the first.
+/// The parts of a file with its own vertex numbers (`scene_parts`). Two parts are merged if a
+/// border edge of one (an edge with one face of the part) has the same coordinates as a border edge
+/// of the other: they are patches of one surface. Solids that touch are not merged. Parts are in
+/// the order of their lowest faces; faces in a part ascend. The box of a merged part is that of its
+/// first part.
 ///
 /// \cost O(V log V + F log F)
 std::vector<scene_part> surface_parts(const carry_source& input) {

@@ -107,7 +107,7 @@ void overwrite(buffers_gltf& buffers, std::size_t number, std::size_t element, s
     const sparse_gltf& sparse = *accessor.sparse;
     const std::size_t index_size = size_of(sparse.index_type);
     if (sparse.index_type == scalar_type::float32 || sparse.count > accessor.count)
-        buffers.fail("accessors", number, "has a sparse part that does not fit it");
+        buffers.fail("accessors", number, "has a sparse part that does not match it");
     const auto indices = find_row(buffers.bytes_of_view(sparse.index_view), 0, sparse.index_offset,
                                   sparse.count, index_size);
     const auto values = find_row(buffers.bytes_of_view(sparse.value_view), 0, sparse.value_offset,
@@ -239,7 +239,8 @@ values_gltf::values_gltf(buffers_gltf& buffers, std::size_t number) {
     components_ = accessor.components;
     type_ = accessor.type;
     normalized_ = accessor.normalized;
-    if (components_ == 0) buffers.fail("accessors", number, "holds matrices, for which it is not");
+    if (components_ == 0)
+        buffers.fail("accessors", number, "has matrices, which are not allowed here");
     const std::size_t element = components_ * size_of(type_);
     if (const std::string* const given = buffers.given_values(number)) {
         first_ = given->data();

@@ -55,7 +55,7 @@ class buffers_gltf {
         return at == given_.end() ? nullptr : &at->second;
     }
     [[nodiscard]] const model_gltf& model() const { return model_; }
-    /// Bytes of the glTF itself.
+    /// Size in bytes of the glTF itself.
     [[nodiscard]] std::size_t file_size() const { return in_.size(); }
 
     /// Throws io_error "file: things[number] reason".
@@ -76,11 +76,11 @@ class buffers_gltf {
     std::map<std::size_t, std::string> given_{};
 };
 
-/// The values, in doubles. Those of a sparse accessor are put together first. The buffers must
-/// outlive it.
+/// The values, as doubles. Values of a sparse accessor are assembled first. The buffers must
+/// outlive this.
 class values_gltf {
   public:
-    /// \throws io_error when the bytes do not hold the values
+    /// \throws io_error if there are too few bytes for the values
     values_gltf(buffers_gltf& buffers, std::size_t accessor);
     values_gltf(const values_gltf&) = delete;
     values_gltf& operator=(const values_gltf&) = delete;
@@ -90,11 +90,11 @@ class values_gltf {
     [[nodiscard]] std::size_t components() const { return components_; }
     /// As it is stored.
     [[nodiscard]] double raw(std::size_t i, std::size_t component) const;
-    /// With whole numbers made -1 to 1 where the accessor is normalized.
+    /// The value; integers of a normalized accessor are converted to -1 to 1.
     [[nodiscard]] double at(std::size_t i, std::size_t component) const {
         return normalized_ ? as_share(raw(i, component)) : raw(i, component);
     }
-    /// As if it were normalized.
+    /// The value as if the accessor were normalized.
     [[nodiscard]] double share(std::size_t i, std::size_t component) const {
         return as_share(raw(i, component));
     }
@@ -112,22 +112,22 @@ class values_gltf {
     std::size_t components_ = 0;
     scalar_type type_ = scalar_type::float32;
     bool normalized_ = false;
-    std::string dense_{};  ///< of a sparse accessor
+    std::string dense_{};  ///< the values of a sparse accessor
 };
 
 /// Whether treeform was built with draco.
 [[nodiscard]] bool reads_draco();
 
-/// Unpacks the attributes that are read and the indices, and gives them to the buffers as the
-/// values of their accessors.
+/// Unpacks the indices and the supported attributes, and sets them as the values of their
+/// accessors.
 ///
 /// \pre    `primitive.draco`
-/// \throws io_error for bytes that are damaged or announce more than they can hold, for another
-///         number of values than that of the accessors, and without draco
+/// \throws io_error for damaged data, for data that claims more values than it can hold, if the
+///         number of values differs from that of the accessors, and without draco
 void unpack_draco(buffers_gltf& buffers, std::size_t mesh, const primitive_gltf& primitive);
 
-/// Triangles of a mesh, or points without any. Primitives whose attributes are the same accessors
-/// share their points.
+/// A primitive of a mesh, with triangles or only points. Primitives with the same attribute
+/// accessors share their points.
 struct shape_gltf {
     const primitive_gltf* primitive = nullptr;
     std::size_t first_point = 0;
@@ -136,45 +136,46 @@ struct shape_gltf {
     std::uint64_t faces = 0;
 };
 
-/// What a mesh amounts to.
+/// The sizes of a mesh.
 struct outline_gltf {
     std::vector<shape_gltf> shapes{};
     std::uint64_t points = 0;
     std::uint64_t faces = 0;
 };
 
-/// Which attributes points get, over all meshes that are shown, and what of the file is not read.
+/// The attributes of points over all used meshes, and counts of content that is not read.
 struct survey_gltf {
-    std::uint64_t points = 0;  ///< of each mesh once
+    std::uint64_t points = 0;  ///< counted once for each mesh
     std::uint64_t with_normals = 0;
     std::uint64_t with_texture = 0;
     std::uint64_t with_colors = 0;
-    std::optional<scalar_type> color_type{};  ///< float32 where types differ
+    std::optional<scalar_type> color_type{};  ///< float32 if types differ
     bool has_alpha = false;
     std::uint64_t lines = 0;
-    std::uint64_t corners_left_over = 0;  ///< after whole triangles
-    std::uint64_t without_positions = 0;  ///< primitives
+    std::uint64_t corners_left_over = 0;  ///< corners left over after whole triangles
+    std::uint64_t without_positions = 0;  ///< number of primitives without positions
     bool morphs = false;
-    std::set<std::string> unread{};  ///< names of attributes
+    std::set<std::string> unread{};  ///< names of attributes that are not read
     std::set<std::string> unread_of_faces{};
-    std::set<std::size_t> checked{};  ///< accessors whose bytes are there
+    std::set<std::size_t> checked{};  ///< accessors whose bytes were checked
 
     [[nodiscard]] std::size_t channels() const { return has_alpha ? 4 : 3; }
 };
 
-/// A mesh in its own coordinates, with the attributes that the survey names.
+/// A mesh in its own coordinates, with the attributes in the survey.
 struct local_mesh_gltf {
     std::vector<point3> points{};
     std::vector<face> faces{};
-    std::vector<point3> normals{};                ///< [V] or empty
-    std::vector<std::array<float, 2>> texture{};  ///< [V] or empty; from the lower left corner
-    std::vector<std::byte> colors{};              ///< [V][channels] or empty
-    std::vector<std::size_t> materials{};         ///< [F] number from 1; 0: none
+    std::vector<point3> normals{};  ///< [V] or empty
+    /// [V] or empty; with the origin at the lower left corner
+    std::vector<std::array<float, 2>> texture{};
+    std::vector<std::byte> colors{};       ///< [V][channels] or empty
+    std::vector<std::size_t> materials{};  ///< [F] number of the material, from 1; 0: none
 };
 
-/// Looks at what the mesh announces, and whether the bytes for that are there; adds to the survey.
+/// Counts the content of a mesh, checks that its bytes exist, and adds to the survey.
 ///
-/// \throws io_error where they are not, and for attributes of types that they cannot have
+/// \throws io_error if bytes are missing, and for attributes of invalid types
 [[nodiscard]] outline_gltf outline_of(buffers_gltf& buffers, std::size_t mesh, survey_gltf& survey);
 
 /// \throws io_error naming the first index that is out of range

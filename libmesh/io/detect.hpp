@@ -14,7 +14,7 @@
 
 namespace treeform::detail::io {
 
-/// With the format: an extension without its dot, or nothing.
+/// `format` is an extension without its dot, or empty.
 struct reading {
     std::string format{};
     read_options options{};
@@ -51,7 +51,7 @@ struct detected {
 /// "xyz", "pts" or "csv"; empty for what is no table of text.
 [[nodiscard]] std::string_view table_name(file_kind kind);
 
-/// \throws io_error for columns chosen of what is no table of text
+/// \throws io_error if columns are chosen, but the file is not a text table
 void check_chosen_columns(const source& in, const reading& how, file_kind kind);
 
 /// In lower case and without its dot.

@@ -95,7 +95,7 @@ void append_vertices(byte_values<order>& values, element& vertices, std::vector<
                      std::size_t rows) {
     const std::size_t row_size = fixed_row_size(vertices);
     if (row_size == 0) return append_vertices_one_by_one(values, vertices, points, rows);
-    // In pieces, so that the bytes of a mapped file are given back as they are used.
+    // In pieces, so that the memory of a mapped file is released during reading.
     constexpr std::size_t most = std::size_t{1} << 20;
     const std::size_t at_once = std::max<std::size_t>(1, most / row_size);
     std::vector<value_place> places(vertices.columns.size());

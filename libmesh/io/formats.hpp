@@ -59,8 +59,8 @@ struct known_format {
 /// Points of no face.
 [[nodiscard]] std::size_t count_loose_points(const mesh& m);
 
-/// What the format does not hold of a file, a warning for each kind. `points` is the element
-/// "vertex" in the words of the format, or null.
+/// The content of a file that the format cannot store, as a warning for each kind. `points` is the
+/// element "vertex" with the column names of the format, or null.
 [[nodiscard]] std::vector<io_warning> left_out(const known_format& format, const mesh_file& file,
                                                const element* points, bool text);
 

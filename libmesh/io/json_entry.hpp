@@ -26,8 +26,8 @@ inline constexpr std::size_t deepest_json = 500;
     return at;
 }
 
-/// Refuses JSON, a part of `in`, that nests so deeply that no honest file does. JSON that is wrong
-/// otherwise is left to the parser.
+/// Refuses JSON, a part of `in`, that nests deeper than any legitimate file. Other errors are left
+/// to the parser.
 ///
 /// \throws io_error naming the byte
 inline void refuse_deep_json(const source& in, std::string_view json) {

@@ -167,7 +167,7 @@ void read_bits(std::byte* to, const record_run& from, const las_dimension& d) {
     }
 }
 
-/// The product is rounded, then the sum: this is compiled without contraction.
+/// The product is rounded, then the sum; compiled without floating-point contraction.
 void read_scaled(std::byte* to, const record_run& from, const las_dimension& d) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     with_type(d.type, [&]<class T>(T) {

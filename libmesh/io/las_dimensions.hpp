@@ -84,12 +84,12 @@ struct extra_group {
 /// The 192 bytes that describe a dimension.
 [[nodiscard]] std::vector<std::byte> describe_extra(std::string_view name, scalar_type type);
 
-/// How whole numbers stand for coordinates.
+/// The conversion of stored integers to coordinates.
 struct las_grid {
     std::array<double, 3> scale{};
     std::array<double, 3> offset{};
 
-    /// The product is rounded, then the sum: this is compiled without contraction.
+    /// The product is rounded, then the sum; compiled without floating-point contraction.
     [[nodiscard]] double coordinate(std::size_t axis, std::int32_t x) const {
         const double product = static_cast<double>(x) * scale[axis];
         return product + offset[axis];
@@ -99,15 +99,15 @@ struct las_grid {
 /// The columns of the element "vertex": the axes, then the dimensions.
 [[nodiscard]] element las_columns(std::span<const las_dimension> dimensions);
 
-/// Appends `rows` records that follow one another from `first` on; in parallel.
+/// Appends `rows` consecutive records from `first` on, in parallel.
 void append_las_rows(element& vertices, std::vector<point3>& points, std::size_t rows,
                      const char* first, std::size_t record_size, const las_grid& grid,
                      std::span<const las_dimension> dimensions);
 
-/// How LASzip has packed the points, by its record ("laszip encoded", 22204).
+/// The compression of the points by LASzip, from its record ("laszip encoded", 22204).
 struct las_packing {
-    bool chunked = true;           ///< else all points are one chunk, and there is no table
-    std::uint32_t chunk_size = 0;  ///< points; the largest number: sizes vary
+    bool chunked = true;           ///< if false, all points are one chunk, without a table
+    std::uint32_t chunk_size = 0;  ///< in points; 0xffffffff: sizes vary
     std::vector<laz::item> items{};
     [[nodiscard]] bool sizes_vary() const { return chunk_size == 0xffffffffu; }
 };
@@ -116,13 +116,13 @@ struct las_file {
     las_header header{};
     std::size_t record_size = 0;
     std::uint64_t count = 0;                  ///< points
-    std::vector<las_dimension> dimensions{};  ///< of the record, extra bytes included
-    std::uint64_t first_point = 0;            ///< byte of the file
+    std::vector<las_dimension> dimensions{};  ///< dimensions of the record, extra bytes included
+    std::uint64_t first_point = 0;            ///< byte of the file at which the points begin
     std::optional<las_packing> packing{};     ///< none: plain records
 };
 
-/// Reads everything but the points. What is odd but says nothing of points is a warning: a wrong
-/// number of records, records that end behind the points begin.
+/// Reads everything except the points. Irregularities that do not affect points are warnings: a
+/// wrong number of records, records that overlap the points.
 ///
 /// \throws io_error
 [[nodiscard]] las_file open_las(const source& in, std::vector<io_warning>& warnings);

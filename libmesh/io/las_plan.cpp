@@ -334,7 +334,7 @@ double round_to_las(mesh_file& file, const write_options& options) {
     for (const std::size_t i : beyond)
         if (i < points.size())
             throw io_error("point " + std::to_string(i) +
-                           ": a coordinate beyond what 32 bits hold with this scale");
+                           ": a coordinate needs more than 32 bits at this scale");
     return moved.empty() ? 0.0 : *std::max_element(moved.begin(), moved.end());
 }
 

@@ -97,7 +97,7 @@ class las_tally {
   public:
     explicit las_tally(const las_plan& plan);
 
-    /// Records that follow one another.
+    /// Adds consecutive records.
     void add(const std::uint8_t* records, std::size_t count);
 
     /// Puts bounds and counts into the header. `count` is the number of points.

@@ -178,8 +178,8 @@ void las_changes::add(const las_changes& more) {
 void las_changes::remark(std::vector<io_warning>& warnings) const {
     if (rounded_by > 0.0)
         warnings.push_back({"extra-bytes", "values of " + rounded +
-                                               " are rounded to the steps of its scale in the "
-                                               "LAS file, by at most " +
+                                               " are rounded to its scale in the LAS file, by at "
+                                               "most " +
                                                std::to_string(rounded_by)});
     if (wholes > 0) {
         std::string names;
@@ -190,8 +190,8 @@ void las_changes::remark(std::vector<io_warning>& warnings) const {
     }
     if (without_value > 0)
         warnings.push_back({"extra-bytes", std::to_string(without_value) +
-                                               " values of extra bytes are no number, and are "
-                                               "stored as 0: their description names no other"});
+                                               " values of extra bytes are NaN and are stored as "
+                                               "0: their description has no no-data value"});
 }
 
 las_tally::las_tally(const las_plan& plan)

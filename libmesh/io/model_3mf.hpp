@@ -33,11 +33,11 @@ inline constexpr const char* triangle_sets_3mf =
 inline constexpr const char* model_relationship_3mf =
     "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
 
-/// The units that a model may have; the second is that of a model which names none.
+/// The units of models; the second is the default.
 inline constexpr std::array<std::string_view, 6> units_3mf{"micron", "millimeter", "centimeter",
                                                            "inch",   "foot",       "meter"};
 
-/// An object of the package: the number of its part, and its own in that part.
+/// An object of the package: the number of its part, and its id in that part.
 struct object_key {
     std::uint32_t part = 0;
     std::uint32_t id = 0;
@@ -85,18 +85,18 @@ struct model_3mf {
     std::map<object_key, object_3mf> objects{};
     std::vector<placed_3mf> items{};
     std::string unit{units_3mf[1]};
-    /// Colors 0xRRGGBBAA; the first is that of faces without a color.
+    /// Colors 0xRRGGBBAA; the first is for faces without a color.
     std::vector<std::uint32_t> palette{0xffffffff};
     std::vector<std::string> materials{{}};  ///< names; the first is for faces without a material
     std::vector<std::array<double, 3>> texture{};
     unread_3mf unread{};
 };
 
-/// The build of the package and the objects that it needs; other objects are not looked at. `root`
-/// is the name of the model part that the package starts with. Other parts are read where items
-/// and components of the root name them (production extension).
+/// The build of the package, and the objects that it needs; other objects are not parsed. `root` is
+/// the name of the root model part. Other parts are read if items or components of the root refer
+/// to them (production extension).
 ///
-/// Each reference leads to an object of `objects`; objects may still be components of themselves.
+/// All references are valid, but objects may still be components of themselves.
 ///
 /// \throws io_error
 [[nodiscard]] model_3mf parse_3mf(const source& in, zip_archive& archive, std::string_view root);

@@ -87,7 +87,7 @@ struct mesh_gltf {
     std::vector<primitive_gltf> primitives{};
 };
 
-/// Whether it has a length to divide by.
+/// Whether the quaternion can be normalized.
 [[nodiscard]] bool is_rotation(const std::array<double, 4>& quaternion);
 /// The transform that applies the scale, then the rotation by a quaternion x, y, z, w of any
 /// length, then the translation.
@@ -130,9 +130,8 @@ struct model_gltf {
 /// what `extras` hold are not looked at.
 ///
 /// \throws io_error naming the byte, or the entry, as "accessors[3].count"; for values of a wrong
-///         type, numbers of things that are not there, other versions than 1 and 2; and for
-///         extensions that the file requires, except for those that are read and those that only
-///         change how it looks
+///         type, indices out of range, versions other than 1 and 2, and required extensions, except
+///         for supported ones and those that only change how a surface looks
 [[nodiscard]] model_gltf parse_gltf(const source& in, std::string_view json, bool is_version_1);
 
 }  // namespace treeform::detail::io

@@ -159,7 +159,8 @@ template <class T = double>
     return {negative ? -value : value, at};
 }
 
-/// True when x is a value of the integer type T. The limits are powers of two, which doubles hold.
+/// Whether x is a value of the integer type T. The limits are powers of two, which are exact in
+/// double.
 template <class T>
 requires std::is_integral_v<T>
 [[nodiscard]] bool is_value_of(double x) {

@@ -23,15 +23,15 @@ namespace treeform::detail::io {
 
 namespace {
 
-/// A resource whose entries triangles refer to by number.
+/// A resource to whose entries triangles refer by number.
 struct property_group_3mf {
     std::uint32_t count = 0;
-    std::optional<std::uint32_t> first_color{};     ///< in the palette of the model
-    std::optional<std::uint32_t> first_material{};  ///< in its materials
-    std::optional<std::uint32_t> first_texture{};   ///< in its texture coordinates
+    std::optional<std::uint32_t> first_color{};     ///< number in the palette of the model
+    std::optional<std::uint32_t> first_material{};  ///< number in its materials
+    std::optional<std::uint32_t> first_texture{};   ///< number in its texture coordinates
 };
 
-/// By their numbers in the part.
+/// Groups by id in the part.
 using property_groups_3mf = std::map<std::uint32_t, property_group_3mf>;
 
 constexpr std::size_t longest_name = 1024;
@@ -47,12 +47,12 @@ constexpr std::size_t longest_name = 1024;
         if (stop == end && error == std::errc())
             return text.size() == 9 ? value : value << 8 | 0xffU;
     }
-    part.fail(element, std::string(attribute) + " is no color #RRGGBB or #RRGGBBAA");
+    part.fail(element, std::string(attribute) + " is not a color #RRGGBB or #RRGGBBAA");
 }
 
-/// Base materials, a group of colors or of texture coordinates, whose entries are appended to those
-/// of the model. Mixtures of these are known by name only: they have no count. None for a resource
-/// that is no group.
+/// Reads base materials, or a group of colors or texture coordinates, and appends its entries to
+/// those of the model. Mixtures have no entries: their count is 0. None if the resource is not a
+/// group.
 ///
 /// \throws io_error
 std::optional<property_group_3mf> read_property_group(const xml_part& part, pugi::xml_node resource,
@@ -74,7 +74,7 @@ std::optional<property_group_3mf> read_property_group(const xml_part& part, pugi
         group.first_material = size(model.materials);
         for_each("base", [&](pugi::xml_node base) {
             std::string material = part.required(base, "name");
-            if (material.size() > longest_name) part.fail(base, "has a name without end");
+            if (material.size() > longest_name) part.fail(base, "has a name that is too long");
             model.palette.push_back(color_of(part, base, "displaycolor"));
             model.materials.push_back(std::move(material));
         });
@@ -98,10 +98,10 @@ std::optional<property_group_3mf> read_property_group(const xml_part& part, pugi
     return group;
 }
 
-/// Gives the triangles of an object what they refer to.
+/// Sets the properties to which the triangles of an object refer.
 class triangle_properties {
   public:
-    /// \throws io_error when the object refers to what is not there
+    /// \throws io_error if the object refers to a missing group
     triangle_properties(const xml_part& part, const property_groups_3mf& groups,
                         pugi::xml_node object, object_3mf& to, unread_3mf& unread)
         : part_(part), groups_(groups), to_(to), unread_(unread) {
@@ -111,11 +111,11 @@ class triangle_properties {
         if (index_of_object_ != no_index) check(object, *group_of_object_, index_of_object_);
     }
 
-    /// For the triangle that was appended last.
+    /// Adds the properties of the triangle that was appended last.
     void add(pugi::xml_node triangle) {
         const property_group_3mf* group = find(triangle);
         const std::optional<std::uint32_t> first = part_.optional_integer(triangle, "p1");
-        if (group != nullptr && !first) part_.fail(triangle, "has a pid and no p1");
+        if (group != nullptr && !first) part_.fail(triangle, "has a pid but no p1");
         if (group == nullptr) group = group_of_object_;
         if (group == nullptr || (!first && index_of_object_ == no_index)) return;
         face indices{};
@@ -136,7 +136,7 @@ class triangle_properties {
         if (!id) return nullptr;
         const auto found = groups_.find(*id);
         if (found == groups_.end())
-            part_.fail(user, "pid=" + std::to_string(*id) + " names no group of properties");
+            part_.fail(user, "pid=" + std::to_string(*id) + " is not a property group");
         return &found->second;
     }
 

@@ -38,14 +38,14 @@ struct ply_header {
 /// \throws io_error
 [[nodiscard]] ply_header read_ply_header(const source& in);
 
-/// What programs call the list: u and v of each corner in turn.
+/// The usual name of the list, which has u and v of each corner.
 inline constexpr std::string_view face_texture_name = "texcoord";
 
-/// Moves the values of that list to `attributes::corners`; the column stays where it is, with
-/// `column_role::texture`. Equal values of a point's corners that follow each other become one row.
+/// Moves the values of that list to `attributes::corners`; the column keeps its position, with
+/// `column_role::texture`. Consecutive equal values at corners of a point become one row.
 ///
-/// Where a list is neither empty nor two numbers a corner, or where writing it again would give
-/// other bytes, all stays as it is.
+/// Changes nothing if a list is neither empty nor two numbers a corner, or if writing it again
+/// would give other bytes.
 void take_face_texture(mesh_file& file);
 
 }  // namespace treeform::detail::io

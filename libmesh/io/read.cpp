@@ -17,10 +17,10 @@ namespace detail::io {
 
 namespace {
 
-/// How many stored faces have a triangle that is turned against the face as a whole, as where a
-/// polygon is not convex. Ones that are so by less than rounding does are none.
+/// Number of stored faces with a triangle oriented against the whole face, as in a concave polygon.
+/// Deviations below rounding errors do not count.
 ///
-/// \cost O(F), nothing where all faces are triangles
+/// \cost O(F); O(1) if all faces are triangles
 std::size_t count_concave_faces(const mesh_file& file) {
     constexpr double noise = 1e-6;  // of the face's area, which bounds what rounding turns over
     const std::vector<std::uint32_t>& stored = file.stored_face;

@@ -23,10 +23,11 @@ namespace treeform::detail::io {
 
 namespace {
 
-/// By triangles of the build; shorter than it, or empty, where the rest has none.
+/// [triangles of the build]; shorter or empty if the remaining ones have none.
 struct looks_3mf {
-    std::vector<face> colors{};   ///< of corners, in the palette
-    std::vector<face> texture{};  ///< of corners, in the texture coordinates of the model
+    std::vector<face> colors{};  ///< palette entries of corners
+    /// texture coordinates of corners, as numbers of those of the model
+    std::vector<face> texture{};
 };
 
 /// The palette number of each point; none where a face or two faces want several.
@@ -73,8 +74,8 @@ void add_colors(const model_3mf& model, std::vector<face>&& colors, mesh_file& f
              std::to_string(mixed) + " faces have several colors, of which one was read"});
 }
 
-/// Appends those of an object whose triangles come from number `first_face` on. `turned` says that
-/// the second and the third corner of each have changed places.
+/// Appends the values of an object whose first triangle is `first_face`. `turned`: the second and
+/// third corner of each triangle were swapped.
 void append_looks(looks_3mf& to, std::size_t first_face, const object_3mf& object, bool turned) {
     const auto append = [&](std::vector<face>& all, std::span<const face> more, const face& none) {
         if (more.empty()) return;
@@ -85,8 +86,8 @@ void append_looks(looks_3mf& to, std::size_t first_face, const object_3mf& objec
     append(to.texture, object.texture, no_texture);
 }
 
-/// Gives the file its colors: to the faces when each has one; to the points when each point has
-/// one; else to the faces, that of their first corners, with a warning. Also the texture
+/// Sets the colors of the file: of faces if each has a single color; of points if each point has a
+/// single color; else of faces, by their first corners, with a warning. Also sets the texture
 /// coordinates of corners.
 void add_looks(const model_3mf& model, looks_3mf&& looks, mesh_file& file) {
     add_colors(model, std::move(looks.colors), file);
@@ -143,8 +144,7 @@ class counter {
         to.faces += more.faces;
         to.depth = std::max(to.depth, more.depth);
         if (to.placed > most_placed)
-            fail(key, "is or has one of more than " + std::to_string(most_placed) +
-                          " objects that the build places");
+            fail(key, "makes more than " + std::to_string(most_placed) + " objects in the build");
         if (to.points > most_numbered || to.faces > most_numbered)
             fail(key, "makes more points or faces than 32-bit numbers can count");
     }
@@ -207,7 +207,7 @@ class placer {
             const point3 at = moved(t, p);
             if (!base::is_finite(at))
                 in_.fail(model_.parts[key.part] + ": object " + std::to_string(key.id) +
-                         " is moved beyond all numbers by its transform");
+                         ": its transform moves it beyond the range of doubles");
             file_.mesh.points.push_back(at);
         }
         const bool turned = t.mirrors();
@@ -257,9 +257,9 @@ void say_what_is_unread(const unread_3mf& unread, std::vector<io_warning>& warni
         if (count > 0) warnings.push_back({code, std::to_string(count) + what});
     };
     say(unread.not_built, "not-built", " objects are not in the build and were not read");
-    say(unread.other, "not-built", " items and components of the type 'other' were not read");
-    say(unread.support, "support", " items and components are supports, read as all others are");
-    say(unread.not_printable, "support", " items are not to be printed, read as all others are");
+    say(unread.other, "not-built", " items and components of type 'other' were not read");
+    say(unread.support, "support", " items and components are supports; they were read, too");
+    say(unread.not_printable, "support", " items are not printable; they were read, too");
     say(unread.extensions, "skipped-elements", " elements of extensions in meshes were not read");
     say(unread.property_uses, "materials", " faces have mixed materials, which were not read");
     if (unread.images) warnings.push_back({"materials", "images of textures were not read"});
@@ -274,11 +274,11 @@ void say_what_is_unread(const unread_3mf& unread, std::vector<io_warning>& warni
     return static_cast<std::size_t>(count);
 }
 
-/// The objects of all items, where their transforms put them, each a part of its own. What they
-/// amount to is counted before anything is built.
+/// The objects of all items, transformed, each as a part of its own. Sizes are counted before
+/// anything is built.
 ///
-/// \throws io_error for an object that is its own component, and for more objects, points or faces
-///         than a mesh may have
+/// \throws io_error for an object that is its own component, and for too many objects, points or
+///         faces
 mesh_file place_3mf(const source& in, const model_3mf& model) {
     const amount total = counter(in, model).total();
     mesh_file file = placer(in, model, total).place();

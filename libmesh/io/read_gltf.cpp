@@ -85,7 +85,8 @@ struct placed_node {
         if (!accessor) return;
         const values_gltf values(buffers, *accessor);
         if (values.components() != components || (!all.empty() && values.size() != all.size()))
-            buffers.fail("nodes", number, "has instances that do not fit each other");
+            buffers.fail("nodes", number,
+                         "has instance attributes that do not match in type or length");
         all.resize(values.size());
         for (std::size_t i = 0; i < values.size(); ++i) add(values, i);
     };
@@ -99,9 +100,9 @@ struct placed_node {
     read(instances.rotation, 4, [&](const values_gltf& v, std::size_t i) {
         rotations.push_back({v.at(i, 0), v.at(i, 1), v.at(i, 2), v.at(i, 3)});
         if (!is_rotation(rotations.back()))
-            buffers.fail("nodes", number, "has an instance whose rotation is none");
+            buffers.fail("nodes", number, "has an instance with an invalid rotation");
     });
-    if (all.empty()) buffers.fail("nodes", number, "has instances without a place");
+    if (all.empty()) buffers.fail("nodes", number, "has instances without attributes");
     for (std::size_t i = 0; i < all.size(); ++i)
         all[i] = transform_of(translations.empty() ? point3{} : translations[i],
                               rotations.empty() ? std::array<double, 4>{0, 0, 0, 1} : rotations[i],
@@ -109,7 +110,7 @@ struct placed_node {
     return all;
 }
 
-/// A normal as the transform's surface has it: of length 1, or 0.
+/// The transformed normal, of length 1; or 0.
 [[nodiscard]] point3 turned(const transform<3>& t, const point3& normal) {
     if (t == transform<3>{}) return normal;
     const auto row = [&](std::size_t k) {
@@ -133,9 +134,9 @@ struct placed_node {
     return static_cast<std::uint8_t>(value > 0.0 ? std::min(std::round(value), 255.0) : 0.0);
 }
 
-/// One mesh of all that the nodes of the scene show, each as a part with a name of its own: that of
-/// the node, else of the mesh. Points that a transform has moved are doubles; others are as they
-/// are stored. Where a transform mirrors, faces are turned over.
+/// The meshes of all nodes of the scene, transformed, each as a part with a unique name: that of
+/// the node, else of the mesh. Transformed points are doubles; others are as stored. Faces of
+/// mirrored parts are flipped.
 ///
 /// \pre    the nodes are a tree
 /// \throws io_error for what does not fit
@@ -150,7 +151,8 @@ class placer_gltf {
         const std::vector<placed_node> nodes = nodes_of_scene(in_, model_);
         plan(nodes);
         for (const placed_node& n : nodes) place(n);
-        if (file_.mesh.points.empty() && !model_.meshes.empty()) in_.fail("no mesh is shown");
+        if (file_.mesh.points.empty() && !model_.meshes.empty())
+            in_.fail("the scene shows no mesh");
         file_.stored_faces = file_.mesh.faces.size();
         // A number is no name, and one part needs none to be told from others.
         auto& parts = file_.attributes.parts;
@@ -221,7 +223,7 @@ class placer_gltf {
             const point3 there = moved(t, p);
             if (!base::is_finite(there) && base::is_finite(p))
                 in_.fail("node " + std::to_string(number) +
-                         " moves its mesh beyond all numbers by its transform");
+                         ": its transform moves the mesh beyond the range of doubles");
             file_.mesh.points.push_back(there);
         }
         append_faces(file_.mesh.faces, local.faces, first, t.mirrors());
@@ -307,13 +309,14 @@ class placer_gltf {
             if (count > 0) warn("skipped-elements", std::to_string(count) + what);
         };
         counted(survey_.lines, " lines were not read, only their points");
-        counted(survey_.corners_left_over, " corners behind the last whole triangle were not read");
+        counted(survey_.corners_left_over,
+                " corners after the last complete triangle were not read");
         counted(survey_.without_positions, " primitives without positions were not read");
         remark_unseen(nodes);
         const auto mixed = [&](std::uint64_t with, const char* of, const char* instead) {
             if (with > 0 && with < survey_.points)
                 warn("attributes", std::string("only some meshes have ") + of +
-                                       "; the points of others got " + instead);
+                                       "; the points of the others got " + instead);
         };
         mixed(survey_.with_normals, "normals", "0 0 0");
         mixed(survey_.with_texture, "texture coordinates", "0 0");
@@ -340,13 +343,13 @@ class placer_gltf {
         }
         if (all > seen)
             warn("not-built", std::to_string(all - seen) +
-                                  " nodes with meshes are not in the scene that is shown and were "
-                                  "not read");
+                                  " nodes with meshes are not in the default scene and were not "
+                                  "read");
         if (survey_.morphs || has_skin)
             warn("not-applied", std::string(survey_.morphs && has_skin ? "morph targets and skins"
                                             : has_skin                 ? "skins"
                                                                        : "morph targets") +
-                                    " are not applied: meshes are as they are without them");
+                                    " are not applied: meshes have their unmodified shape");
     }
 
     const source& in_;

@@ -80,11 +80,10 @@ void read_material_file(const std::filesystem::path& path, material_looks& looks
     }
 }
 
-/// Gives the faces of an OBJ, which is at `path`, the diffuse colors of their materials (`Kd`,
-/// `d`), as columns red, green, blue, and alpha unless all is opaque. Faces without a material that
-/// has a color are white. Nothing changes where no material file that the OBJ names is there, as
-/// where `path` is empty, or none has a color of a material in use. What is no number in these
-/// files is left out, for it says nothing of the mesh.
+/// Gives the faces of the OBJ at `path` the diffuse colors of their materials (`Kd`, `d`), as
+/// columns red, green, blue, and alpha unless all are opaque. Faces without a material with a color
+/// are white. Changes nothing if no material file exists (as with an empty `path`), or none has a
+/// color of a used material. Invalid numbers in these files are ignored.
 void add_material_colors(mesh_file& file, const std::filesystem::path& path) {
     const auto& names = file.attributes.material_files;
     if (path.empty() || names.empty()) return;
@@ -107,8 +106,8 @@ void add_material_colors(mesh_file& file, const std::filesystem::path& path) {
     add_color_columns(file.attributes.find_or_add("face", colors.size()), colors);
     if (has_transparency)
         file.warnings.push_back({"materials",
-                                 "transparencies Tr of materials were not read, which programs "
-                                 "mean in two ways; d is read"});
+                                 "transparency Tr of materials was not read, since programs "
+                                 "disagree on its meaning; d is read"});
 }
 
 struct line_counts {

@@ -126,9 +126,9 @@ void refuse_deep_records(const source& in, std::string_view fbx) {
     }
 }
 
-/// Refuses XML (DAE, AMF and others), FBX in text or binary, and DirectX in text that nest
-/// more than a thousand levels deep, by what they hold, whatever their name: the loaders recurse,
-/// and the stack would be exhausted. What is wrong otherwise is left to them.
+/// Refuses XML (DAE, AMF and others), FBX in text or binary, and DirectX in text that nest more
+/// than a thousand levels deep, detected by content: the loaders are recursive, and would exhaust
+/// the stack. Other errors are left to the loaders.
 ///
 /// \throws io_error
 /// \cost   O(size) time; none for other formats

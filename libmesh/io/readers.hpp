@@ -41,7 +41,8 @@ namespace treeform::detail::io {
 [[nodiscard]] mesh_file read_scene(const source& in, const std::filesystem::path& path,
                                    std::string_view extension);
 
-/// Makes names differ: parts with one name would be one part. The second "gear" is "gear (2)".
+/// Makes names unique, since parts with the same name would be one part. The second "gear" becomes
+/// "gear (2)".
 class name_giver {
   public:
     [[nodiscard]] std::string name(const std::string& wanted) {

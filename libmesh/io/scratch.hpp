@@ -41,12 +41,12 @@ class scratch {
 [[nodiscard]] int open_nameless_file(std::string_view name,
                                      const std::filesystem::path& folder = {});
 
-/// Says to the system that `bytes` bytes at `memory` will be filled soon, so that it may hand them
-/// out in large pages. A hint: nothing depends on it but time (filling fresh small pages takes
-/// several times as long as reading a binary file that is in memory).
+/// Advises the system to back `bytes` bytes at `memory`, which will be filled soon, by large pages.
+/// A hint that only affects time: page-faulting small pages takes several times as long as reading
+/// a cached binary file.
 void prefer_large_pages(void* memory, std::size_t bytes);
 
-/// v.reserve(count), in large pages where that pays.
+/// v.reserve(count), in large pages if that pays off.
 template <class T>
 void reserve_large(std::vector<T>& v, std::size_t count) {
     v.reserve(count);

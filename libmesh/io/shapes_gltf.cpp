@@ -231,7 +231,7 @@ void check_indices(buffers_gltf& buffers, std::size_t accessor, survey_gltf& sur
     const accessor_gltf& a = buffers.model().accessors[accessor];
     if (a.components != 1 || (a.type != scalar_type::uint8 && a.type != scalar_type::uint16 &&
                               a.type != scalar_type::uint32))
-        buffers.fail("accessors", accessor, "has another type than indices have");
+        buffers.fail("accessors", accessor, "has a type that indices cannot have");
     check_bytes(buffers, accessor, survey);
 }
 

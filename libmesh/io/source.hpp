@@ -72,7 +72,7 @@ class source {
     mutable const char* release_at_ = nullptr;  ///< next position worth a system call
 };
 
-/// Of `size` parts that have about as many of whatever is counted.
+/// Part `rank` of `size` parts of nearly equal counts.
 struct file_part {
     std::uint64_t rank = 0;
     std::uint64_t size = 1;
@@ -86,8 +86,8 @@ struct file_part {
     [[nodiscard]] bool is_last() const { return rank + 1 == size; }
 };
 
-/// A row behind the points, counted from the first of all elements there, and the byte of the file
-/// where it begins.
+/// A row after the points, counted over all elements there, and the byte of the file at which it
+/// begins.
 struct row_place {
     std::uint64_t row = 0;
     std::uint64_t byte = 0;

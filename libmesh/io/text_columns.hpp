@@ -19,20 +19,20 @@
 
 namespace treeform::detail::io {
 
-/// The names in a line: split at semicolons, else at commas, else at tabs, else at blanks,
-/// whichever it has; without quotes, and with underscores for the blanks within.
+/// The names in a line: split at the first of semicolons, commas, tabs and blanks that occurs;
+/// without quotes, and with underscores for inner blanks.
 [[nodiscard]] std::vector<std::string> split_heading(std::string_view line);
 
-/// Numbers of the columns that hold x, y and z, by their names in any case: x, y, z; pos_x, x_coord
-/// and the like; Points:0, as ParaView writes; easting, northing and elevation, as surveyors do,
-/// also by their first letters. None unless all three are there.
+/// Numbers of the columns x, y and z, by their names in any case: x, y, z; pos_x, x_coord and
+/// similar; Points:0, as in ParaView; easting, northing and elevation, also by their first letters.
+/// None unless all three exist.
 [[nodiscard]] std::optional<std::array<std::size_t, 3>> find_axes(
     const std::vector<std::string>& names);
 
-/// Whether there are a latitude and a longitude: angles, which are no coordinates of a point.
+/// Whether there are columns of latitude and longitude, which are angles, not coordinates.
 [[nodiscard]] bool has_angles(const std::vector<std::string>& names);
 
-/// A value of a table; a whole number also bit for bit.
+/// A value of a table; for integers also its exact 64 bits.
 struct text_cell {
     double value = 0.0;
     std::uint64_t bits = 0;

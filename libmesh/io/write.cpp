@@ -109,9 +109,10 @@ void check_faces(const mesh_file& file) {
 void check_attributes(const mesh_file& file) {
     for (const element& e : file.attributes.elements) {
         if (e.name == "vertex" && e.rows != file.mesh.points.size())
-            refuse_file("element vertex has another number of rows than there are points");
+            refuse_file("the number of rows of element vertex differs from the number of points");
         if (e.name == "face" && e.rows != stored_face_count(file))
-            refuse_file("element face has another number of rows than there are stored faces");
+            refuse_file(
+                "the number of rows of element face differs from the number of stored faces");
         check_columns(e);
     }
 }

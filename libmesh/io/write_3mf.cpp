@@ -22,12 +22,12 @@ namespace treeform::detail::io {
 
 namespace {
 
-/// Which list the corners of a triangle refer to.
+/// The list to which the corners of a triangle refer.
 enum class look_list : std::uint8_t { none, materials, colors };
 
 struct face_look {
     look_list list = look_list::none;
-    face entries{};  ///< of the corners
+    face entries{};  ///< entry of each corner
 
     friend bool operator==(const face_look&, const face_look&) = default;
 };
@@ -49,8 +49,8 @@ constexpr std::uint32_t white = 0xffffffff;
 }
 
 /// The materials of parts with the colors of their faces; else the colors of faces; else the colors
-/// of points, a corner each. Where only some faces have a look, the others are white. Colors are
-/// 0xRRGGBBAA.
+/// of points, one for each corner. If only some faces have a color, the others are white. Colors
+/// are 0xRRGGBBAA.
 class face_looks {
   public:
     explicit face_looks(const write_job& job) {
@@ -94,7 +94,7 @@ class face_looks {
         return looks_.empty() ? none_ : looks_[triangle];
     }
 
-    /// Names and colors, in the order in which triangles first have them.
+    /// Names and colors of materials, in the order of first use.
     std::vector<std::pair<std::string, std::uint32_t>> materials{};
     std::vector<std::uint32_t> colors{};
     bool leaves_out_points = false;  ///< points have colors that are not among these

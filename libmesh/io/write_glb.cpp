@@ -331,8 +331,7 @@ class document_glb {
 
     void say_what_is_left_out() const {
         const std::string in_all =
-            "some corners have none or none of a length: glb holds those of "
-            "all or none";
+            "some corners have none or one of length 0, and glb has one for every corner or none";
         if (leaves_out_normals_) warn("corner-values", "normals left out: " + in_all);
         if (lacks_texture_)
             warn("corner-values", "texture coordinates 0 0 for corners that have none");

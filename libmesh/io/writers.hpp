@@ -168,8 +168,8 @@ void put_bits(sink& out, const column& c, std::size_t i) {
     });
 }
 
-/// The columns of these names, all of them with one value a row; empty when one is missing. The
-/// element may be null.
+/// The columns with these names, if all exist and have one value a row; else empty. The element may
+/// be null.
 [[nodiscard]] std::vector<const column*> scalar_columns(
     const element* e, std::initializer_list<std::string_view> names);
 
@@ -184,11 +184,11 @@ void put_bits(sink& out, const column& c, std::size_t i) {
     return c.type < scalar_type::float32 ? value / 255.0 : value;
 }
 
-/// Puts rows 0 to `rows` into the sink of `job`, in their order: `put(piece, first, last)` puts
-/// some into that of `piece`, which is `job` except for its sink. While some pieces are made, those
-/// before them are written.
+/// Writes rows 0 to `rows` to the sink of `job`, in order. `put(piece, first, last)` writes some
+/// rows to the sink of `piece`, which is `job` with another sink. Pieces are written while the next
+/// ones are serialized.
 ///
-/// \pre  `put` changes nothing but the sink, so that it can be called on many threads
+/// \pre  `put` only changes the sink, since it is called from several threads
 /// \same on any number of threads
 template <class Put>
 void put_by_pieces(const write_job& job, std::size_t rows, const Put& put) {
@@ -220,31 +220,31 @@ void put_by_pieces(const write_job& job, std::size_t rows, const Put& put) {
         for (const std::string& text : texts) job.out.put(text);
 }
 
-/// The columns of the element "vertex" as they will be written: those of the file, without values,
-/// and those of the coordinates; what is missing of these stands ahead of all others.
+/// The columns of the element "vertex" to be written: those of the file, without values, and those
+/// of the coordinates. Missing coordinate columns are added before all others.
 ///
-/// `points` are all points; none when they will come by runs. A declared type stays where it can:
-/// text may have more digits than the type, bytes may not.
+/// `points` are all points; none if they will be written in blocks. Declared types are kept where
+/// possible: text may have more digits than the type, binary data may not.
 [[nodiscard]] element declare_vertices(const write_job& job, bool text,
                                        std::optional<std::span<const point3>> points);
 
-/// Which coordinates have a column whose type does not hold all of `points`.
+/// The coordinates whose column type cannot represent all of `points`.
 [[nodiscard]] std::array<bool, 3> outgrown_axes(const element& declared,
                                                 std::span<const point3> points);
 
-/// Of points that come by runs the types were chosen before they were known.
+/// Checks points written in blocks, whose types were chosen before the points were known.
 ///
-/// \throws std::invalid_argument when one does not fit
+/// \throws std::invalid_argument if a point does not fit
 void check_axes(const write_job& job, bool text, const element& declared,
                 std::span<const point3> points);
 
-/// The column with the values that belongs to number `i` of the declared ones, which is data.
+/// The column of values of the declared data column `i`.
 [[nodiscard]] inline const column& with_values(const element& declared, const element* source,
                                                std::size_t i) {
     return source->columns[i - (declared.columns.size() - source->columns.size())];
 }
 
-/// The column that a text format writes with the digits of a double whatever its type.
+/// Whether a text format writes a column with the digits of a double regardless of its type.
 [[nodiscard]] inline bool keeps_digits(const column& c) {
     return c.role != column_role::data && c.type == scalar_type::float32;
 }

@@ -59,8 +59,8 @@ class xml_part {
 /// none. Only the first hundred attributes of an element are searched for declarations.
 [[nodiscard]] std::string_view namespace_of(pugi::xml_node element, std::string_view prefix);
 
-/// UTF-8 in which nothing ends an attribute early: blanks for newlines and tabs; U+FFFD for bytes
-/// that are no UTF-8 and for characters that XML cannot hold.
+/// Valid UTF-8 for an attribute, escaped: blanks for newlines and tabs; U+FFFD for bytes that are
+/// not UTF-8, and for characters that XML does not allow.
 [[nodiscard]] std::string xml_text(std::string_view text);
 
 }  // namespace treeform::detail::io

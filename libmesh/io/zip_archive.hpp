@@ -69,8 +69,8 @@ class zip_archive {
     std::uint64_t packed_read_ = 0;
 };
 
-/// Writes an archive to a string. Members have no time of their own, so that the same members make
-/// the same bytes.
+/// Writes an archive to a string. Members have no time stamps, so that the same members give the
+/// same bytes.
 class zip_builder {
   public:
     /// `bytes` must outlive the archive.
@@ -79,12 +79,12 @@ class zip_builder {
     zip_builder& operator=(const zip_builder&) = delete;
     ~zip_builder();
 
-    /// Starts a member of at most `most_bytes` bytes.
+    /// Begins a member of at most `most_bytes` bytes.
     void begin(const char* name, std::size_t most_bytes);
     void put(std::string_view bytes);
     void end();
 
-    /// Ends the archive, without which it is none.
+    /// Writes the directory, which completes the archive.
     void finish();
 
   private:
@@ -93,7 +93,7 @@ class zip_builder {
     void check(int status) const;
 
     stream* stream_;
-    void* file_ = nullptr;  ///< of the library behind it
+    void* file_ = nullptr;  ///< handle of the ZIP library
 };
 
 }  // namespace treeform::detail::io

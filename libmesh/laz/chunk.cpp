@@ -263,13 +263,13 @@ std::vector<std::uint8_t> pack_chunk(std::span<const item> items, std::uint32_t 
 
 std::vector<chunk> read_chunk_table(std::span<const std::uint8_t> packed, bool sizes_vary,
                                     std::size_t most) {
-    if (packed.size() < 8) throw damaged("the table of chunks ends too early");
+    if (packed.size() < 8) throw damaged("the chunk table ends too early");
     const auto version = static_cast<std::uint32_t>(get32(packed.data()));
     const auto count = static_cast<std::uint32_t>(get32(packed.data() + 4));
     if (version != 0)
-        throw damaged("the table of chunks has the version " + std::to_string(version));
+        throw damaged("the chunk table has the unknown version " + std::to_string(version));
     if (count > most)
-        throw damaged("the table names " + std::to_string(count) +
+        throw damaged("the chunk table announces " + std::to_string(count) +
                       " chunks, more than the file can hold");
     std::vector<chunk> chunks(count);
     if (count == 0) return chunks;

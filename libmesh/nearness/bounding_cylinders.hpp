@@ -57,13 +57,13 @@ struct cylinder_pair {
                                  float* squared) const;
 };
 
-/// Some 80 bytes a face; about half as long to make as a tree.
+/// Takes about 80 bytes a face, and about half the build time of a tree.
 struct face_blocks {
     buffer<eight_triangles> triangles;
     bounding_cylinders cylinders;
 };
 
-/// Of the tree `build_face_tree(mesh)`; the mesh keeps them.
+/// The blocks of the tree `build_face_tree(mesh)`, cached in the mesh.
 [[nodiscard]] const face_blocks& face_blocks_of(const prepared_mesh& mesh);
 
 }  // namespace treeform::detail::nearness

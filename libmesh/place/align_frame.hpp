@@ -59,11 +59,11 @@ void find_planes(moving_points& moving);
 /// points.
 [[nodiscard]] inertia inertia_in(const align_frame& f, mesh_view fixed);
 
-/// Judges places of different scales. A cost of one direction alone is least where all points are
-/// one, or where they are far larger than the fixed side: here a place is as good as the median
-/// distance from the moving to the fixed points, in lengths of the moving side, times that from the
-/// fixed to the moving ones, in those of the fixed side. Whichever side is the moving one, it is
-/// the same.
+/// Compares alignments of different scales. A one-sided cost is least if the moving points collapse
+/// to one point, or if they are far larger than the fixed side. This cost is a product: the median
+/// distance from the moving to the fixed points, in lengths of the moving side, times the median
+/// distance from the fixed to the moving points, in lengths of the fixed side. It is the same if
+/// the sides are exchanged.
 class both_ways {
   public:
     both_ways(const moving_points& few, const align_frame& frame, mesh_view fixed);

@@ -52,40 +52,41 @@ struct search_result {
 [[nodiscard]] quality quality_at(const search_task& task, const moving_points& samples,
                                  const similarity& map, double width, matching& last);
 
-/// Where a set of points is, and how it lies.
+/// The center and principal axes of a set of points.
 struct inertia {
     Vector3d center = Vector3d::Zero();
-    Matrix3d axes = Matrix3d::Identity();  ///< columns, right-handed, along the longest last
+    Matrix3d axes = Matrix3d::Identity();  ///< columns, right-handed, the longest axis last
     double radius = 0.0;                   ///< root mean square of the distances to the center
 };
 [[nodiscard]] inertia inertia_of(std::span<const Vector3d> points);
-/// By area: each face as if in its center.
+/// Weighted by area, with the area of each face at its center.
 [[nodiscard]] inertia inertia_of(std::span<const Vector3d> points, std::span<const face> faces);
 
-/// `count` places for points that lie as `moving` does: the present one, the axes on those of
-/// `fixed` in 4 ways, then turns from where they are at `present`, spread evenly, small ones first.
+/// `count` starts for points with the inertia `moving`: first `present`; then the 4 rotations that
+/// map its axes to those of `fixed`; then rotations from `present`, evenly distributed, by
+/// ascending angle.
 /// \source Alexa, Super-Fibonacci Spirals: Fast, Low-Discrepancy Sampling of SO(3), CVPR (2022)
 [[nodiscard]] std::vector<similarity> starts_of(const inertia& moving, const inertia& fixed,
                                                 const similarity& present, std::size_t count);
 
-/// `present`, and places around it: shifted by 8% of `diagonal` along the axes, turned by 14
-/// degrees about lines through `center`, moved already, and both.
+/// `present` and starts near it: shifted by 8% of `diagonal` along the axes, rotated by 14 degrees
+/// about lines through `center` (after `present`), and both.
 [[nodiscard]] std::vector<similarity> starts_near(const Vector3d& center, const similarity& present,
                                                   double diagonal);
 
-/// `at`, and places from there along the motions with a stiffness below `most`: 0.1% to 6% of
-/// `diagonal` away in the root mean square, both ways.
+/// `at`, and starts displaced from it along the motions with a stiffness below `most`, in both
+/// directions: by a root mean square of 0.1% to 6% of `diagonal`.
 [[nodiscard]] std::vector<similarity> starts_along(std::span<const freedom> motions, double most,
                                                    const similarity& at, double diagonal);
 
-/// A start, and what a search with few points and steps makes of it.
+/// A start, and the result of a search from it with few points and steps.
 struct tried_start {
     std::size_t number = 0;
     search_result end{};
 };
 
-/// All starts but the first tried with `few` samples, the best end first, of equals the first.
-/// Stops early, with what there is, when `go_on` says so.
+/// Tries all starts except the first with the samples `few`; returns them best first, ties by
+/// number. Stops early, with the results so far, when `go_on` returns false.
 [[nodiscard]] std::vector<tried_start> try_starts(const search_task& task, const moving_points& few,
                                                   std::span<const similarity> starts,
                                                   function_ref<bool(std::size_t)> go_on);

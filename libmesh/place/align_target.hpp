@@ -22,13 +22,14 @@ inline std::array<double, 3> array_of(const point3& p) { return {p.x, p.y, p.z};
 
 /// The plane fitted to the neighbors of a point.
 struct surfel {
-    Vector3d normal = Vector3d::Zero();  ///< zero where there is none
-    double reach = 0.0;                  ///< how far the neighbors are
-    double thickness = 0.0;              ///< how far they are from it: root mean square
+    Vector3d normal = Vector3d::Zero();  ///< zero: no plane
+    double reach = 0.0;                  ///< distance to the farthest neighbor
+    double thickness = 0.0;  ///< root mean square distance of the neighbors to the plane
 };
 
-/// A cloud without equal points, which finds what is near. Scanners put what they do not see at the
-/// origin, thousands of times: a search would look at all of them, since all are as near.
+/// A point cloud without duplicates, with a search for nearest points. Scanners put thousands of
+/// rays without a return at the origin; a search would visit all of these, since they are equally
+/// near.
 class searched_cloud {
   public:
     searched_cloud() = default;
@@ -37,8 +38,8 @@ class searched_cloud {
     [[nodiscard]] const std::vector<point3>& points() const { return points_; }
     [[nodiscard]] const point_search<3>& search() const { return search_; }
 
-    /// At each of the places, by the 12 points nearest to it. Where these are on a line, as on the
-    /// rings that a turning scanner leaves, by 4 or 16 times as many.
+    /// Fits a plane at each of `places` to the 12 nearest points. If these are on a line, as on the
+    /// rings of a rotating scanner, to 4 or 16 times as many.
     [[nodiscard]] std::vector<surfel> surfels_at(std::span<const point3> places) const;
 
   private:
@@ -46,7 +47,7 @@ class searched_cloud {
     point_search<3> search_;
 };
 
-/// Points to align, in an order of space, and the planes there if those count, too.
+/// Points to align, in a spatial order, and optionally the planes at them.
 struct moving_points {
     std::vector<Vector3d> points;
     std::vector<surfel> surfels;  ///< [P]; empty: no planes

@@ -150,9 +150,10 @@ void deviation_result::color(mesh_file& file, std::span<const double> distances,
                              double high) {
     if (distances.size() != file.mesh.points.size())
         throw std::invalid_argument(
-            "treeform::deviation_result::color: a distance for each point is needed");
+            "treeform::deviation_result::color: expected one distance for each point");
     if (!(low <= 0.0 && 0.0 <= high))
-        throw std::invalid_argument("treeform::deviation_result::color: 0 is not from low to high");
+        throw std::invalid_argument(
+            "treeform::deviation_result::color: 0 is not between low and high");
     element& rows = file.attributes.find_or_add("vertex", distances.size());
     std::array<std::vector<std::uint8_t>, 3> channels;
     for (auto& one : channels) one.reserve(distances.size());

@@ -18,7 +18,8 @@ namespace {
 
 void check_points(points_view points) {
     if (points.size() > std::numeric_limits<std::uint32_t>::max())
-        throw std::invalid_argument("treeform::convex_hull: more points than 32 bits can number");
+        throw std::invalid_argument(
+            "treeform::convex_hull: more points than 32-bit numbers can name");
     detail::place::check_finite("convex_hull", points);
 }
 

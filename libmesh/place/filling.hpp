@@ -17,21 +17,21 @@
 
 namespace treeform::detail::place {
 
-/// A part in one of its turns, as the raster sees it.
+/// A part in one of its turns, as cells of the raster.
 struct candidate {
     unsigned turn = 0;
     point3 size{};
     footprint cells{};
-    std::uint32_t kind = 0;  ///< its number among all footprints, equal ones by one number
+    std::uint32_t kind = 0;  ///< number of its footprint; equal footprints share a number
 };
 
 struct part_shape {
-    std::vector<candidate> candidates{};  ///< those that are not larger than the plate
-    double room = 0.0;                    ///< area covered, or volume, of the first
-    double longest = 0.0;                 ///< side of its box, of those that count
+    std::vector<candidate> candidates{};  ///< turns that fit on the plate
+    double room = 0.0;     ///< area covered (or volume, if stacked) by the first candidate
+    double longest = 0.0;  ///< its longest side, of those along the axes used
 };
 
-/// All parts of a packing. Equal parts share a shape.
+/// All parts of a packing. Equal parts share one shape.
 class pack_shapes {
   public:
     /// \pre the parts were checked
@@ -43,9 +43,10 @@ class pack_shapes {
     [[nodiscard]] const part_shape& operator[](std::uint32_t i) const {
         return shapes_[distinct_[i]];
     }
-    [[nodiscard]] double cell() const { return cell_; }  ///< length; 0: no part has a candidate
+    /// side of a cell; 0: no part has a candidate
+    [[nodiscard]] double cell() const { return cell_; }
     [[nodiscard]] std::size_t kinds() const { return kinds_; }
-    /// The part in the turn of its candidate `c`. May be asked for on any threads at once.
+    /// The part in the turn of its candidate `c`. Thread-safe.
     [[nodiscard]] std::shared_ptr<const turned> in_turn(std::uint32_t part, std::size_t c) const;
 
   private:
@@ -57,14 +58,15 @@ class pack_shapes {
     void number_kinds();
 
     std::span<const prepared_mesh> parts_;
-    std::vector<std::uint32_t> distinct_;  ///< [P] the first part equal to each
-    std::vector<part_shape> shapes_;       ///< by part; of others than the first of equals empty
+    std::vector<std::uint32_t> distinct_;  ///< [P] the first part that equals it
+    std::vector<part_shape> shapes_;       ///< by part; empty for duplicates of an earlier part
     double cell_ = 0.0;
     std::size_t kinds_ = 0;
-    std::vector<std::unique_ptr<slot[]>> slots_;  ///< by part and candidate; none: not to be kept
+    /// cache by part and candidate; empty: no caching
+    std::vector<std::unique_ptr<slot[]>> slots_;
 };
 
-/// In what a try differs from others, beside the order.
+/// The parameters of an attempt, other than the order.
 struct filling_style {
     bool square = false;   ///< measure the spacing along the axes, which suits rows of boxes
     bool compact = false;  ///< prefer the turn that enlarges the bounding box of all parts least

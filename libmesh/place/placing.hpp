@@ -26,7 +26,7 @@ enum class looking { everywhere, on_the_way };
 class placing {
   public:
     /// `function` was called, for what is refused.
-    /// \throws std::invalid_argument for options or operands that cannot be meant
+    /// \throws std::invalid_argument for invalid options or operands
     placing(const char* function, const prepared_mesh& moving, std::span<const prepared_mesh> fixed,
             const placement_options& options, looking where);
 

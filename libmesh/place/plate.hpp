@@ -23,28 +23,28 @@ struct cell_run {
     friend auto operator<=>(const cell_run&, const cell_run&) = default;
 };
 
-/// The cells that a part covers, by layer, row and column from the lowest ones on.
+/// The cells that a part covers; layer, row and column count from its lowest ones.
 struct footprint {
-    std::vector<cell_run> runs{};  ///< ascending, with gaps between
+    std::vector<cell_run> runs{};  ///< ascending, neither overlapping nor adjacent
     std::size_t cells = 0;
     friend auto operator<=>(const footprint&, const footprint&) = default;
 };
 
-/// How space is cut into cells: cubes, or columns of any height in one layer.
+/// The division of space into cells: cubes if `layered`, else columns of unlimited height.
 struct cell_grid {
-    point3 corner{};  ///< the lower left one of cell 0, 0, 0
+    point3 corner{};  ///< lower left corner of cell 0, 0, 0
     double cell = 0.0;
     bool layered = false;
 };
 
-/// The cells that the faces cover: every point of a face is in a cell of these or within 1e-6 of a
-/// cell's length of one, so that a side exactly on a line between cells takes the cells on one side
-/// of it. In layers, also the cells that these enclose on all sides.
+/// The cells that the faces cover. Every point of a face is in one of these cells or within 1e-6
+/// cell sides of one, so that a side exactly between two cells takes only one of them. If
+/// `layered`, cells that are enclosed on all sides are included.
 ///
 /// \pre no used coordinate is below the corner, or more than 2^30 cells away
 [[nodiscard]] footprint cells_covered(mesh_view mesh, const cell_grid& grid);
 
-/// The same in the order in which a place that is not free is found out early: rows from all over
+/// The same runs, ordered so that positions that are not free are rejected early: rows spread over
 /// the part, long runs first.
 [[nodiscard]] footprint telling_first(footprint part);
 
@@ -57,25 +57,25 @@ struct raster_size {
     std::uint32_t layers = 1, rows = 0, columns = 0;
 };
 
-/// Cells of a plate that nothing more may cover.
+/// The taken cells of a plate.
 class plate_raster {
   public:
-    /// Parts keep `spacing`, in cells, from each other; with `square` along an axis, which is more
-    /// than needed but has boxes come in rows.
+    /// Parts keep a distance of `spacing` cells; with `square`, along an axis, which is more than
+    /// needed but aligns boxes in rows.
     plate_raster(const raster_size& size, double spacing, bool square);
 
-    /// Takes the cells of a part that is there, and all that are nearer than the spacing to one.
+    /// Takes the cells of a placed part, and all cells nearer than the spacing to one of them.
     void take(const footprint& part);
 
-    /// The lowest place from `from` on, row by row, at which a part fits between the cells taken;
-    /// none beyond the layer, row and column of `last`.
+    /// The first position from `from` on, row by row, at which the part covers no taken cell; empty
+    /// if there is none up to the layer, row and column of `last`.
     [[nodiscard]] std::optional<cell_place> first_free(const footprint& part, cell_place from,
                                                        cell_place last) const;
 
   private:
     struct reach_of_row {
-        std::int64_t layers, rows;  ///< away
-        std::int64_t columns;       ///< to either side
+        std::int64_t layers, rows;  ///< distance
+        std::int64_t columns;       ///< taken to either side
     };
 
     struct row_space {
@@ -83,20 +83,20 @@ class plate_raster {
         std::vector<std::uint64_t> any, shifted;
     };
 
-    /// Marks the columns at which a part in this row covers a cell taken.
+    /// Marks the columns at which a part in this row would cover a taken cell.
     void mark_blocked(const footprint& part, const cell_place& at, row_space& space) const;
     [[nodiscard]] std::size_t index_of(std::size_t layer, std::size_t row) const {
         return layer * size_.rows + row;
     }
 
     raster_size size_;
-    std::size_t words_;                 ///< of a row
+    std::size_t words_;                 ///< words in a row
     std::vector<std::uint64_t> taken_;  ///< [layers][rows][words], column 0 is the lowest bit
-    std::vector<bool> touched_;         ///< rows with a cell taken
+    std::vector<bool> touched_;         ///< rows with a taken cell
     std::vector<reach_of_row> reach_;
 };
 
-/// A part turned about the vertical and moved to the origin: the least coordinates are exactly 0.
+/// A part rotated about the vertical and moved so that its least coordinates are exactly 0.
 class turned_part {
   public:
     /// Rotates by `turn` times 15 degrees. \pre the part has faces

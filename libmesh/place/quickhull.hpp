@@ -94,24 +94,24 @@ struct mass_center {
     int dimension = 3;  ///< as in `laid_flat`
 };
 
-/// The center of mass; `ids` are the points that count of a mesh without faces. Of a closed mesh it
-/// does not depend on which way the faces look. One that encloses next to nothing, as two sheets
-/// back to back do, counts as its surface.
+/// The center of mass. For a mesh without faces it is that of the points `ids`. For a closed mesh
+/// it does not depend on the orientation of the faces. For a closed mesh with almost no volume,
+/// such as two sheets back to back, it is that of the surface.
 ///
-/// \pre  what is counted is not empty
+/// \pre  there is a face, or `ids` is not empty
 /// \cost O(F); rounded
 [[nodiscard]] mass_center center_of_mass(mesh_view mesh, std::span<const std::uint32_t> ids);
 
-/// How high `center` is over each side of the hull of `points`.
+/// The height of `center` above each side of `hull`.
 [[nodiscard]] std::vector<double> heights_over_sides(const convex_hull_result& hull,
                                                      const point3& center);
 
-/// The tilt at which what has this center of mass, at these heights, tips over on each side.
+/// For each side, the tilt at which a body with this center of mass, at these heights, tips over.
 [[nodiscard]] std::vector<double> tip_angles(points_view points, const convex_hull_result& hull,
                                              const point3& center, std::span<const double> heights);
 
-/// Area of the faces that look down by more than that, if the side is on the bed, and are not on
-/// it.
+/// Total area of the faces that, with the side on the bed, face down by more than `angle` and are
+/// not on the bed.
 [[nodiscard]] double overhang_of(mesh_view mesh, const hull_side& side, double angle,
                                  double tolerance);
 

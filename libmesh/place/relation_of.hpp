@@ -21,15 +21,15 @@ namespace treeform::detail::place {
                                        const progress_callback& progress = {},
                                        base::effort* effort = nullptr);
 
-/// As `measure`, which has checked the operands.
+/// `measure`, without the checks of the operands.
 [[nodiscard]] std::optional<mesh_measure> measure_of(
     const shape& a, const shape& b, double radius = std::numeric_limits<double>::infinity(),
     const progress_callback& progress = {});
 
-/// The weights of the corners of `t` that give the point `p` of it, as in `surface_point`.
+/// The barycentric coordinates of `p` in the triangle `t`, as in `surface_point`.
 ///
-/// \pre coordinates are finite; `p` is on the triangle, except for rounding: otherwise the weights
-///      are those of some other point of it
+/// \pre coordinates are finite; `p` is on the triangle, up to rounding: otherwise the result is for
+///      some other point of the triangle
 [[nodiscard]] std::array<double, 3> barycentric_weights(const std::array<point3, 3>& t,
                                                         const point3& p);
 

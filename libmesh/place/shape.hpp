@@ -72,7 +72,7 @@ void check_motion(const std::string& function, const point3& motion);
 /// The same of the normal of a triangle.
 [[nodiscard]] point3 normal_of(const triangle3& t);
 
-/// The box of the points that faces use; none without faces.
+/// The box of the points that faces use; empty without faces.
 [[nodiscard]] std::optional<box3> box_of_faces(mesh_view mesh);
 
 /// The least value of the precision `of` that is not below `x`; infinite if there is none.

@@ -27,8 +27,8 @@ namespace treeform::detail::place {
 /// \pre `contact` was returned by `time_of_impact` for `motion`
 [[nodiscard]] double time_not_beyond(const sweep_contact& contact, const point3& motion);
 
-/// As `time_of_impact`; `cancelled`, too, where the effort does not suffice. `exact` is the exact
-/// time, that of the first contact.
+/// Like `time_of_impact`; also `cancelled` when the effort is exhausted. `exact` receives the first
+/// contact, which has the exact time.
 ///
 /// \pre the trees are those of the meshes
 [[nodiscard]] TREEFORM_API impact impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
@@ -37,7 +37,8 @@ namespace treeform::detail::place {
                                             base::effort* effort = nullptr,
                                             sweep_contact* exact = nullptr);
 
-/// As `time_to_distance`, with an effort likewise, which looking where it starts does not spend.
+/// Like `time_to_distance`, with the same limit on effort; the check of the start position does not
+/// count toward it.
 ///
 /// \pre the trees are those of the meshes
 [[nodiscard]] TREEFORM_API impact approach_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
@@ -87,24 +88,25 @@ struct sweep_result {
                                                     const sweep_options& options = {});
 
 struct mate_motion {
-    /// From the nearest point of the mesh to that of the part; 0 when they meet, or are the same
-    /// except for rounding.
+    /// From the nearest point of the mesh to the nearest point of the part; 0 when these meet, or
+    /// are equal up to rounding.
     point3 motion{};
-    /// How far along it the mesh goes: 1 except for the clearance and for rounding. Not beyond the
-    /// exact time of contact, as `sweep_among` says.
+    /// The fraction of `motion` that the mesh moves: 1 except for the clearance and for rounding.
+    /// Not beyond the exact time of contact, as in `sweep_among`.
     double time = 0.0;
-    sweep_result met{};  ///< what stops it there; `at_start`: nearer than the clearance already
+    sweep_result met{};  ///< what stops the mesh; `at_start`: it starts nearer than the clearance
 };
 
-/// For a mesh of which is known how it lies to what is nearest to it: `parts` are those that may be
-/// in the way.
+/// Computes the motion from `nearest`, the known relation of `a` to its nearest mesh; `parts` are
+/// the meshes that may be in the way.
 ///
-/// \throws std::overflow_error where the way is beyond the range of doubles; `way_between` too
+/// \throws std::overflow_error when the motion is beyond the range of doubles; also by
+///         `way_between`
 [[nodiscard]] TREEFORM_API mate_motion motion_to_mate(const mesh_measure& nearest, const shape& a,
                                                       std::span<const shape> parts,
                                                       const sweep_options& options = {});
 
-/// From the nearest point of the one mesh to that of the other.
+/// The vector from the nearest point of the first mesh to the nearest point of the second.
 [[nodiscard]] TREEFORM_API point3 way_between(const mesh_measure& nearest);
 
 }  // namespace treeform::detail::place

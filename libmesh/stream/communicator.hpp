@@ -110,7 +110,7 @@ class communicator {
     treeform::communicator all_;
 };
 
-/// Thrown through the work, and caught where it was called.
+/// Thrown if the progress callback returned false; caught by the public functions.
 struct cancelled {};
 
 class cancellable_progress {

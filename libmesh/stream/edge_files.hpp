@@ -84,11 +84,11 @@ class TREEFORM_API edge_files {
 extern template class edge_files<numbered_edge>;
 extern template class edge_files<placed_edge>;
 
-/// Keeps the pages that were read last, each in the one slot that it can be in.
+/// A direct-mapped cache of the pages read last.
 template <class Record>
 class paged_file {
   public:
-    /// Of `count` records; about `memory` bytes are held.
+    /// For `count` records; uses about `memory` bytes.
     paged_file(std::filesystem::path path, std::uint64_t count, std::uint64_t memory)
         : file_(std::move(path)), count_(count) {
         const std::uint64_t most = std::max<std::uint64_t>(memory / (page * sizeof(Record)), 16);
@@ -105,15 +105,15 @@ class paged_file {
         if (held_[slot] != p) load(p, slot);
         return records_[slot * page + static_cast<std::size_t>(i % page)];
     }
-    /// Those of the numbers `of`, fewer than 2^32. Where the last ones were all over the file, they
-    /// are looked up in ascending order, so that each page is read once.
+    /// Looks up the records with the numbers `of`, all below 2^32. If the last lookups were
+    /// scattered over the file, they are made in ascending order, so that each page is read once.
     ///
     /// \throws io_error
     template <class To>
     void look_up(std::span<const std::uint32_t> of, std::vector<To>& found) {
         constexpr std::uint64_t numbers_a_load = 16;
         const std::uint64_t before = loads_;
-        std::uint64_t far = 0;  // from the one before, so that its page would not stay for long
+        std::uint64_t far = 0;  // lookups far from the one before, which would soon evict its page
         found.resize(of.size());
         if (is_scattered_) {
             sorted_.clear();
@@ -130,7 +130,7 @@ class paged_file {
         }
         is_scattered_ = std::max(loads_ - before, far) * numbers_a_load > of.size();
     }
-    /// Whether the next ones will be: the more at a time, the fewer pages are read.
+    /// Whether lookups are scattered; then larger batches read fewer pages.
     [[nodiscard]] bool is_scattered() const { return is_scattered_; }
 
   private:
@@ -155,7 +155,7 @@ class paged_file {
     std::vector<Record> records_{};
     std::uint64_t loads_ = 0;
     bool is_scattered_ = false;
-    std::vector<std::uint64_t> sorted_{};  ///< numbers that are looked up, and which they are
+    std::vector<std::uint64_t> sorted_{};  ///< numbers to look up, each with its position
 };
 
 }  // namespace treeform::detail::stream

@@ -46,7 +46,7 @@ class text_out {
     std::uint64_t written_ = 0;
 };
 
-/// Rank 0 makes them, and removes them at the end, whatever that is.
+/// Rank 0 creates the files, and removes them at the end, also after an exception.
 class passing_files {
   public:
     explicit passing_files(const communicator& all) : all_(all) {}
@@ -57,8 +57,8 @@ class passing_files {
         for (const std::filesystem::path& file : files_) std::filesystem::remove(file, ignored);
     }
 
-    /// Makes an empty one, in the place of what a killed run has left. Others see it when they have
-    /// received it. \throws io_error
+    /// Creates an empty file, replacing one that a killed run left. Other ranks may use it after
+    /// the next communication. \throws io_error
     void add(std::filesystem::path file) {
         if (!all_.is_root()) return;
         std::filesystem::remove(file);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Clouds in any number of files, read as one from the first point to the last, or from any on.
+/// Reads several point files as one cloud, from the first point to the last, or from any point on.
 /// Compressed PCD files are unpacked once for all ranks.
 
 #include <libmesh/io/las_grid_choice.hpp>
@@ -100,23 +100,23 @@ class joined_points {
     double moved_ = 0.0;
 };
 
-/// Unpacks what is packed in `pcd` to an empty file that rank 0 has made. What a byte
-/// stands for is known when those ahead are, so each in turn unpacks its share, counted in bytes
-/// read and made, and sends the next one how far it has come. Collective: every rank must call
-/// this. Returns how many bytes it became.
+/// Unpacks the compressed data of `pcd` to an empty file that rank 0 created, and returns the
+/// number of unpacked bytes. Decompression is sequential, so ranks unpack their shares (of bytes
+/// read and written) in turn, and send their position to the next rank. Collective: every rank must
+/// call this.
 ///
-/// \throws io_error, all of them the same where the packed bytes are damaged; cancelled
+/// \throws io_error, the same on all ranks if the data is damaged; cancelled
 std::uint64_t unpack_in_turn(const std::filesystem::path& pcd, const std::filesystem::path& to,
                              const communicator& all, cancellable_progress& pace);
 
-/// The unpacked inputs in a folder, from where they are read until the end.
+/// Unpacked inputs in the folder, from which points are read until the end.
 class unpacked_inputs {
   public:
     /// Collective: every rank must call this. \throws as `unpack_in_turn`
     unpacked_inputs(const work_folder& folder, const communicator& all, const cloud_inputs& inputs,
                     joined_points& source, cancellable_progress& pace);
 
-    /// That they take in the folder.
+    /// Their size in the folder, in bytes.
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
   private:

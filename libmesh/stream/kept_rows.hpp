@@ -87,11 +87,11 @@ class kept_rows {
     std::optional<row_merge> next_{};
 };
 
-/// Of kept points those in the files that are written, of others those of the points that they
-/// belong to; asked for one by one, from the first point that is assigned to the process on.
+/// The number of a kept point in the written file, or that of the kept point of its group. Must be
+/// requested one by one, from the first point assigned to the process on.
 class new_numbers {
   public:
-    /// Collective: every rank must call this, with its points.
+    /// Collective: every rank must call this, for its points.
     new_numbers(cancellable_progress& pace, const work_folder& folder, const communicator& all,
                 tile_steps& steps, tiles_welded& welded);
 
@@ -103,8 +103,9 @@ class new_numbers {
 
     tiles_welded& welded_;
     tile_steps::leaders leaders_;
-    std::uint64_t before_ = 0;               ///< kept points of lower ranks
-    std::optional<row_merge> of_dropped_{};  ///< of several ranks: points and their numbers
+    std::uint64_t before_ = 0;  ///< number of kept points of lower ranks
+    /// with several ranks: dropped points and their numbers
+    std::optional<row_merge> of_dropped_{};
 };
 
 }  // namespace treeform::detail::stream

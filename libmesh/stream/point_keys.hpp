@@ -49,11 +49,11 @@ class point_keys {
 /// Which points of a cloud are kept, in a bit each. All are kept at first.
 class kept_points {
   public:
-    /// Of `count` points, the lowest of which is `first`.
+    /// For `count` points, numbered from `first`.
     explicit kept_points(std::uint64_t count, std::uint64_t first = 0)
         : first_(first), dropped_(count / 64 + 1, 0) {}
 
-    /// Returns false when it was dropped before.
+    /// Drops a point; returns false if it was already dropped.
     bool drop(std::uint64_t point) {
         point -= first_;
         std::uint64_t& word = dropped_[point / 64];
@@ -76,14 +76,14 @@ class kept_points {
         return sum;
     }
 
-    /// Whether some point is dropped here and there. \pre the same count
+    /// Whether some point is dropped in both sets. \pre both have the same count
     [[nodiscard]] bool shares_a_drop(const kept_points& other) const {
         for (std::size_t w = 0; w < dropped_.size(); ++w)
             if ((dropped_[w] & other.dropped_[w]) != 0) return true;
         return false;
     }
 
-    /// Makes `number_of` answer for what is kept now.
+    /// Prepares `number_of` for the present set.
     void number() {
         dropped_before_.clear();
         dropped_before_.reserve(dropped_.size() / words_a_step + 1);
@@ -93,7 +93,7 @@ class kept_points {
             sum += count_ones(dropped_[w]);
         }
     }
-    /// Kept points ahead of `point`, from the lowest of all on.
+    /// The number of kept points from `first` up to `point`, exclusive.
     [[nodiscard]] std::uint64_t number_of(std::uint64_t point) const {
         point -= first_;
         const std::size_t last = point / 64;

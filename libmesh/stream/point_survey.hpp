@@ -47,15 +47,16 @@ void store(const point_survey& survey, state_writer& state);
 /// Loads a survey, without the sample.
 [[nodiscard]] point_survey load_survey(state_reader& state);
 
-/// Gives the points of a process to what it is called with, some at a time.
+/// Calls its argument with the points of the process, block by block.
 using pass_of_points = std::function<void(const std::function<void(points_view)>&)>;
 
-/// Those that `round_to_las` chooses for all points, those of each rank, in two passes or more.
+/// The scale and offset that `round_to_las` chooses for the points of all ranks, in two passes or
+/// more.
 [[nodiscard]] las_header las_grid_of(const pass_of_points& each, const communicator& all,
                                      const io::las_grid_wish& wish);
 
-/// Those that `round_to_las` chooses for all points, of which each rank reads its share twice,
-/// or more often where the first ones have fewer digits than later ones.
+/// The same for `points`, of which each rank reads its share twice, or more often if the first
+/// points have fewer digits than later ones.
 /// \throws io_error, cancelled
 [[nodiscard]] las_header las_grid_of(joined_points& points, const communicator& all,
                                      const share& mine, cancellable_progress& pace,

@@ -22,7 +22,7 @@
 
 namespace treeform::detail::stream {
 
-/// Numbers, points and texts, one after the other, each in a multiple of eight bytes.
+/// Writes numbers, points and texts, each padded to a multiple of eight bytes.
 class TREEFORM_API state_writer {
   public:
     void number(std::uint64_t n);
@@ -34,21 +34,21 @@ class TREEFORM_API state_writer {
     void point(const point3& p);
     void text(std::string_view s);
 
-    /// All that was put in, and a digest of it.
+    /// The serialized values, with their checksum.
     [[nodiscard]] std::string bytes() const;
 
   private:
     std::string bytes_{};
 };
 
-/// Gives back what was put in, in the same order.
+/// Reads the values in the order in which they were written.
 class TREEFORM_API state_reader {
   public:
     explicit state_reader(std::string bytes);
 
-    /// Whether the bytes are those of a `state_writer`, and nothing beyond them was asked for.
+    /// Whether the bytes are those of a `state_writer`, and no value beyond their end was read.
     [[nodiscard]] bool whole() const { return whole_; }
-    /// 0, or an empty text, when there is nothing left.
+    /// At the end, these return 0 or an empty text.
     [[nodiscard]] std::uint64_t number();
     [[nodiscard]] double real();
     [[nodiscard]] point3 point();
@@ -61,7 +61,7 @@ class TREEFORM_API state_reader {
     bool whole_ = false;
 };
 
-/// A number for all bytes given, that any change of them changes nearly always. Not for enemies.
+/// A checksum against accidental changes; not cryptographic.
 class TREEFORM_API digest {
   public:
     /// Adds bytes; their number must be a multiple of eight.

@@ -138,20 +138,20 @@ class row_sorter {
 
 class all_to_all {
   public:
-    /// Rows of `width` numbers. About `memory` bytes are held.
+    /// Rows have `width` numbers. Uses about `memory` bytes.
     all_to_all(const work_folder& folder, const communicator& all, std::string name,
                std::size_t width, std::uint64_t memory);
 
     void put(std::size_t to, numbers row) { to_[to].put(row); }
-    /// Hands over what was put. Collective: every rank must call this, once.
+    /// Sends the rows that were put. Collective: every rank must call this, once.
     void send();
-    /// What the process has been given by each, in the order of the ranks.
+    /// The rows that each rank sent to this one, by sender.
     [[nodiscard]] std::vector<row_reader> received() const;
-    /// What each has been given by each, in the order of those who were given it.
+    /// The rows that all ranks sent to all, by receiver, then by sender.
     [[nodiscard]] std::vector<row_reader> received_by_all() const;
-    /// Rows given to those of lower ranks.
+    /// Number of rows sent to lower ranks.
     [[nodiscard]] std::uint64_t rows_before() const;
-    /// The process has read what it was given.
+    /// Removes the files of received rows; call it after reading them.
     void remove_received() const;
 
   private:
@@ -164,10 +164,10 @@ class all_to_all {
     std::size_t width_;
     std::uint64_t memory_;
     std::vector<row_writer> to_{};
-    std::vector<std::vector<record_count>> counts_{};  ///< of what [a] has put for [b]
+    std::vector<std::vector<record_count>> counts_{};  ///< [a][b] rows that rank a sent to rank b
 };
 
-/// A `row_sorter` for each rank, of rows that any of it has for it.
+/// A `row_sorter` for each rank, of rows that any rank puts for it.
 class shared_sorter {
   public:
     shared_sorter(const work_folder& folder, const communicator& all, const std::string& name,
@@ -179,13 +179,13 @@ class shared_sorter {
         else
             sorter_.put(row);
     }
-    /// As that of a `row_sorter`; of equal keys, first those that came from lower ranks. All come
-    /// here the first time.
+    /// As `row_sorter::sorted`; rows with equal keys are ordered by the rank that put them. The
+    /// first call is collective.
     [[nodiscard]] row_merge sorted();
 
   private:
     row_sorter sorter_;
-    std::optional<all_to_all> exchanged_{};  ///< until they are sorted; none where one is alone
+    std::optional<all_to_all> exchanged_{};  ///< until rows are sorted; none for a single process
 };
 
 }  // namespace treeform::detail::stream

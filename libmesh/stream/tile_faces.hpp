@@ -128,15 +128,15 @@ class tile_faces {
     std::vector<point3> places_after_{};
 };
 
-/// Removes what a process that was killed while it gave back has not brought to an end.
+/// Removes unfinished outputs of a process that was killed while it wrote them.
 void remove_leftovers(const work_folder& folder);
 
-/// The last pass over the input: what is kept, and what else is asked for. `rows` stand for groups
-/// of several; null where their first points do. `faces` of a mesh that was
-/// welded; null for a cloud. Enters in `made` what was written.
+/// The last pass over the input: writes the kept points and the other requested outputs. `rows` are
+/// the kept rows of groups; null if their first points are kept. `faces` are those of a welded
+/// mesh; null for a cloud. Records in `made` what was written.
 ///
-/// \throws io_error, also where the input has changed meanwhile; cancelled;
-///         std::logic_error where points in are not points kept and points removed
+/// \throws io_error, also if the input changed meanwhile; cancelled; std::logic_error unless input
+///         points = kept + removed points
 void give_back(cancellable_progress& pace, const tile_task& task,
                const weld_stream_outputs& outputs, tile_steps& steps, tiles_welded& welded,
                kept_rows* rows, tile_faces* faces, const work_folder& folder,

@@ -32,9 +32,9 @@ using weld::asked_point;
 using weld::border_kind;
 using weld::border_point;
 
-/// What tiles leave to borders, as rows of five numbers and the values of the point: its tag, where
-/// it is, and one number more. A point that has a leader takes two, the second one for where that
-/// is.
+/// The rows that tiles leave to the border pass. A row has five numbers, namely the tag of a point,
+/// its coordinates and one more number, then the values of the point. A point with a leader has a
+/// second row, with the coordinates of the leader.
 inline constexpr std::size_t border_numbers = 5;
 using border_row = std::array<std::uint64_t, border_numbers>;
 
@@ -56,7 +56,7 @@ using border_row = std::array<std::uint64_t, border_numbers>;
     return b.kind() == border_kind::provisional || b.kind() == border_kind::link;
 }
 
-/// Returns the number of rows.
+/// Writes the rows of a point, and returns their number.
 inline std::uint64_t put_rows(const border_point& b, numbers values, row_writer& to) {
     to.put(row_of(b.tag, b.at, b.leader));
     to.put(values);
@@ -66,7 +66,7 @@ inline std::uint64_t put_rows(const border_point& b, numbers values, row_writer&
     return 2;
 }
 
-/// Goes on to the last row of the front's point. \pre not empty
+/// Reads the point at the front, and advances to its last row. \pre not empty
 template <class Rows>  // row_reader or row_merge
 [[nodiscard]] border_point take_rows(Rows& rows) {
     const numbers row = rows.front();

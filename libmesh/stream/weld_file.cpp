@@ -72,10 +72,10 @@ class rejoiner {
     std::vector<std::uint32_t> first_triangle_{};  ///< of each face
 };
 
-/// Puts neighboring triangles of one polygon together that still are a fan, and leaves those that
-/// are not, or that would repeat a corner which `unlike_corners` forbids, as faces of their own.
-/// The row of a polygon is that of its first triangle. The reverse of `mesh_file::split_polygons`
-/// when nothing has changed in between.
+/// Joins consecutive triangles of one polygon that still form a fan. Triangles that do not, or that
+/// would repeat a corner although `unlike_corners` is set, stay separate faces. The row of a
+/// polygon is that of its first triangle. The inverse of `mesh_file::split_polygons` if nothing
+/// changed in between.
 ///
 /// \pre `polygon` is [F], ascending; "face" has a row a triangle
 void rejoin_polygons(mesh_file& file, std::span<const std::uint32_t> polygon, bool unlike_corners) {

@@ -43,18 +43,17 @@ void renumber(column& c, std::size_t begin, std::size_t end, std::uint64_t point
 /// result.
 [[nodiscard]] attributes carry_rows(const attributes& properties, const weld_result& welded);
 
-/// The least double that is no less than the distance of any point from the place of its group;
-/// infinity beyond the doubles. Points that are at their place bit for bit need not be finite.
+/// The least double that is not below the distance of any point from the position of its group;
+/// infinity on overflow. Points that bitwise equal that position need not be finite.
 [[nodiscard]] double max_displacement(points_view points,
                                       std::span<const std::uint32_t> group_of_point,
                                       points_view places);
 
-/// Whether the normal of a triangle points away from the one it had, decided exactly. Not where it
-/// has or had no area, or a corner that is not finite.
+/// Whether the normals of a triangle before and after point in opposite directions (negative dot
+/// product), decided exactly. False if either triangle has no area or a corner that is not finite.
 [[nodiscard]] bool is_flipped(const plane_points& before, const plane_points& after);
 
-/// Faces of `after` whose normal points away from the one they had; face i was
-/// `before.faces[face_of_new[i]]`.
+/// Number of flipped faces of `after`; face i was `before.faces[face_of_new[i]]`.
 [[nodiscard]] std::uint64_t count_flipped(mesh_view before, mesh_view after,
                                           std::span<const std::uint32_t> face_of_new);
 

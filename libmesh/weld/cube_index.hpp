@@ -76,7 +76,7 @@ class cube_axis {
     return h * 0xd1342543de82ef95;
 }
 
-/// Numbers by hash: open addressing, grown as they come.
+/// Numbers by hash, with open addressing; grows on demand.
 class hashed_ids {
   public:
     hashed_ids() : slots_(256, empty) {}
@@ -88,7 +88,7 @@ class hashed_ids {
         ++used_;
     }
 
-    /// Calls `visit(id)` for the numbers added with that hash, and now and then for others.
+    /// Calls `visit_id(id)` for the numbers added with that hash, and sometimes for others.
     template <class Visit>
     void visit(std::uint64_t hash, const Visit& visit_id) const {
         const auto tag = static_cast<std::uint32_t>(hash);

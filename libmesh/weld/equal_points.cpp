@@ -24,15 +24,15 @@ namespace {
 
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 
-/// Equal coordinates have equal bits once -0 is made +0, on which no processor mode has a say: one
-/// that flushes denormals would take distinct ones for equal.
+/// The bits of x, with -0 as +0: equal if and only if the coordinates are. Independent of processor
+/// modes: a comparison that flushes denormals would take different ones for equal.
 std::uint64_t coordinate_bits(double x) {
     const auto bits = std::bit_cast<std::uint64_t>(x);
     return bits << 1 == 0 ? 0 : bits;
 }
 
-/// A product by an odd number carries low bits up, the shift carries high ones down: coordinates
-/// that were floats differ in their high bits only. Each step is a bijection of what came before.
+/// Multiplication by an odd number propagates low bits up, and the shift propagates high bits down:
+/// coordinates converted from floats differ in their high bits only. Each step is a bijection.
 std::uint32_t hash_of(const point3& p, std::uint32_t label = 0) {
     std::uint64_t h = 0x243f6a8885a308d3 + label;
     for (const double x : {p.x, p.y, p.z}) {

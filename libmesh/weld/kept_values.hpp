@@ -28,13 +28,13 @@ class running_mean {
         high_ = std::max(high_, value);
     }
 
-    /// \pre one value at least
+    /// \pre at least one value was added
     [[nodiscard]] double value() const {
         const auto count = static_cast<double>(count_);
         const double direct = first_ + sum_ / count;
         const double result =
             std::isfinite(direct) ? direct : (first_ * scale + scaled_sum_ / count) / scale;
-        // With an infinity among the values this is NaN, or infinite.
+        // NaN or infinite if one of the values is infinite.
         const bool finite = std::isfinite(low_) && std::isfinite(high_) && !std::isnan(result);
         return finite ? std::clamp(result, low_, high_) : std::numeric_limits<double>::quiet_NaN();
     }
@@ -50,23 +50,23 @@ class running_mean {
     double high_ = -std::numeric_limits<double>::infinity();
 };
 
-/// [V] the points in the order that `options` asks for, or empty for that of their numbers.
+/// [V] The points in the order requested by `options`; empty: by number.
 ///
 /// \throws std::invalid_argument as `weld`
 [[nodiscard]] std::vector<std::uint32_t> points_in_order(points_view points,
                                                          const attributes& properties,
                                                          const weld_options& options);
 
-/// As `find_groups` of the points in `order`, which is not empty unless they are; in terms of the
-/// points as they are numbered.
+/// Like `find_groups` with the points processed in `order`, which is empty only without points. The
+/// result refers to the original point numbers.
 [[nodiscard]] point_groups find_groups_in_order(const char* called, points_view points,
                                                 const weld_options& options,
                                                 std::span<const std::uint32_t> order);
 
-/// Makes the earliest point of each group in `order` its first.
+/// Makes the point of each group that is earliest in `order` its first point.
 void put_earliest_first(std::span<const std::uint32_t> order, point_groups& groups);
 
-/// [G] the point that gives its properties.
+/// [G] The point whose properties each group keeps.
 ///
 /// \throws std::invalid_argument when `options.keep_by` is set but names no property
 [[nodiscard]] std::vector<std::uint32_t> kept_points(points_view points,

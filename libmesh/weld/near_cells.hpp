@@ -226,10 +226,10 @@ class near_cells {
     std::size_t met_ = 0;
 };
 
-/// The cubes near some points, a bit for each, which it shares with others now and then.
+/// A Bloom filter of the cubes near given points: one bit for each cube, sometimes shared.
 class near_places {
   public:
-    /// For about `count` points.
+    /// Sized for about `count` points.
     near_places(double reach, std::size_t count)
         : cubes_(reach), bits_(std::bit_ceil(count / 4 + 1), 0) {
         // To two times the least edge: most intervals meet one cube then.
@@ -242,7 +242,7 @@ class near_places {
             bits_[word(h)] |= bit(h);
         });
     }
-    /// False only where none of the points is within reach.
+    /// False only if none of the points is within reach of `p`.
     [[nodiscard]] bool may_have(const point3& p) const {
         const auto cube = cubes_.of(p);
         const std::uint64_t h = cube_map::hash(cube[0], cube[1], cube[2]);

@@ -61,9 +61,9 @@ class reach {
     double square_;
 };
 
-/// Cubes whose points are all within the tolerance of each other: their diagonal is less than it
-/// (except where rounding makes a denormal width larger). Points within the tolerance are at most
-/// two cubes apart along each axis.
+/// Number of cube edges in a tolerance, such that all points in a cube are within the tolerance of
+/// each other: the diagonal of a cube is less than it (except where rounding makes a denormal width
+/// larger). Points within the tolerance are at most two cubes apart along each axis.
 inline constexpr double cubes_per_tolerance = 1.7321 * (1.0 + 0x1p-10);
 
 /// \throws std::invalid_argument naming the function `called`
@@ -73,8 +73,8 @@ inline void check_tolerance(const char* called, double tolerance) {
                                     ": the tolerance must be finite and not negative");
 }
 
-/// The nearest of the points met, the lowest of equally near ones: how the rule `first` decides,
-/// wherever it does (over lists of pairs, over cubes, in tiles and along their borders).
+/// The nearest of the points considered; ties: the lowest number. Every implementation of the rule
+/// `first` uses it (lists of pairs, cubes, tiles and their borders).
 class nearest_kept {
   public:
     explicit nearest_kept(const point3& p) : p_(p) {}
@@ -89,7 +89,7 @@ class nearest_kept {
         id_ = id;
         at_ = at;
     }
-    /// Whether that point is nearer than the one found. \pre any()
+    /// Whether the given point is preferred to the current nearest one. \pre any()
     [[nodiscard]] bool precedes(std::uint64_t id, const point3& at) const {
         const int order = reach::compare(p_, at, at_);
         return order < 0 || (order == 0 && id < id_);

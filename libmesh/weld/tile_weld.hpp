@@ -82,12 +82,13 @@ namespace treeform::detail::weld {
 class number_slices {
   public:
     static constexpr std::size_t bundles = 64;
-    /// Smaller slices save little memory, and more points lie where two of them meet.
+    /// Smaller slices save little memory, and more points have neighbors in other slices.
     static constexpr unsigned bits_of_slice = 15;
 
     number_slices() = default;
-    /// Cuts the numbers below `count` into 64 bundles at most. A bundle of more than
-    /// `1 << least_bits` numbers is cut into slices of at least as many; there are 1024 at most.
+    /// Divides the numbers below `count` into at most 64 bundles. A bundle of more than `1 <<
+    /// least_bits` numbers is divided into slices of at least that many; there are at most 1024
+    /// slices.
     explicit number_slices(std::uint64_t count, unsigned least_bits = bits_of_slice)
         : bundle_bits_(bits_for(count, 6)),
           slice_bits_(std::min(bundle_bits_, std::max(least_bits, bits_for(count, 10)))) {}
@@ -98,7 +99,7 @@ class number_slices {
     [[nodiscard]] std::size_t bundle_of(std::uint64_t number) const {
         return static_cast<std::size_t>(number >> bundle_bits_);
     }
-    /// The first number of a slice, or of a bundle.
+    /// The first number of a slice; `bundle_begin`: of a bundle.
     [[nodiscard]] std::uint64_t slice_begin(std::uint64_t slice) const {
         return slice << slice_bits_;
     }
@@ -106,26 +107,27 @@ class number_slices {
         return bundle << bundle_bits_;
     }
 
-    /// The number's bundle alone.
+    /// The set with the bundle of `number` only.
     [[nodiscard]] std::uint64_t bit_of(std::uint64_t number) const {
         return std::uint64_t{1} << bundle_of(number);
     }
     [[nodiscard]] static bool has(std::uint64_t set, std::size_t bundle) {
         return (set >> bundle & 1) != 0;
     }
-    /// The bundles of a set that have a slice after the first one of `bundle`.
+    /// The bundles in `set` that have a slice after the first slice of `bundle`.
     [[nodiscard]] std::uint64_t after(std::size_t bundle, std::uint64_t set) const {
         return bundle_bits_ > slice_bits_ ? set >> bundle << bundle
                                           : set >> bundle >> 1 << bundle << 1;
     }
-    /// The bundles of a set that have a slice at or after `number`, where a slice begins.
+    /// The bundles in `set` that have a slice at or after `number`, which is the first number of a
+    /// slice.
     [[nodiscard]] std::uint64_t from(std::uint64_t number, std::uint64_t set) const {
         const std::size_t bundle = bundle_of(number);
         return bundle < bundles ? set >> bundle << bundle : 0;
     }
 
   private:
-    /// Of a part, when there are at most `1 << part_bits` of them.
+    /// Bits of a number within a part, for at most `1 << part_bits` parts.
     [[nodiscard]] static unsigned bits_for(std::uint64_t count, unsigned part_bits) {
         return static_cast<unsigned>(
             std::bit_width((std::max<std::uint64_t>(count, 1) - 1) >> part_bits));
@@ -135,7 +137,7 @@ class number_slices {
     unsigned slice_bits_ = 63;
 };
 
-/// What a point is to a tile.
+/// The role of a point in a tile.
 enum class tile_role : std::uint8_t {
     own,     ///< in the tile's part of space, and in no halo
     shared,  ///< in the tile's part of space, and in the halo of others
@@ -317,9 +319,9 @@ class TREEFORM_API border_weld {
 
 /// The component of a point inside a tile.
 struct chain_component {
-    std::uint64_t lowest;  ///< its lowest number
-    point3 at;             ///< and where that point is
-    bool elsewhere;        ///< some of its points are in other tiles, too
+    std::uint64_t lowest;  ///< its lowest point number
+    point3 at;             ///< coordinates of that point
+    bool elsewhere;        ///< some of its points are also in other tiles
 };
 
 inline void settle_in_chain(const tile_point& p, const chain_component& c, tile_result& out) {

@@ -19,14 +19,14 @@ namespace treeform::detail::weld {
 /// \throws std::invalid_argument of `weld`, always
 [[noreturn]] void refuse(const std::string& why);
 
-/// The columns that `options.keep_by` and `options.order_by` stand for.
-/// \throws weld_property_error when it stands for none, for several, or for one of lists
+/// The columns that `options.keep_by` and `options.order_by` name.
+/// \throws weld_property_error when the name matches no column, several columns, or a list column
 [[nodiscard]] std::string column_to_keep_by(const attributes& properties,
                                             const weld_options& options);
 [[nodiscard]] std::string column_to_order_by(const attributes& properties,
                                              const weld_options& options);
 
-/// Whether values with these ascending keys agree, as `vertex_values::agree` says.
+/// Whether values with these ascending keys agree, as in `vertex_values::agree`.
 [[nodiscard]] bool keys_agree(bool whole, std::uint64_t a, std::uint64_t b, double tolerance);
 
 class vertex_values {
@@ -66,29 +66,29 @@ class vertex_values {
     buffer<std::uint64_t> whole_;
 };
 
-/// What the values of two points must have in common. A value is the ascending key of a
-/// `vertex_values`; the values of a point are consecutive.
+/// The conditions that the values of two points must fulfill to be merged. A value is the ascending
+/// key of a `vertex_values`; the values of a point are contiguous.
 class TREEFORM_API agreement {
   public:
     struct condition {
-        bool whole = false;      ///< the key is of a whole number of 64 bits
+        bool whole = false;      ///< the key is that of a 64-bit integer
         double tolerance = 0.0;  ///< as in `weld_condition`
     };
     agreement() = default;
     explicit agreement(std::vector<condition> conditions);
 
-    /// Values that a point has.
+    /// Number of values of a point.
     [[nodiscard]] std::size_t size() const { return conditions_.size(); }
-    /// Whether points that agree with one point agree with each other.
+    /// Whether agreement is transitive: true if all tolerances are 0.
     [[nodiscard]] bool is_transitive() const { return transitive_; }
 
-    /// \pre `size()` values at both places
+    /// Whether the two points agree. \pre `a` and `b` point to `size()` values
     [[nodiscard]] bool holds(const std::uint64_t* a, const std::uint64_t* b) const;
     /// Whether all values are the same.
     [[nodiscard]] bool same(const std::uint64_t* a, const std::uint64_t* b) const;
-    /// Equal for points that agree, and mostly different for others.
+    /// A hash: equal for points that agree, and usually different for others.
     [[nodiscard]] std::uint64_t salt(const std::uint64_t* values) const;
-    /// Equal numbers for rows whose values that have to be equal are.
+    /// One label for each row of values; equal if all values with a tolerance of 0 are equal.
     [[nodiscard]] std::vector<std::uint32_t> labels(std::span<const std::uint64_t> rows) const;
 
   private:

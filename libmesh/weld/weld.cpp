@@ -52,11 +52,13 @@ std::vector<std::uint32_t> refine(std::size_t count, std::span<const std::uint32
     return find_equal_points(keys.span()).group_of_point;
 }
 
-/// Conditions as labels, for those of tolerance 0, and as questions, for the others.
+/// Conditions with a tolerance of 0 become labels; the others become a predicate on pairs of
+/// points.
 class conditions {
   public:
-    /// `asked` are on single columns and stand for `same` of `options`, whose `label` must live as
-    /// long as this. `takes_part` is [V], 0 for points that stay alone, or empty.
+    /// `asked` replaces `options.same`, with one condition for each column. `options.label` must
+    /// outlive this object. `takes_part` is [V], 0 for points that are never merged; empty: all may
+    /// be.
     ///
     /// \throws std::invalid_argument as `weld`
     conditions(points_view points, const attributes& properties, const weld_options& options,
@@ -93,7 +95,7 @@ class conditions {
         if (!equal.empty() || (label_.empty() && !takes_part.empty())) refine_by_columns();
     }
 
-    /// \pre this stays where it is while the options are used
+    /// \pre the object is not moved while the options are in use
     [[nodiscard]] weld_options options() const {
         weld_options options = given_;
         if (!label_.empty()) options.label = label_;
@@ -114,7 +116,7 @@ class conditions {
     };
 
     weld_options given_;
-    std::vector<std::uint32_t> label_;  ///< [V], or empty when what was given is all there is
+    std::vector<std::uint32_t> label_;  ///< [V]; empty: use the given labels
     std::vector<question> questions_;
 };
 

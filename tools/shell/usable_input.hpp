@@ -27,8 +27,8 @@ inline void check_arrangeable(const std::string& name, const tf::mesh& mesh) {
                 if (std::abs(mesh.points[corner][k]) > 0x1p1000)
                     throw failure(bad_input, "too-large",
                                   name + ": triangle " + std::to_string(f) +
-                                      " has a coordinate beyond 2^1000, some 1e301, too large to "
-                                      "be cut; scale the mesh down");
+                                      " has a coordinate beyond 2^1000 (about 1e301), which is too "
+                                      "large; scale the mesh down");
 }
 
 /// A file, and its triangles that can be computed with.
