@@ -71,8 +71,9 @@ void keep_first(std::vector<std::uint32_t>& faces, std::size_t limit) {
     if (faces.size() > limit) faces.resize(limit);
 }
 
-/// Regions by their first pair; see `contact_region`. Corners of one number are one point.
-/// \pre `pairs` are of faces of `a` and `b`, ascending
+/// Regions in the order of their first pairs; see `contact_region`. Corners with the same number
+/// are the same point.
+/// \pre `pairs` are pairs of a face of `a` and a face of `b`, ascending
 std::vector<contact_region> regions_of(mesh_view a, mesh_view b, std::span<const face_pair> pairs,
                                        std::size_t limit) {
     base::union_find sets(pairs.size());

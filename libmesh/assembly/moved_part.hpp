@@ -15,16 +15,17 @@
 
 namespace treeform::detail::assembly {
 
-/// The box of the points that faces use, by part; none without faces.
+/// [parts] The box of the points that faces use; empty without faces.
 [[nodiscard]] std::vector<std::optional<box3>> boxes_of(std::span<const prepared_mesh> parts);
 
-/// Pairs of parts whose boxes are within `distance` of each other along each axis; ascending, the
-/// lower number first.
+/// Pairs of parts whose boxes are within `distance` of each other along each axis; ascending, each
+/// with the lower number first.
 [[nodiscard]] std::vector<part_pair> near_pairs(const std::vector<std::optional<box3>>& boxes,
                                                 double distance);
 
-/// The pairs, ascending, each once, the lower number first.
-/// \throws std::invalid_argument for a number of `count` or more; `function` is "clash"
+/// The pairs in ascending order, without duplicates, each with the lower number first.
+/// \throws std::invalid_argument, naming `function` (for example "clash"), for a number not less
+///         than `count`
 [[nodiscard]] std::vector<part_pair> sorted_pairs(const char* function,
                                                   std::span<const part_pair> pairs,
                                                   std::size_t count);

@@ -65,10 +65,11 @@ struct chunk {
     std::uint32_t bytes = 0;
 };
 
-/// The chunks of a table that `packed` begins with: a version, the number of chunks, and their
-/// compressed sizes. Where sizes vary, `points` of each are in the table; else they are 0 here.
+/// Reads the chunk table at the beginning of `packed`: a version, the number of chunks, and their
+/// compressed sizes. With `sizes_vary`, the table also has the number of points of each chunk;
+/// otherwise `points` is 0.
 ///
-/// `most` is how many chunks there can be: a table that says more is damaged.
+/// `most` is the maximum number of chunks; a table with more is damaged.
 ///
 /// \throws damaged
 [[nodiscard]] std::vector<chunk> read_chunk_table(std::span<const std::uint8_t> packed,

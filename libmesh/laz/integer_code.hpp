@@ -33,7 +33,7 @@ inline void put64(std::uint8_t* p, std::uint64_t x) {
     base::store<std::endian::little>(reinterpret_cast<char*>(p), x);
 }
 
-/// Sums and differences of 32 bits go around.
+/// 32-bit sums and differences, which wrap around.
 [[nodiscard]] inline std::int32_t sum(std::int32_t a, std::int32_t b) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
 }

@@ -19,7 +19,7 @@
 
 namespace treeform::detail::laz {
 
-/// Of up to 7 returns: the valid combinations have numbers of their own up to four returns.
+/// For up to 7 returns: up to four returns, each valid combination has its own number.
 [[nodiscard]] inline unsigned return_map(unsigned returns, unsigned number) {
     static constexpr std::array<std::array<std::uint8_t, 8>, 8> map{{
         {15, 14, 13, 12, 11, 10, 9, 8},
@@ -34,7 +34,7 @@ namespace treeform::detail::laz {
     return map[returns][number];
 }
 
-/// Of up to 15 returns: six contexts.
+/// For up to 15 returns: six contexts.
 [[nodiscard]] inline unsigned return_map_of_six(unsigned returns, unsigned number) {
     static constexpr std::array<std::array<std::uint8_t, 16>, 16> map{{
         {0, 1, 2, 3, 4, 5, 3, 4, 4, 5, 5, 5, 5, 5, 5, 5},
@@ -57,13 +57,13 @@ namespace treeform::detail::laz {
     return map[returns][number];
 }
 
-/// How far a return is from the last one of its pulse; at most 7.
+/// The distance of a return to the last one of its pulse, at most 7.
 [[nodiscard]] inline unsigned return_level(unsigned returns, unsigned number) {
     return std::min(returns > number ? returns - number : number - returns, 7u);
 }
 
-/// Five numbers in order. Each new one pushes out the largest or the smallest, in turn. (When it
-/// lies on the other side of the median, it is the other end's turn once more.)
+/// Five sorted numbers. Each new number replaces the largest or the smallest one. Which of them is
+/// replaced switches after a new number on the side of the median that lost one.
 class median5 {
   public:
     [[nodiscard]] std::int32_t get() const { return sorted_[2]; }
@@ -89,7 +89,7 @@ class median5 {
     bool drop_largest_ = true;
 };
 
-/// Contexts that are few where most data have few different values: models take memory when used.
+/// Models of contexts. They allocate memory on first use, and most data use few of them.
 [[nodiscard]] inline std::vector<symbol_model> models(std::size_t count, unsigned symbols) {
     return std::vector<symbol_model>(count, symbol_model(symbols));
 }

@@ -20,7 +20,7 @@
 
 namespace treeform::detail::laz {
 
-/// A layer that is read: without a coder, everything in it is as it was.
+/// A layer that is read. Without a coder, its value never changes.
 class layer_reader {
   public:
     static constexpr bool writes = false;
@@ -38,16 +38,16 @@ class layer_reader {
     std::optional<decoder> coder_{};
 };
 
-/// A layer that is written: it is there for as long as nobody knows better.
+/// A layer that is written. It is always encoded, but `finish` omits it if nothing changed.
 class layer_writer {
   public:
     static constexpr bool writes = true;
 
     [[nodiscard]] static bool is_there() { return true; }
     [[nodiscard]] encoder& coder() { return coder_; }
-    /// Something in it changed, if `changed`.
+    /// Records whether the value changed.
     void says(bool changed) { changed_ = changed_ || changed; }
-    /// Its bytes; none where nothing changed.
+    /// The bytes of the layer; empty if nothing changed.
     [[nodiscard]] std::vector<std::uint8_t> finish() {
         return changed_ ? coder_.finish() : std::vector<std::uint8_t>{};
     }
