@@ -95,9 +95,9 @@ RESULTS = [
                              "length": "Length of the polyline."},
            custom={"first_point": [
                Attribute("points", "Floats", "(n, 2) in the plane of the section; the first is not "
-                         "repeated.", "part_of<double>(whole.points, from)"),
+                         "repeated.", "part_of(whole.points, from)"),
                Attribute("faces", "Ids", "(n,) the face in which the segment after each point "
-                         "begins.", "part_of<std::uint32_t>(whole.faces, from)")],
+                         "begins.", "part_of(whole.faces, from)")],
                "point_count": [],
                "parent": [Attribute("parent", "int | None", "Number of the innermost loop of the "
                                     "layer around this one; None if there is none.",
@@ -120,7 +120,7 @@ RESULTS = [
                           "for a solid.", "layers", "one.open_count")],
                "points": [Attribute("points", "Floats", "(P, 2) points of all loops, one after the "
                                     "other: (x . p, y . p) for p in space.",
-                                    "as_array<double>(std::vector(from.points))")],
+                                    "as_array(std::vector(from.points))")],
                "faces": [Attribute("faces", "Ids", "(P,) the face in which the segment after each "
                                    "point begins.", "as_array(std::vector(from.faces))")],
                "loops": [],
@@ -210,7 +210,7 @@ RESULTS = [
            docs={"format": "'stl-binary', 'ply-ascii', 'obj', ...",
                  "precision": "Precision of the written coordinates: 'float32' or 'float64'."},
            custom={"warnings": [Attribute("warnings", "list[str]", "Remarks about the file.",
-                                          "texts_of(from.warnings)")]}),
+                                          "list_of(from.warnings, &tf::io_warning::text)")]}),
     # _robots
     Result("urdf_joint", "Joint", "_robots", "NamedTuple", context="robot",
            leave="origin axis mimics mimic_line", doc="A joint of two links.",

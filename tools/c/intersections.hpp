@@ -111,7 +111,7 @@ inline std::vector<std::uint32_t> shared_search_unfinished(tf::shared_search& se
 
 /// Searches a tile, unless it is finished. Each process calls it for its share of the tiles.
 inline void shared_search_tile(tf::shared_search& search, std::size_t tile) {
-    check(search.shared_search_tile(tile));
+    check(search.search_tile(tile));
 }
 
 /// Combines the results of all tiles; an error unless all tiles are finished. A step that is called

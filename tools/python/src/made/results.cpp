@@ -42,8 +42,8 @@ py::object object(of_result, tf::boolean_result&& from, const carrying& attribut
 
 py::object object(of_result, tf::section_loop&& from, const tf::section_result& whole) {
     py::dict made;
-    made["points"] = part_of<double>(whole.points, from);
-    made["faces"] = part_of<std::uint32_t>(whole.faces, from);
+    made["points"] = part_of(whole.points, from);
+    made["faces"] = part_of(whole.faces, from);
     made["closed"] = as_python(std::move(from.closed));
     made["oriented"] = as_python(std::move(from.oriented));
     made["parent"] = parent_of(whole, from);
@@ -60,7 +60,7 @@ py::object object(of_result, tf::section_result&& from) {
     made["areas"] = column(from.layers, [](const auto& one) { return one.area; });
     made["lengths"] = column(from.layers, [](const auto& one) { return one.length; });
     made["open_counts"] = column(from.layers, [](const auto& one) { return one.open_count; });
-    made["points"] = as_array<double>(std::vector(from.points));
+    made["points"] = as_array(std::vector(from.points));
     made["faces"] = as_array(std::vector(from.faces));
     made["axes"] = as_python(std::move(from.axes));
     made["_data"] = py::cast(std::move(from));
@@ -290,7 +290,7 @@ py::object object(of_result, tf::write_result&& from) {
     made["format"] = as_python(std::move(from.format));
     made["precision"] = as_python(std::move(from.written_as));
     made["max_displacement"] = as_python(std::move(from.max_displacement));
-    made["warnings"] = texts_of(from.warnings);
+    made["warnings"] = list_of(from.warnings, &tf::io_warning::text);
     return object_of("treeform._files", "Written", made);
 }
 
