@@ -305,6 +305,14 @@ def select_faces(mesh, polygons):
 
 # ---- what the operators do ----
 
+def have_values(operands, objects):
+    """Whether faces have UVs, or differ in material or shading: merged faces would lose these."""
+    looks = {(slots[min(material, len(slots) - 1)], smooth)
+             for one, slots in zip(operands, map(materials_of, objects))
+             for material, smooth in zip(one.material.tolist(), one.smooth.tolist())}
+    return any(one.uvs for one in operands) or len(looks) > 1
+
+
 def combine(context, operation, active, others, progress=None):
     """Performs a set operation, and stores its certified result in `active`, in its space."""
     changeable(active)
@@ -312,7 +320,8 @@ def combine(context, operation, active, others, progress=None):
     operands = [triangles_as_seen(context, one, matrix_between(one, active)) for one in objects]
     try:
         made = getattr(treeform, operation)(*(one.arrays() for one in operands),
-                                            precision="float32", progress=progress)
+                                            precision="float32", progress=progress,
+                                            keep_cuts=have_values(operands, objects))
     except treeform.NotSolidError as error:
         names = " and ".join(objects[k].name for k in np.unique(error.faces[:, 0]))
         raise Refused(f"Not closed, {error.certificate.open_count} open edges: {names}. "
@@ -336,9 +345,8 @@ def mend(context, object, sheet=False, progress=None):
     """Repairs an object; None if there was nothing to do."""
     changeable(object)
     before = triangles_as_seen(context, object)
-    mixes = bool(before.uvs) or len(set(zip(before.material, before.smooth))) > 1
-    made = treeform.repair(before.arrays(), sheet=sheet, precision="float32", keep_cuts=mixes,
-                           progress=progress)
+    made = treeform.repair(before.arrays(), sheet=sheet, precision="float32", progress=progress,
+                           keep_cuts=have_values([before], [object]))
     if np.array_equal(made.faces, before.faces) and np.array_equal(made.vertices, before.vertices):
         return None
     sources = [np.stack([np.zeros_like(one), one], axis=1)
