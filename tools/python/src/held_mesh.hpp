@@ -57,7 +57,7 @@ class held_mesh {
 
 using held_meshes = std::vector<const held_mesh*>;
 
-[[nodiscard]] inline tf::mesh_refs refs_of(const held_meshes& meshes) {
+[[nodiscard]] inline auto refs_of(const held_meshes& meshes) {
     return list_of(meshes, &held_mesh::ref);
 }
 [[nodiscard]] inline auto borrowed(const held_meshes& meshes) {
