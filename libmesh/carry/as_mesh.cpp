@@ -66,19 +66,10 @@ void join_points(usable_mesh& part, const part_options& options) {
 std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh) {
     const std::vector<std::uint32_t> unusable = unusable_faces(find_defects(mesh));
     if (unusable.empty()) return {};
-    std::vector<std::uint32_t> number_before;
-    std::size_t kept = 0;
-    auto next = unusable.begin();
-    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-        if (next != unusable.end() && *next == f) {
-            ++next;
-            continue;
-        }
-        mesh.faces[kept++] = mesh.faces[f];
-        number_before.push_back(f);
-    }
-    mesh.faces.resize(kept);
-    return number_before;
+    std::vector<std::uint32_t> kept = all_but(mesh.faces.size(), unusable);
+    for (std::size_t f = 0; f < kept.size(); ++f) mesh.faces[f] = mesh.faces[kept[f]];
+    mesh.faces.resize(kept.size());
+    return kept;
 }
 
 prepared_mesh::prepared_mesh(usable_mesh&& owned) : prepared_mesh(std::move(owned.mesh)) {}

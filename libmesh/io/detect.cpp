@@ -69,12 +69,6 @@ void refuse_unless_text(const source& in) {
     in.fail("E57 is not supported; convert it first with PDAL: pdal translate in.e57 out.laz");
 }
 
-[[noreturn]] void refuse_ptx(const source& in) {
-    in.fail(
-        "PTX is not supported, since each scan has its own transform; convert it first with "
-        "CloudCompare: CloudCompare -O in.ptx -C_EXPORT_FMT LAS -SAVE_CLOUDS");
-}
-
 [[nodiscard]] std::optional<detected> by_magic(const source& in, std::string_view extension) {
     text t(in);
     if (t.starts_with("ply\n") || t.starts_with("ply\r") || t.starts_with("ply "))
@@ -162,7 +156,10 @@ detected detect(const source& in, std::string_view format, std::string_view exte
         return {file_kind::las};
     }
     if (wanted == "e57") refuse_e57(in);
-    if (wanted == "ptx") refuse_ptx(in);
+    if (wanted == "ptx")
+        in.fail(
+            "PTX is not read, since each scan has its own transform; write it as LAS or PTS "
+            "first, with CloudCompare: CloudCompare -O in.ptx -C_EXPORT_FMT LAS -SAVE_CLOUDS");
     if (wanted == "stl") return is_binary_stl(in) ? detected{file_kind::stl_binary} : stl_kind(in);
     if (const auto kind = text_kind(wanted)) {
         refuse_unless_text(in);

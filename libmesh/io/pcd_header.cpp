@@ -24,20 +24,10 @@ struct declared_field {
 };
 
 [[nodiscard]] std::optional<scalar_type> type_of(const declared_field& f) {
-    constexpr std::array<std::pair<const char*, scalar_type>, 10> types{{
-        {"I1", scalar_type::int8},
-        {"U1", scalar_type::uint8},
-        {"I2", scalar_type::int16},
-        {"U2", scalar_type::uint16},
-        {"I4", scalar_type::int32},
-        {"U4", scalar_type::uint32},
-        {"I8", scalar_type::int64},
-        {"U8", scalar_type::uint64},
-        {"F4", scalar_type::float32},
-        {"F8", scalar_type::float64},
-    }};
-    for (const auto& [name, type] : types)
-        if (f.kind == name[0] && f.size == static_cast<std::size_t>(name[1] - '0')) return type;
+    const std::string wanted = f.kind + std::to_string(f.size);
+    for (int t = 0; t <= static_cast<int>(scalar_type::float64); ++t)
+        if (type_and_size(static_cast<scalar_type>(t)) == wanted)
+            return static_cast<scalar_type>(t);
     return std::nullopt;
 }
 

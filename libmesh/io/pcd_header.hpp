@@ -8,7 +8,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace treeform::detail::io {
@@ -21,8 +23,16 @@ enum class pcd_encoding : std::uint8_t { ascii, binary, compressed };
     return names[static_cast<std::size_t>(encoding)];
 }
 
-/// The position of a column's value in its row; and in a compressed file, in which the values of
-/// each field are contiguous: earlier fields have `fields_ahead` bytes for each point.
+/// "F4", "U1", ...
+[[nodiscard]] inline std::string type_and_size(scalar_type type) {
+    return with_type(type, []<class T>(T) {
+        const char kind = std::is_floating_point_v<T> ? 'F' : std::is_signed_v<T> ? 'I' : 'U';
+        return kind + std::to_string(sizeof(T));
+    });
+}
+
+/// Where the value of a column stands in its row, and in the blocks of a compressed file, where the
+/// values of a field follow one another: `fields_ahead` bytes a point are those of earlier fields.
 struct pcd_place {
     std::size_t in_row = 0;
     std::size_t fields_ahead = 0;

@@ -80,29 +80,6 @@ std::array<point3, 3> corners_of(const char* facet) {
     return corners;
 }
 
-/// The 16 bits after each facet, kept only when one of them is not zero.
-class facet_bits {
-  public:
-    void add(const std::array<std::uint16_t, block>& bits, std::size_t count, std::uint32_t any) {
-        if (any != 0 && !used_) {
-            used_ = true;
-            bits_.assign(seen_, 0);
-        }
-        if (used_) bits_.insert(bits_.end(), bits.begin(), bits.begin() + static_cast<long>(count));
-        seen_ += count;
-    }
-    void store(mesh_file& file) const {
-        if (used_)
-            file.attributes.find_or_add("face", file.stored_faces)
-                .columns.push_back(column::of<std::uint16_t>(bits_name, bits_));
-    }
-
-  private:
-    bool used_ = false;
-    std::size_t seen_ = 0;
-    std::vector<std::uint16_t> bits_{};
-};
-
 }  // namespace
 
 mesh_file read_stl_binary(const source& in) {
@@ -110,18 +87,17 @@ mesh_file read_stl_binary(const source& in) {
     const auto count = static_cast<std::uint32_t>(file.stored_faces);
     reserve_large(file.mesh.points, std::size_t{count} * 3);
     reserve_large(file.mesh.faces, count);
-    facet_bits bits;
     std::array<point3, 3 * block> corners;
-    std::array<std::uint16_t, block> attribute{};
+    std::vector<std::uint16_t> bits;  // behind each facet; empty as long as all are zero
     const char* at = in.begin() + header_bytes;
     for (std::uint32_t done = 0; done < count;) {
         const auto size = static_cast<std::uint32_t>(std::min<std::size_t>(block, count - done));
-        std::uint32_t any = 0;
         for (std::size_t i = 0; i < size; ++i, at += record_bytes) {
             const std::array<point3, 3> places = corners_of(at);
             std::copy(places.begin(), places.end(), corners.begin() + std::ptrdiff_t{3} * i);
-            attribute[i] = little<std::uint16_t>(at + 48);
-            any |= attribute[i];
+            const auto mine = little<std::uint16_t>(at + 48);
+            if (mine != 0 && bits.empty()) bits.assign(done + i, 0);
+            if (mine != 0 || !bits.empty()) bits.push_back(mine);
         }
         file.mesh.points.insert(file.mesh.points.end(), corners.begin(),
                                 corners.begin() + std::ptrdiff_t{3} * size);
@@ -129,11 +105,12 @@ mesh_file read_stl_binary(const source& in) {
             const std::uint32_t first = 3 * (done + i);
             file.mesh.faces.push_back({first, first + 1, first + 2});
         }
-        bits.add(attribute, size, any);
         done += size;
         in.release_before(at);
     }
-    bits.store(file);
+    if (!bits.empty())
+        file.attributes.find_or_add("face", file.stored_faces)
+            .columns.push_back(column::of<std::uint16_t>(bits_name, bits));
     return file;
 }
 

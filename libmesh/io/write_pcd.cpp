@@ -52,14 +52,6 @@ constexpr std::size_t bytes_of_lengths = 8;
            (c.name == "rgb" || c.name == "rgba");
 }
 
-[[nodiscard]] std::string type_and_size(const column& c, bool text) {
-    if (text && is_packed_color(c)) return "U4";
-    return with_type(c.type, []<class T>(T) {
-        const char kind = std::is_floating_point_v<T> ? 'F' : std::is_signed_v<T> ? 'I' : 'U';
-        return kind + std::to_string(sizeof(T));
-    });
-}
-
 class pcd_writer {
   public:
     /// `by_runs`: as many points will come; else those of the job's file.
@@ -195,7 +187,8 @@ class pcd_writer {
                 !line.starts_with("viewpoint "))
                 put_comment(line);
         const auto type = [&](const field& f) {
-            return type_and_size(*columns_[f.first], is_text());
+            const column& c = *columns_[f.first];
+            return is_text() && is_packed_color(c) ? std::string("U4") : type_and_size(c.type);
         };
         put_line("VERSION ", "0.7");
         put_fields("FIELDS", [](const field& f) { return f.name; });
