@@ -1,5 +1,5 @@
 #include <libmesh/io/detect.hpp>
-#include <libmesh/io/point_blocks.hpp>
+#include <libmesh/io/point_rows.hpp>
 #include <libmesh/io/record_index.hpp>
 #include <libmesh/io/scratch.hpp>
 #include <libmesh/io/vertex_columns.hpp>

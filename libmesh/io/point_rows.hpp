@@ -3,6 +3,7 @@
 /// Reads the points of a file sequentially, in blocks; common to the readers of whole point files
 /// and of streams.
 
+#include <libmesh/io/detect.hpp>
 #include <libmesh/io/record_index.hpp>
 #include <libmesh/io/source.hpp>
 #include <treeform/mesh/attributes.hpp>
@@ -13,6 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -172,5 +174,43 @@ inline constexpr std::size_t sample_size = std::size_t{1} << 17;
 [[nodiscard]] face_rows open_ply_faces(
     const source& in, const std::function<std::unique_ptr<point_store>(std::size_t)>& make_store,
     const file_part& part = {}, const record_index* known = nullptr);
+
+/// What `point_reader` is made of.
+class point_blocks {
+  public:
+    /// As for `point_reader`; `known` as for `open_xyz_points`, `unpacked` for `open_pcd_points`.
+    point_blocks(const std::filesystem::path& path, const reading& how, std::uint64_t first,
+                 row_use use, const record_index* known = nullptr,
+                 const byte_getter* unpacked = nullptr);
+    point_blocks(const point_blocks&) = delete;
+    point_blocks& operator=(const point_blocks&) = delete;
+
+    [[nodiscard]] const mesh_file& header() const { return rows_.head; }
+    [[nodiscard]] std::uint64_t count() const { return rows_.count; }
+    bool read(point_block& block, std::size_t most);
+    bool read(row_block& block, std::size_t most) {
+        return rows_.behind && rows_.behind(block, most, rows_.head.warnings);
+    }
+    [[nodiscard]] row_place next_row() { return rows_.next_row ? rows_.next_row() : row_place{}; }
+    void go_to(const row_place& place) {
+        if (rows_.go_to) rows_.go_to(place);
+    }
+    [[nodiscard]] std::vector<row_place> row_parts(std::size_t count) {
+        return rows_.row_parts ? rows_.row_parts(count) : std::vector<row_place>();
+    }
+
+  private:
+    source in_;  ///< ahead of what reads from it
+    point_rows rows_;
+};
+
+/// What a part of a text has, with at most so many marks; none for what is no text of points, or
+/// cannot be read, which is then said where it is opened. `even` as for `scan_xyz`.
+[[nodiscard]] std::optional<record_index> scan_points(const std::filesystem::path& path,
+                                                      const reading& how, const file_part& part,
+                                                      std::size_t most, bool even = true);
+
+/// Whether it is a PLY that `has_listed_points`; not where it cannot be read.
+[[nodiscard]] bool has_listed_points_at(const std::filesystem::path& path, const reading& how);
 
 }  // namespace treeform::detail::io

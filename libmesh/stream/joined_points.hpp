@@ -4,7 +4,7 @@
 /// Compressed PCD files are unpacked once for all ranks.
 
 #include <libmesh/io/las_grid_choice.hpp>
-#include <libmesh/io/point_blocks.hpp>
+#include <libmesh/io/point_rows.hpp>
 #include <libmesh/stream/communicator.hpp>
 #include <libmesh/stream/joined_parts.hpp>
 #include <libmesh/stream/work_folder.hpp>

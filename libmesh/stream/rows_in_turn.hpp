@@ -3,9 +3,7 @@
 /// Rows behind the points of a file whose places only those know who have read what is ahead of
 /// them, and likewise points with lists.
 
-#include <libmesh/io/point_blocks.hpp>
-#include <libmesh/io/detect.hpp>
-#include <libmesh/io/record_index.hpp>
+#include <libmesh/io/point_rows.hpp>
 #include <libmesh/stream/communicator.hpp>
 
 #include <filesystem>

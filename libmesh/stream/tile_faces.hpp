@@ -2,7 +2,7 @@
 /// \file
 /// Faces, and other rows after the points, of a mesh that is welded in tiles.
 
-#include <libmesh/io/point_blocks.hpp>
+#include <libmesh/io/point_rows.hpp>
 #include <libmesh/stream/edge_files.hpp>
 #include <libmesh/stream/kept_rows.hpp>
 #include <libmesh/stream/rows_in_turn.hpp>

@@ -1,7 +1,7 @@
 /// \file
 /// Rows behind the points of a file: read from any of them on, and in parts.
 
-#include <libmesh/io/point_blocks.hpp>
+#include <libmesh/io/point_rows.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
 

@@ -1,8 +1,8 @@
 /// \file
 /// Texts that a team looks at: all know of them what one knows who reads them alone.
 
-#include <libmesh/io/point_blocks.hpp>
-#include <libmesh/stream/rows_in_turn.hpp>
+#include <libmesh/io/point_rows.hpp>
+#include <libmesh/stream/shared_records.hpp>
 
 #include <doctest/doctest.h>
 #include <support/own_folder.hpp>
