@@ -3,7 +3,6 @@
 /// What sources of this room share: what of the inputs is carried to what is made of them, and
 /// where in a face a point is.
 
-#include <libmesh/attributes/scene_parts.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/mesh.hpp>

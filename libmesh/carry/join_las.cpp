@@ -2,7 +2,6 @@
 #include <libmesh/carry/carried.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -10,11 +10,9 @@
 #include <cstring>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
-#include <unordered_set>
 
 namespace treeform::detail::carry {
 namespace {

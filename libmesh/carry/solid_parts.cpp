@@ -5,14 +5,10 @@
 #include <libmesh/topology/select_faces.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/carry.hpp>
-#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/weld.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <optional>
-#include <tuple>
 #include <utility>
 
 namespace treeform::detail::carry {

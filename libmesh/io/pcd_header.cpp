@@ -5,7 +5,6 @@
 #include <libmesh/io/vertex_columns.hpp>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <string>
 #include <utility>

@@ -7,7 +7,6 @@
 #include <libmesh/io/vertex_columns.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>

@@ -5,9 +5,6 @@
 #include <libmesh/io/readers.hpp>
 #include <libmesh/io/scratch.hpp>
 
-#include <algorithm>
-#include <limits>
-#include <memory>
 #include <string>
 #include <utility>
 

@@ -9,8 +9,6 @@
 #include <libmesh/io/text.hpp>
 #include <treeform/mesh/attributes.hpp>
 
-#include <cmath>
-#include <limits>
 #include <string>
 
 namespace treeform::detail::io {

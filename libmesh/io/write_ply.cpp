@@ -4,11 +4,9 @@
 #include <libmesh/io/writers.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 namespace treeform::detail::io {

@@ -15,7 +15,6 @@
 #include <cstring>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace treeform::detail::laz {
