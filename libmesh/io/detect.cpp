@@ -158,8 +158,8 @@ detected detect(const source& in, std::string_view format, std::string_view exte
     if (wanted == "e57") refuse_e57(in);
     if (wanted == "ptx")
         in.fail(
-            "PTX is not read, since each scan has its own transform; write it as LAS or PTS "
-            "first, with CloudCompare: CloudCompare -O in.ptx -C_EXPORT_FMT LAS -SAVE_CLOUDS");
+            "PTX is not supported, since each scan has its own transform; convert it first with "
+            "CloudCompare: CloudCompare -O in.ptx -C_EXPORT_FMT LAS -SAVE_CLOUDS");
     if (wanted == "stl") return is_binary_stl(in) ? detected{file_kind::stl_binary} : stl_kind(in);
     if (const auto kind = text_kind(wanted)) {
         refuse_unless_text(in);

@@ -31,8 +31,8 @@ enum class pcd_encoding : std::uint8_t { ascii, binary, compressed };
     });
 }
 
-/// Where the value of a column stands in its row, and in the blocks of a compressed file, where the
-/// values of a field follow one another: `fields_ahead` bytes a point are those of earlier fields.
+/// The position of a column's value in its row; and in a compressed file, in which the values of
+/// each field are contiguous: earlier fields have `fields_ahead` bytes for each point.
 struct pcd_place {
     std::size_t in_row = 0;
     std::size_t fields_ahead = 0;

@@ -175,7 +175,7 @@ inline constexpr std::size_t sample_size = std::size_t{1} << 17;
     const source& in, const std::function<std::unique_ptr<point_store>(std::size_t)>& make_store,
     const file_part& part = {}, const record_index* known = nullptr);
 
-/// What `point_reader` is made of.
+/// The implementation of `point_reader`.
 class point_blocks {
   public:
     /// As for `point_reader`; `known` as for `open_xyz_points`, `unpacked` for `open_pcd_points`.
@@ -200,17 +200,18 @@ class point_blocks {
     }
 
   private:
-    source in_;  ///< ahead of what reads from it
+    source in_;  ///< declared before `rows_`, which reads from it
     point_rows rows_;
 };
 
-/// What a part of a text has, with at most so many marks; none for what is no text of points, or
-/// cannot be read, which is then said where it is opened. `even` as for `scan_xyz`.
+/// The index of the records of a part of a text file, with at most `most` marks. None if the file
+/// is no text of points, or cannot be read, which is reported when it is opened. `even` as for
+/// `scan_xyz`.
 [[nodiscard]] std::optional<record_index> scan_points(const std::filesystem::path& path,
                                                       const reading& how, const file_part& part,
                                                       std::size_t most, bool even = true);
 
-/// Whether it is a PLY that `has_listed_points`; not where it cannot be read.
+/// Whether the file is a PLY for which `has_listed_points`; false if it cannot be read.
 [[nodiscard]] bool has_listed_points_at(const std::filesystem::path& path, const reading& how);
 
 }  // namespace treeform::detail::io

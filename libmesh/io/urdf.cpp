@@ -72,7 +72,7 @@ mesh halved(mesh of) {
     return of;
 }
 
-/// Twelve faces; exact where halves of the sizes are.
+/// Twelve faces; exact if half of each size is exact.
 mesh box_shape(const std::array<double, 3>& size) {
     mesh made;
     for (const double z : {-0.5, 0.5})
@@ -84,16 +84,15 @@ mesh box_shape(const std::array<double, 3>& size) {
     return made;
 }
 
-/// A prism of 96 sides around the cylinder about z, from -length / 2 to length / 2. No point of the
-/// cylinder's side is outside it; its corners are up to 0.054 % of the radius further out.
+/// A prism of 96 sides that contains the cylinder about z, from -length / 2 to length / 2. Its
+/// corners are up to 0.054 % of the radius outside of the cylinder.
 mesh cylinder_shape(double radius, double length) {
     const double out = radius / std::cos(std::numbers::pi / cylinder_sides) * outward;
     return geometry::prism({{{0, 0, -0.5 * length}, {0, 0, 0.5 * length}}},
                            {{{1, 0, 0}, {0, 1, 0}}}, out, cylinder_sides);
 }
 
-/// 5,120 faces around the sphere: none comes closer to its center than `radius`, none is further
-/// out than 0.13 % of that.
+/// 5,120 faces that contain the sphere; no point is further outside than 0.13 % of the radius.
 mesh sphere_shape(double radius) {
     mesh made = icosahedron();
     for (int i = 0; i < sphere_halvings; ++i) made = halved(std::move(made));

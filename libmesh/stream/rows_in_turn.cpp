@@ -1,4 +1,4 @@
-#include <libmesh/io/point_blocks.hpp>
+#include <libmesh/io/point_rows.hpp>
 #include <libmesh/stream/record_file.hpp>
 #include <libmesh/stream/rows_in_turn.hpp>
 

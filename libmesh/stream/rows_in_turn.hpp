@@ -3,7 +3,9 @@
 /// Rows behind the points of a file whose places only those know who have read what is ahead of
 /// them, and likewise points with lists.
 
+#include <libmesh/io/detect.hpp>
 #include <libmesh/io/point_rows.hpp>
+#include <libmesh/io/record_index.hpp>
 #include <libmesh/stream/communicator.hpp>
 
 #include <filesystem>

@@ -2,7 +2,7 @@
 /// Texts that a team looks at: all know of them what one knows who reads them alone.
 
 #include <libmesh/io/point_rows.hpp>
-#include <libmesh/stream/shared_records.hpp>
+#include <libmesh/stream/rows_in_turn.hpp>
 
 #include <doctest/doctest.h>
 #include <support/own_folder.hpp>
