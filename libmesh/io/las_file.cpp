@@ -137,8 +137,9 @@ class las_opener {
         }
         if (to.size() < stated)
             warnings_.push_back({"records", "the header announces " + std::to_string(stated) +
-                                                (extended ? " extended" : "") + " records, " +
-                                                std::to_string(to.size()) + " are there"});
+                                                (extended ? " extended" : "") +
+                                                " records, but the file has " +
+                                                std::to_string(to.size())});
     }
 
     void read_records() {

@@ -337,7 +337,7 @@ class part_reader {
 
     [[nodiscard]] std::string name_in(pugi::xml_node node, const char* attribute) const {
         std::string name = node.attribute(attribute).value();
-        if (name.size() > longest_name) xml_.fail(node, "has a name without end");
+        if (name.size() > longest_name) xml_.fail(node, "has a name that is too long");
         return name;
     }
 

@@ -375,7 +375,8 @@ mesh_file read_gltf(const source& in, const std::filesystem::path& path) {
     if (model.is_version_1) {
         if (!reads_scenes())
             in.fail(
-                "glTF 1.0 needs a build with assimp; gltf-pipeline -i IN -o OUT makes 2.0 of it");
+                "glTF 1.0 needs a build with assimp; gltf-pipeline -i IN -o OUT converts it to "
+                "2.0");
         return read_scene(in, path, parts.is_version_1 ? "glb" : "gltf");
     }
     buffers_gltf buffers(in, path, model, parts);

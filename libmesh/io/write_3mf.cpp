@@ -212,13 +212,13 @@ class model_writer {
             if (is_so) job_.result.warnings.push_back({code, text});
         };
         say(looks_.leaves_out_points, "colors-dropped",
-            "colors of points left out: their faces have colors or materials");
+            "colors of points left out, since their faces have colors or materials");
         say(count_named(job_.file) > objects_.size(), "left-out",
-            "names of parts left out: those that share points are one object");
+            "names of parts left out, since parts that share points are one object");
         say(looks_.rounds_colors, "colors", "colors are rounded to 8 bits");
         if (looks_.lacks_colors)
             say(true, "materials",
-                "materials are written in white: " + job_.file.attributes.material_files[0] +
+                "materials are written in white, since " + job_.file.attributes.material_files[0] +
                     ", which has their colors, was not read");
     }
 

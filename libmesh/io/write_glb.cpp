@@ -333,8 +333,7 @@ class document_glb {
         const std::string in_all =
             "some corners have none or one of length 0, and glb has one for every corner or none";
         if (leaves_out_normals_) warn("corner-values", "normals left out: " + in_all);
-        if (lacks_texture_)
-            warn("corner-values", "texture coordinates 0 0 for corners that have none");
+        if (lacks_texture_) warn("corner-values", "corners without texture coordinates got 0 0");
         std::string names;
         const auto add = [&](const std::string& name) {
             names += (names.empty() ? "" : ", ") + name;

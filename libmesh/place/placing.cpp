@@ -43,7 +43,7 @@ void check(const char* function, const placement_options& o) {
     if (o.max_travel && !(*o.max_travel >= 0.0))
         refuse(function, "the largest travel is negative or NaN");
     if (o.bed && !std::isfinite(not_below(*o.bed + o.clearance, o.precision)))
-        refuse(function, "no coordinate that can be written is as high as the bed");
+        refuse(function, "the bed is above the range of coordinates that can be written");
 }
 
 }  // namespace
