@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using detail::stream::work_folder;
 
 /// Changes whenever the files in the folder do.
-constexpr std::uint64_t layout_of_folder = 7;
+constexpr std::uint64_t layout_of_folder = 6;
 
 std::string identity_of(const cloud_inputs& inputs, const weld_stream_options& o) {
     detail::stream::state_writer state;

@@ -323,7 +323,7 @@ class Tiles(ToolTest):
                 (["in.stl", "--pairs", "none/p.csv"], 4, "no folder none"),
                 (["in.stl", "--work", "none/tiles"], 4, "none/tiles: cannot be created"),
                 (["in.stl", "float.ply"], 2, "under mpirun, expected one INPUT"),
-                (["in.stl", "--work", "tiles", "--plan"], 2, "without mpirun"),
+                (["in.stl", "--work", "tiles", "--plan"], 2, "not for mpirun"),
                 (["--help"], 0, "Exit status:")):
             run = self.mpi(3, *arguments, status=status)
             self.assertEqual((run.text + run.err).count(words), 1, msg=run.text + run.err)
@@ -346,12 +346,12 @@ class Tiles(ToolTest):
         run = self.run_tool("big.stl", "--memory", "64M", "--within", "-v")
         self.assertIn("--within needs the whole mesh in memory, about", run.err)
         run = self.run_tool("big.stl", "--memory", "20M", status=5)
-        enough = re.search("([0-9]+M) would be enough", run.err)[1]
+        enough = re.search("([0-9]+M)(?: would be enough|, and memory)", run.err)[1]
         self.assertEqual(self.listing(), ["big.stl"])
         self.run_tool("big.stl", "--memory", enough, status=0)
         for memory in ("20M", "60M"):  # before and after faces have their tiles
             run = self.run_tool("big.stl", "--memory", memory, "--tile-faces", "400000", status=5)
-            all_of_it = re.search("([0-9]+M) would be enough", run.err)[1]
+            all_of_it = re.search("([0-9]+M)(?: would be enough|, and memory)", run.err)[1]
             self.run_tool("big.stl", "--memory", all_of_it, "--tile-faces", "400000", status=0)
         with open(self.path("short.ply"), "wb") as file:  # few bytes a face, as much memory
             file.write(ply_bytes(grid(550)))

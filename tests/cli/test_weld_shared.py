@@ -91,7 +91,7 @@ class Shared(WeldTest):
             self.assertGreater(tiles, 4)
             run = self.run_tool(*work, "--finish", *outputs, status=3)
             self.assertIn(f"tiles {', '.join(map(str, range(min(tiles, 100))))}", run.err)
-            self.assertIn("are not finished", run.err)
+            self.assertIn("are unfinished or damaged", run.err)
             twice = [t for t in range(tiles) for _ in range(2)]  # at the same time
             for process in [self.start(*work, "--tile", t) for t in twice]:
                 out, err = process.communicate()
