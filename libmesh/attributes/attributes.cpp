@@ -68,7 +68,7 @@ std::string fault_of(const std::vector<face>& numbers, std::size_t rows, std::si
         for (const std::uint32_t row : numbers[f])
             if (row >= rows && row != corner_values::none)
                 return "a corner of triangle " + std::to_string(f) + " has a " + what +
-                       " that is not there";
+                       " number that is out of range";
     return {};
 }
 

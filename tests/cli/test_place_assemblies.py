@@ -216,7 +216,7 @@ class Assemblies(PlaceTest):
             self.mesh(name, (points, faces))
         run = self.run_tool("measure", "needles.obj", "--fixed", "others.obj")
         self.assertRegex(run.text, "deep: .*; the search ended after [0-9,]+ pairs of faces, so "
- translation may exist")
+                                   "a shorter translation may exist")
         entry = self.entry("measure", "needles.obj", "--fixed", "others.obj", status=0)
         effort = entry["depth"]["effort"]
         self.assertLessEqual(effort["pairs"], effort["bound"])

@@ -86,7 +86,7 @@ class Moves(PlaceTest):
         for arguments in (["drop", "a.obj"], ["lay", "a.obj"],
                           ["pack", "a.obj", "--size", "9,9"]):
             run = self.run_tool(*arguments, "--bed", "-1e300", "-o", "out.stl", status=2)
-            self.assertIn("range of float32", run.err)
+            self.assertIn("range of the float32 coordinates", run.err)
         self.mesh("far.obj", box((0, 0, 1e300), (1e300, 1e300, 2e300)))
         most = 1.7e308
         self.mesh("most.obj", box((-most, -most, -most), (most, most, most)))
@@ -148,7 +148,7 @@ class Moves(PlaceTest):
     def test_slide_gives_up_beyond_the_longest_travel(self):
         slide = ("slide", "a.obj", "--fixed", "floor.obj", "-d", "0,0,-1", "--max-travel")
         self.assertEqual(self.placed(*slide, "4.5")["travel"], 4.5)
-        self.assertIn("within 4.4", self.refused(*slide, "4.4")["reason"])
+        self.assertIn("within a travel of 4.4", self.refused(*slide, "4.4")["reason"])
         self.assertIn("nothing is in the way", self.refused(
             "slide", "a.obj", "--fixed", "floor.obj", "-d", "1,0,0")["reason"])
 

@@ -146,7 +146,7 @@ class Attributes(WeldTest):
         self.write("named.csv", "id;E;N;H\n" + "".join(f"{i};{i}.5;2;3\n" for i in range(70)))
         self.assertEqual(self.both("named.csv", *columns, out="out.csv"), [])
         self.assertTrue(self.read("out.csv").startswith("id,x,y,z\n0,0.5,2,3\n"))
-        self.assertIn("none is 'Q' among id, E, N, H", self.run_tool(
+        self.assertIn("there is no column 'Q' among id, E, N, H", self.run_tool(
             "named.csv", "--columns", "x=Q,y=N,z=H", "-o", "none.csv", status=3).err)
         self.write("angles.csv", "lat,lon,height\n50.1,8.2,3\n")
         self.assertIn("project them", self.run_tool("angles.csv", "-o", "none.csv", status=3).err)

@@ -117,7 +117,7 @@ TEST_CASE("3mf hostile: what is no package is refused") {
                      two.bytes.substr(two.bytes.find("<Relationship "),
                                       two.bytes.find("</") - two.bytes.find("<Relationship ")));
     CHECK(refusal_of_3mf(test::zip_of({two, {.name = "a.model", .bytes = ""}}))
-              .find("second start model") != std::string::npos);
+              .find("second root model") != std::string::npos);
 }
 
 TEST_CASE("3mf hostile: names that leave the archive, or are there twice, are refused") {
@@ -222,7 +222,7 @@ TEST_CASE("3mf hostile: references to nothing are refused") {
                                  "</basematerials>" +
                                      one,
                                  built)),
-               "no color"));
+               "not a color"));
 }
 
 TEST_CASE("3mf hostile: transforms are twelve finite numbers that keep points finite") {
@@ -236,7 +236,7 @@ TEST_CASE("3mf hostile: transforms are twelve finite numbers that keep points fi
     CHECK(says(refusal_of_3mf(hostile_model(far,
                                             "<item objectid=\"1\" "
                                             "transform=\"1e200 0 0 0 1 0 0 0 1 0 0 0\"/>")),
-               "beyond all numbers"));
+               "beyond the range of doubles"));
 }
 
 TEST_CASE("3mf hostile: extensions that are required and unknown are refused by name") {

@@ -146,7 +146,7 @@ TEST_CASE("gltf: only files in its folder are read, and a missing one is named")
           std::string::npos);
     CHECK(glb_refusal(cube.json("data:;base64,%%%"), "a.gltf").find("not valid base64") !=
           std::string::npos);
-    CHECK(glb_refusal(cube.json(), "a.gltf").find("has no bytes") != std::string::npos);
+    CHECK(glb_refusal(cube.json(), "a.gltf").find("has no data") != std::string::npos);
 }
 
 TEST_CASE("gltf: indices of each type, and none") {

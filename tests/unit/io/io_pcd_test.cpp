@@ -220,9 +220,9 @@ TEST_CASE("pcd: padding between the fields is no column") {
 
 TEST_CASE("pcd: headers that lie are refused with line or byte") {
     CHECK(holds(pcd_complaint(xyz_head(2, "ascii") + "1 2 3\n"), "announced"));
-    CHECK(holds(pcd_complaint(xyz_head(1, "ascii") + "1.5 2.5\n"), "a.pcd:12: the line ends"));
+    CHECK(holds(pcd_complaint(xyz_head(1, "ascii") + "1.5 2.5\n"), "but the line ends"));
     CHECK(holds(pcd_complaint(xyz_head(1, "ascii") + "1 2 3 4\n"), "a.pcd:12: more values"));
-    CHECK(holds(pcd_complaint(xyz_head(1, "ascii") + "1 b 3\n"), "a.pcd:12: 'b'"));
+    CHECK(holds(pcd_complaint(xyz_head(1, "ascii") + "1 b 3\n"), "found 'b'"));
     CHECK(holds(pcd_complaint(xyz_head(4'000'000'000, "binary") + "123"), "4000000000 announced"));
     CHECK(holds(pcd_complaint(xyz_head(2, "tar") + "123"), "a.pcd:11: unknown encoding"));
     CHECK(holds(pcd_complaint(head("x y", "4 4", "F F", "1 1", 0, "ascii")), "no field z"));
@@ -234,7 +234,7 @@ TEST_CASE("pcd: headers that lie are refused with line or byte") {
     CHECK(holds(pcd_complaint(head("x y z", "4 4 4", "F F Q", "1 1 1", 0, "ascii")),
                 "expected type I, U or F"));
     CHECK(holds(pcd_complaint(head("x y z h", "4 4 4 4", "F F F F", "1 1 1 99999", 0, "ascii")),
-                "a.pcd:6: a number from 0"));
+                "a.pcd:6: expected a number from 0"));
     CHECK(holds(pcd_complaint("VERSION .7\nFIELDS x y z\nDATA ascii\n"),
                 "does not have the number of points"));
     CHECK(
@@ -249,7 +249,7 @@ TEST_CASE("pcd: headers that lie are refused with line or byte") {
         return pcd_complaint(xyz_head(2, "binary_compressed") + raw(there) + raw(size) + data);
     };
     CHECK(holds(packed_file(9, 24, "\x17"s), "bytes announced"));
-    CHECK(holds(packed_file(1, 25, "\x17"s), "not those of 2 points"));
+    CHECK(holds(packed_file(1, 25, "\x17"s), "do not match 2 points"));
     CHECK(holds(packed_file(1, 24, "\x17"s), "damaged"));
     CHECK(holds(packed_file(3, 24, "\x00\x61\x20"s), "damaged"));
     CHECK(holds(pcd_complaint(xyz_head(300'000'000, "binary_compressed") + raw(std::uint32_t{3}) +

@@ -163,7 +163,7 @@ TEST_CASE("translation: colors of 16 bits, of 8 bits in 16, of floats") {
     const auto left_out = put_translated(of_words, "stl").warnings;
     REQUIRE(left_out.size() == 1);
     CHECK(left_out[0].find("not written to STL") != std::string::npos);
-    CHECK(put_translated(with({65535, 1}), "ply").warnings.at(0).find("16 bits") !=
+    CHECK(put_translated(with({65535, 1}), "ply").warnings.at(0).find("16-bit") !=
           std::string::npos);
     CHECK(put_translated(with({255, 17}), "ply").warnings.at(0).find("below 256") !=
           std::string::npos);

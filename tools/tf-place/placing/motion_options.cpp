@@ -122,7 +122,7 @@ void add_feature_options(command_line& line, feature_settings& s) {
     line.option({"--pick", "FACE|X,Y,Z", "mate: the feature of MOVING at this face or point"},
                 [&s](std::string_view text) { s.moving = parse_pick("--pick", text); });
     line.option(
-        {"--pick-fixed", "FACE|X,Y,Z", "mate: the feature of --fixed at this face or point"},
+        {"--pick-fixed", "FACE|X,Y,Z", "mate: the feature of --fixed at this face or\npoint"},
         [&s](std::string_view text) { s.fixed = parse_pick("--pick-fixed", text); });
     line.flag(s.flip,
               {"--flip", "", "mate: normals of planes point the same way; axes are\nreversed"});
