@@ -32,7 +32,8 @@ static void test_moves(void) {
     CHECK(faces->fixed_count == 2 && faces->fixed[1] == NULL &&
           faces->fixed[0][2] == TREEFORM_MEETING);
     treeform_free(faces);
-    INVALID("not of these meshes", treeform_find_face_relations(moving, fixed, 0, placement, &faces));
+    INVALID("not of these meshes",
+            treeform_find_face_relations(moving, fixed, 0, placement, &faces));
     treeform_free(placement);
     treeform_place_options_init(&options, sizeof options);
     options.clearance = 0.125;

@@ -51,7 +51,7 @@ class Attributes(WeldTest):
                  *(self.rng.randrange(most + 1) for _ in range(3))) for i in range(90)]
 
     def test_colors_of_las_are_of_8_bits_elsewhere(self):
-        for most, words in ((65535, "16 bits"), (255, "below 256")):
+        for most, words in ((65535, "16-bit"), (255, "below 256")):
             points = self.colored(most)
             self.write("in.las", las_file(points))
             for out in ("out.ply", "out.pcd", "out.csv", "out.xyz"):

@@ -198,7 +198,8 @@ TEST_CASE("shared_search: tiles by several workers, in any order, some of them t
     { const tf::shared_search gone = std::move(second); }
     CHECK_THROWS_WITH_AS((void)tf::self_intersections_of_file(path, o),  // held still
                          doctest::Contains("is in use"), tf::io_error);
-    CHECK_THROWS_WITH_AS((void)first.finish(), doctest::Contains("contains no tiles"), tf::io_error);
+    CHECK_THROWS_WITH_AS((void)first.finish(), doctest::Contains("contains no tiles"),
+                         tf::io_error);
     REQUIRE(first.scatter() == tf::status::ok);
     tf::shared_search other(path, o);
     REQUIRE(other.tiles() > 5);
