@@ -52,11 +52,11 @@ face_marks::face_marks(std::size_t face_count, std::span<const face_pair> pairs,
         for (const std::uint32_t f : regions[r].faces) region[f] = static_cast<std::int32_t>(r);
 }
 
-void face_marks::color(mesh_file& file, const usable_mesh& looked_at) const {
+void face_marks::color(mesh_file& file, const usable_mesh& searched) const {
     std::vector<std::int32_t> kinds(file.mesh.faces.size(), 0), regions(kinds.size(), -1);
     std::vector<std::uint8_t> classes(kinds.size(), 0);
     for (std::uint32_t f = 0; f < kind.size(); ++f) {
-        const std::uint32_t t = looked_at.triangle(f);
+        const std::uint32_t t = searched.triangle(f);
         kinds[t] = classes[t] = kind[f];
         regions[t] = region[f];
     }

@@ -58,7 +58,7 @@ static void test_change(void) {
     OK(treeform_file_add_part(file, "lid", NULL, "steel", 0));
     INVALID("face 3", treeform_file_add_part(file, "lid", NULL, NULL, 3));
     OK(treeform_file_add_text(file, TREEFORM_COMMENT, "turned"));
-    INVALID("what is 9", treeform_file_add_text(file, 9, "turned"));
+    INVALID("kind is 9", treeform_file_add_text(file, 9, "turned"));
     OK(treeform_file_turn_normals(file, turned));
     OK(treeform_file_transform(file, mirror));
     OK(treeform_file_transform(file, mirror));

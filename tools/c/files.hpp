@@ -134,11 +134,11 @@ inline void file_add_part(tf::mesh_file& file, const char* object, const char* g
     parts.push_back({text(object), text(group), text(material), first_face});
 }
 
-/// Adds a line of text: a comment, a remark, or the name of a material or texture file, by `what`.
-inline void file_add_text(tf::mesh_file& file, treeform_text what, const std::string& text) {
+/// Adds a line of text: a comment, a remark, or the name of a material or texture file, by `kind`.
+inline void file_add_text(tf::mesh_file& file, treeform_text kind, const std::string& text) {
     tf::attributes& a = file.attributes;
     const std::array lists{&a.comments, &a.obj_info, &a.material_files, &a.texture_files};
-    lists[choice<std::size_t>(what, lists.size(), "what")]->push_back(text);
+    lists[choice<std::size_t>(kind, lists.size(), "kind")]->push_back(text);
 }
 
 /// Makes each triangle a face of its own.

@@ -71,17 +71,17 @@ inline void color_pairs(tf::mesh_file& file, const treeform_part* part,
                         const treeform_face_pair* pairs, std::size_t count) {
     const treeform_part& p = need(part, "part");
     const std::size_t faces = p.mesh.face_count;
-    tf::usable_mesh looked_at;
-    looked_at.mesh.points = copied_as<tf::point3>(p.mesh.points, p.mesh.point_count, "points");
-    looked_at.mesh.faces = copied_as<tf::face>(p.mesh.faces, faces, "faces");
+    tf::usable_mesh searched;
+    searched.mesh.points = copied_as<tf::point3>(p.mesh.points, p.mesh.point_count, "points");
+    searched.mesh.faces = copied_as<tf::face>(p.mesh.faces, faces, "faces");
     if (p.triangle_of_face)
-        looked_at.triangle_of_face.assign(p.triangle_of_face, p.triangle_of_face + faces);
-    looked_at.stored_face = file.stored_face;
+        searched.triangle_of_face.assign(p.triangle_of_face, p.triangle_of_face + faces);
+    searched.stored_face = file.stored_face;
     for (std::uint32_t f = 0; f < faces; ++f)
-        if (looked_at.triangle(f) >= file.mesh.faces.size())
+        if (searched.triangle(f) >= file.mesh.faces.size())
             throw std::invalid_argument("the part is not of this file");
     const auto found = pairs_of(faces, pairs, count);
-    tf::face_marks(faces, found, tf::group_pairs(looked_at.mesh, found)).color(file, looked_at);
+    tf::face_marks(faces, found, tf::group_pairs(searched.mesh, found)).color(file, searched);
 }
 
 /// Whether the file has a format that can be searched in tiles; an error if it cannot be read, or

@@ -277,9 +277,9 @@ treeform_code treeform_file_add_part(treeform_file* file, const char* object, co
     });
 }
 
-treeform_code treeform_file_add_text(treeform_file* file, treeform_text what, const char* text) {
+treeform_code treeform_file_add_text(treeform_file* file, treeform_text kind, const char* text) {
     return glue::guard([&] {
-        glue::file_add_text(glue::content(file, "file"), what,
+        glue::file_add_text(glue::content(file, "file"), kind,
                             std::string(&glue::need(text, "text")));
     });
 }

@@ -219,14 +219,14 @@ struct face_marks {
     TREEFORM_API face_marks(std::size_t face_count, std::span<const face_pair> pairs,
                             std::span<const intersection_region> regions);
 
-    /// Writes the marks of the faces of `looked_at` to `file`: colors of faces and vertices (a
+    /// Writes the marks of the faces of `searched` to `file`: colors of faces and vertices (a
     /// vertex gets the color of its first face in a pair), and the properties tf_class and
     /// tf_region of faces. Polygons become triangles. A file that does not number its vertices is
     /// indexed, and its other properties are dropped.
     ///
-    /// \pre    `looked_at` is a part of `file`, and the marks are those of its faces
+    /// \pre    `searched` is a part of `file`, and the marks are those of its faces
     /// \cost O(V + F)
-    TREEFORM_API void color(mesh_file& file, const usable_mesh& looked_at) const;
+    TREEFORM_API void color(mesh_file& file, const usable_mesh& searched) const;
 
     /// Number of faces in at least one pair.
     [[nodiscard]] std::uint64_t marked() const {

@@ -193,8 +193,8 @@ enum {
 // made of the headers of C++:
 //   file_add_text() file_split_polygons() file_round_to_las() file_round_to_float32()
 //   file_transform() file_turn_normals() write_options write_result write() write_mesh()
-/// Adds a line of text: a comment, a remark, or the name of a material or texture file, by `what`.
-TREEFORM_C_API treeform_code treeform_file_add_text(treeform_file* file, treeform_text what,
+/// Adds a line of text: a comment, a remark, or the name of a material or texture file, by `kind`.
+TREEFORM_C_API treeform_code treeform_file_add_text(treeform_file* file, treeform_text kind,
                                                     const char* text);
 
 /// Makes each triangle a face of its own.
