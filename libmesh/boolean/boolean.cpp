@@ -474,7 +474,9 @@ certificate detail::boolean::check_solid(const char* called, mesh_view mesh,
     check_coordinates(called, {&mesh, 1});
     const auto open = open_input(join_operands({&mesh, 1}));
     if (progress && !progress(1.0)) return {.status = status::cancelled};
-    return open.value_or(certificate{});
+    certificate found = open.value_or(certificate{});
+    for (operand_element& face : found.open_faces) face.operand = operand_element::none;
+    return found;
 }
 
 }  // namespace treeform

@@ -12,6 +12,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <numeric>
 #include <random>
@@ -192,7 +193,9 @@ std::string packing::message() const {
            (tries == 1 ? " try" : " tries");
 }
 
-packing pack(const mesh_refs& given_parts, const pack_options& options) {
+packing pack(const mesh_refs& given_parts, const pack_options& given_options) {
+    pack_options options = given_options;
+    if (options.size.z == 0.0) options.size.z = std::numeric_limits<double>::infinity();
     const detail::base::prepared_refs all_parts(given_parts);
     const std::span<const prepared_mesh> parts = all_parts;
     check(options);

@@ -206,7 +206,7 @@ void tile_steps::check_before_borders() const {
 
 void tile_steps::fail_for_memory(std::uint64_t needed, const std::string& more) const {
     throw io_error(io_error::kind::memory, folder_.path(),
-                   "--memory " + in_megabytes(task_.memory) + " is too little; " +
+                   "a memory limit of " + in_megabytes(task_.memory) + " is too little; " +
                        in_megabytes(needed) + " would be enough" + more,
                    needed);
 }

@@ -324,8 +324,9 @@ void tile_search::check_memory() const {
     const std::uint64_t needed = base_bytes + most * bytes_a_face;
     if (most * bytes_a_face <= memory_) return;
     throw io_error(io_error::kind::memory, folder_.path(),
-                   "--memory is too little: " + std::to_string(most) + " faces meet one tile; " +
-                       std::to_string((needed >> 20) + 1) + "M would be enough",
+                   "the memory limit is too little: " + std::to_string(most) +
+                       " faces meet one tile; " + std::to_string((needed >> 20) + 1) +
+                       "M would be enough",
                    needed);
 }
 

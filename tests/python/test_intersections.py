@@ -44,6 +44,7 @@ def test_options():
     every = tf.self_intersections(SPHERES)
     assert len(every) == 78 and every.counts["crossing"] == 78
     assert len(tf.self_intersections(SPHERES, kinds=["touching"])) == 0
+    assert len(tf.self_intersections(SPHERES, kinds="touching")) == 0
     some = tf.self_intersections(SPHERES, limit=5)
     assert np.array_equal(some.pairs, every.pairs[:5]) and some.counts == every.counts
     assert len(tf.self_intersections(SPHERES, first_only=True)) == 1

@@ -151,5 +151,12 @@ def test_pack():
             assert tf.distance(one.mesh, other.mesh) >= 0.25 - 1e-12
     full = tf.pack([box([0, 0, 0], [3, 3, 1])] * 3, [7, 3.5, 5])
     assert not full and len(full.not_placed) == 2
+    assert full.message.startswith("1 of 3 parts placed")
     again = tf.pack(parts, [8, 8], spacing=0.25)
     assert all(np.array_equal(a.matrix, b.matrix) for a, b in zip(packed.parts, again.parts))
+
+
+def test_a_mesh_without_faces_is_a_cloud():
+    read = tf.Mesh([[0.5, 0.5, 0.5], [2, 2, 2]], np.empty((0, 3), dtype=np.uint32))
+    assert tf.measure(read, CUBE).relation == "penetrating"
+    assert len(tf.clash([CUBE, read]).pairs) == 1

@@ -307,7 +307,8 @@ class Language:
             value = {"attributes": "data_of(from, attributes)", "": "py::none()"}.get(of.context)
             text += f"const py::object data = {value};\n" if value else ""
         text += "py::dict made;\n"
-        for one in attributes:
+        # What a function of the struct computes comes before its fields are moved away.
+        for one in sorted(attributes, key=lambda one: not re.search(r"\bfrom\.\w+\(\)", one.code)):
             text += f'made["{one.name}"] = {one.code};\n'
         return text + f'return object_of("treeform.{of.module}", "{of.name}", made);\n}}\n'
 

@@ -96,7 +96,7 @@ inline tf::shared_search shared_search_create(const std::filesystem::path& path,
     return {path, options};
 }
 
-/// Writes the faces of each tile, unless already done; `tiles` is the number of tiles. Called by
+/// Writes the faces of each tile, unless already done; `result` is the number of tiles. Called by
 /// one process.
 inline std::size_t shared_search_scatter(tf::shared_search& search) {
     check(search.scatter());

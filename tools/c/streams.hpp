@@ -87,7 +87,7 @@ inline shared_weld shared_weld_create(const char* const* inputs, std::size_t cou
     return {tf::shared_weld(inputs_of(inputs, count, o), how), outputs_of(o, "")};
 }
 
-/// Writes the points of each tile, unless already done; `tiles` is the number of tiles.
+/// Writes the points of each tile, unless already done; `result` is the number of tiles.
 inline std::size_t shared_weld_scatter(shared_weld& weld) {
     check(weld.with_survey().scatter());
     return weld.steps.survey().tiles;

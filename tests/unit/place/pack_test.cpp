@@ -412,3 +412,9 @@ TEST_CASE("pack: what cannot be meant is refused, and the part is named") {
     const auto found = tf::pack(views(parts), {.size = {10, 10, 10}});
     CHECK(found.not_placed == std::vector<std::uint32_t>{1});
 }
+
+TEST_CASE("pack: a plate without a height is as high as need be") {
+    const std::vector<tf::mesh> parts(3, test::box(1, 1, 1));
+    const auto found = tf::pack(views(parts), {.size = {100, 100}});
+    CHECK(found.not_placed.empty());
+}

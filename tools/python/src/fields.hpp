@@ -64,7 +64,10 @@ inline void take(const char* name, py::handle value, std::vector<tf::weld_condit
 inline void take(const char* name, py::handle value, tf::pair_kinds& to) {
     if (value.is_none()) return;
     to = {};
-    for (const std::string& one : taken<std::vector<std::string>>(name, value))
+    const py::object list = py::isinstance<py::str>(value)
+                                ? py::object(py::make_tuple(value))
+                                : py::reinterpret_borrow<py::object>(value);
+    for (const std::string& one : taken<std::vector<std::string>>(name, list))
         to = to + choice<tf::pair_kind>(name, words_of<tf::pair_kind>::all, one);
 }
 template <class T>

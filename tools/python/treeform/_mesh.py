@@ -270,8 +270,10 @@ def held(mesh: Any) -> _core.HeldMesh:
 
 
 def cloud_of(body: Any) -> Floats | None:
-    """The points of an array, or of an object with `points` or `vertices` and no faces; None for a
-    mesh."""
+    """The points of an array, of a `Mesh` without faces, as a cloud is read, or of an object with
+    `points` or `vertices` and no faces; None for a mesh."""
+    if isinstance(body, Mesh) and body._ready()._is_cloud():
+        return body._ready().vertices
     if isinstance(body, np.ndarray) or isinstance(body,
                                                   (list, tuple)) and not _arrays.is_pair(body):
         return _arrays.points(body, "points")

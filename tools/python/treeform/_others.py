@@ -32,7 +32,8 @@ def arrays_of(mesh: Any) -> tuple[ArrayLike, ArrayLike]:
         return _numbers_of(mesh.vertex["positions"]), _numbers_of(mesh.triangle["indices"])
     if hasattr(mesh, "GetPolys"):
         return _arrays_of_vtk(mesh)
-    raise ValueError(f"mesh: {type(mesh).__name__} has no vertices and faces")
+    hint = ": read the file by treeform.read" if isinstance(mesh, str) else ""
+    raise ValueError(f"mesh: {type(mesh).__name__} has no vertices and faces{hint}")
 
 
 #: Kinds of cells, by their names in meshio and their numbers in VTK.

@@ -304,8 +304,8 @@ def simplify(mesh: MeshLike, max_distance: float, *, face_groups: ArrayLike | No
     materials or values, are preserved.
 
     face_groups: (F,) a group number for each face; borders between groups are preserved, too.
-    precision: 'float32' or 'float64'. Precision Precision of the returned points. With float32, all
-        points are rounded first, and the bounds include this; values are stored as doubles.
+    precision: 'float32' or 'float64'. Precision of the returned points. With float32, all points
+        are rounded first, and the bounds include this; values are stored as doubles.
     target_faces: Stop at this number of faces.
     feature_angle: Edges are features if the normals of their faces differ by more than this, in
         degrees; 180: none.

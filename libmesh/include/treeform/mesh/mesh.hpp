@@ -157,6 +157,9 @@ class TREEFORM_API prepared_mesh {
 /// parameters only; arguments convert implicitly. A temporary mesh lives until the call returns, so
 /// `unite(as_mesh(f), as_mesh(g))` is safe.
 ///
+/// A mesh of points without faces is empty: nothing is near it. For a point cloud, pass
+/// `prepared_mesh::cloud`.
+///
 /// A prepared mesh keeps the indexes that a function builds; for any other mesh they are discarded
 /// after the call.
 class mesh_ref {

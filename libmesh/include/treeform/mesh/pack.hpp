@@ -105,7 +105,8 @@ struct laid_flat {
 
 /// The plates, and options of packing.
 struct pack_options {
-    /// Length, depth and height of the plate or box. The height may be infinite.
+    /// Length, depth and height of the plate or box. The height may be infinite, as it is if it is
+    /// 0, so that `{.size = {250, 210}}` is a plate.
     point3 size{0.0, 0.0, std::numeric_limits<double>::infinity()};
     /// The corner of the first plate with the lowest x and y; its z is the bed.
     point3 corner{};

@@ -18,7 +18,7 @@ namespace treeform {
 
 /// How to simplify.
 struct simplify_options {
-    /// Precision of the points returned. With float32, all points are rounded first, and the bounds
+    /// Precision of the returned points. With float32, all points are rounded first, and the bounds
     /// include this; values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
     std::size_t target_faces = 0;  ///< stop at this number of faces

@@ -81,9 +81,11 @@ struct answer_lists {
     std::vector<Answer> answers;
 
     [[nodiscard]] std::size_t size() const { return begin.empty() ? 0 : begin.size() - 1; }
-    [[nodiscard]] std::span<const Answer> operator[](std::size_t query) const {
+    /// The list of a query, in this object, which must outlive it.
+    [[nodiscard]] std::span<const Answer> operator[](std::size_t query) const& {
         return std::span(answers).subspan(begin[query], begin[query + 1] - begin[query]);
     }
+    std::span<const Answer> operator[](std::size_t query) && = delete;  // it would dangle
 };
 
 }  // namespace treeform

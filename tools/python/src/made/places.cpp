@@ -90,6 +90,7 @@ py::object object(of_result, tf::mesh_measure&& from) {
 py::object object(of_result, tf::placement&& from, const held_mesh& moving) {
     const py::object certificate = as_python(tf::certificate(from.certificate));
     py::dict made;
+    made["message"] = py::cast(from.message());
     made["certificate"] = certificate;
     made["end"] = as_python(std::move(from.end));
     made["mesh"] = moved_mesh(std::move(from.points), moving, from.matrix,
@@ -107,7 +108,6 @@ py::object object(of_result, tf::placement&& from, const held_mesh& moving) {
     made["angle"] = as_python(std::move(from.angle));
     made["tolerance"] = as_python(std::move(from.tolerance));
     made["offset"] = as_python(std::move(from.offset));
-    made["message"] = py::cast(from.message());
     return object_of("treeform._placement", "Placement", made);
 }
 
@@ -133,6 +133,7 @@ py::object object(of_result, tf::penetration_depth_result&& from) {
 py::object object(of_result, tf::laid_flat&& from, const held_mesh& moving) {
     const py::object certificate = as_python(tf::certificate(from.certificate));
     py::dict made;
+    made["message"] = py::cast(from.message());
     made["mesh"] = moved_mesh(std::move(from.points), moving, from.matrix, certificate);
     made["matrix"] = as_python(std::move(from.matrix));
     made["areas"] = column(from.sides, [](const auto& one) { return one.area; });
@@ -145,12 +146,13 @@ py::object object(of_result, tf::laid_flat&& from, const held_mesh& moving) {
     made["chosen"] = as_python(std::move(from.chosen));
     made["on_bed"] = as_python(std::move(from.on_bed));
     made["certificate"] = certificate;
-    made["message"] = py::cast(from.message());
     return object_of("treeform._placement", "LaidFlat", made);
 }
 
 py::object object(of_result, tf::align_result&& from, const held_mesh& moving) {
     py::dict made;
+    made["undetermined"] = py::cast(from.undetermined());
+    made["message"] = py::cast(from.message());
     made["mesh"] = moved_mesh(std::move(from.points), moving, from.matrix, py::none());
     made["matrix"] = as_python(std::move(from.matrix));
     made["scale"] = as_python(std::move(from.scale));
@@ -164,8 +166,6 @@ py::object object(of_result, tf::align_result&& from, const held_mesh& moving) {
     made["converged"] = as_python(std::move(from.converged));
     made["iterations"] = as_python(std::move(from.iterations));
     made["start"] = as_python(std::move(from.start));
-    made["undetermined"] = py::cast(from.undetermined());
-    made["message"] = py::cast(from.message());
     return object_of("treeform._placement", "Alignment", made);
 }
 
@@ -180,12 +180,12 @@ py::object object(of_result, tf::packed_part&& from, const held_mesh& moving) {
 
 py::object object(of_result, tf::packing&& from, const held_meshes& parts) {
     py::dict made;
+    made["message"] = py::cast(from.message());
     made["parts"] = packed_parts(std::move(from.parts), parts);
     made["not_placed"] = as_python(std::move(from.not_placed));
     made["plates_used"] = as_python(std::move(from.plates_used));
     made["tries"] = as_python(std::move(from.tries));
     made["density"] = as_python(std::move(from.density));
-    made["message"] = py::cast(from.message());
     return object_of("treeform._placement", "Packing", made);
 }
 

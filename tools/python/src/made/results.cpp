@@ -5,6 +5,7 @@ namespace binding {
 
 py::object object(of_result, tf::certificate&& from) {
     py::dict made;
+    made["message"] = py::cast(from.message());
     made["status"] = py::cast(word_of(from.status));
     made["meeting_count"] = as_python(std::move(from.meeting_count));
     made["meeting"] = column(from.meeting, [](const auto& one) { return one; });
@@ -21,7 +22,6 @@ py::object object(of_result, tf::certificate&& from) {
     made["size_before"] = as_python(std::move(from.size_before));
     made["size_after"] = as_python(std::move(from.size_after));
     made["size_is_volume"] = as_python(std::move(from.size_is_volume));
-    made["message"] = py::cast(from.message());
     return object_of("treeform._results", "Certificate", made);
 }
 
@@ -198,6 +198,7 @@ py::object object(of_result, tf::convex_hull_result&& from) {
 
 py::object object(of_result, tf::solid_defects&& from) {
     py::dict made;
+    made["message"] = py::cast(from.message());
     made["nonfinite_vertices"] = as_python(std::move(from.nonfinite_vertices));
     made["unusable_faces"] = as_python(std::move(from.unusable_faces));
     made["without_faces"] = as_python(std::move(from.without_faces));
@@ -211,7 +212,6 @@ py::object object(of_result, tf::solid_defects&& from) {
     made["meeting_pairs"] = as_python(std::move(from.meeting_pairs));
     made["inverted"] = as_python(std::move(from.inverted));
     made["wrongly_nested"] = as_python(std::move(from.wrongly_nested));
-    made["message"] = py::cast(from.message());
     return object_of("treeform._properties", "SolidDefects", made);
 }
 

@@ -263,7 +263,7 @@ TREEFORM_C_API treeform_code
 treeform_shared_search_create(const char* path, const treeform_stream_search_options* options,
                               treeform_shared_search** search);
 
-/// Writes the faces of each tile, unless already done; `tiles` is the number of tiles. Called by
+/// Writes the faces of each tile, unless already done; `result` is the number of tiles. Called by
 /// one process.
 TREEFORM_C_API treeform_code treeform_shared_search_scatter(treeform_shared_search* search,
                                                             size_t* result);

@@ -89,7 +89,8 @@ TREEFORM_C_API treeform_code treeform_lay_flat(const treeform_mesh* mesh,
 /// The plates, and options of packing.
 typedef struct treeform_pack_options {
     size_t size;
-    /// Length, depth and height of the plate or box. The height may be infinite; default infinite
+    /// Length, depth and height of the plate or box. The height may be infinite, as it is if it is
+    /// 0, so that `{.size = {250, 210}}` is a plate; default infinite
     double plate[3];
     /// The corner of the first plate with the lowest x and y; its z is the bed.
     double corner[3];

@@ -116,7 +116,7 @@ TREEFORM_C_API treeform_code treeform_thicken(const treeform_mesh* mesh, double 
 /// How to simplify.
 typedef struct treeform_simplify_options {
     size_t size;
-    /// Precision of the points returned. With float32, all points are rounded first, and the
+    /// Precision of the returned points. With float32, all points are rounded first, and the
     /// bounds include this; values are stored as doubles; default float64
     treeform_precision precision;
     uint64_t target_faces;  ///< stop at this number of faces

@@ -107,7 +107,7 @@ TREEFORM_C_API treeform_code treeform_shared_weld_create(
     const char* const* inputs, size_t count, const treeform_weld_stream_options* options,
     treeform_shared_weld** weld);
 
-/// Writes the points of each tile, unless already done; `tiles` is the number of tiles.
+/// Writes the points of each tile, unless already done; `result` is the number of tiles.
 TREEFORM_C_API treeform_code treeform_shared_weld_scatter(treeform_shared_weld* weld,
                                                           size_t* result);
 
