@@ -270,10 +270,8 @@ def held(mesh: Any) -> _core.HeldMesh:
 
 
 def cloud_of(body: Any) -> Floats | None:
-    """The points of an array, of a `Mesh` without faces, as a cloud is read, or of an object with
-    `points` or `vertices` and no faces; None for a mesh."""
-    if isinstance(body, Mesh) and body._ready()._is_cloud():
-        return body._ready().vertices
+    """The points of an array, or of an object with `points` or `vertices` and no faces; None for a
+    mesh."""
     if isinstance(body, np.ndarray) or isinstance(body,
                                                   (list, tuple)) and not _arrays.is_pair(body):
         return _arrays.points(body, "points")
@@ -291,6 +289,10 @@ def cloud_of(body: Any) -> Floats | None:
 def held_body(body: Any) -> _core.HeldMesh:
     """A mesh or point cloud for the extension."""
     points = cloud_of(body)
+    if isinstance(body, Mesh) and body._ready()._is_cloud():  # as a cloud is read
+        made = _core.HeldMesh(body.vertices)
+        made.data = held(body).data
+        return made
     return held(body) if points is None else _core.HeldMesh(points)
 
 
