@@ -285,8 +285,9 @@ class session {
         out_.end_progress();
         one.entry["exit"] = static_cast<int>(result.status);
         if (result.text.empty()) return;
-        const bool by_limit =
-            result.code == "memory" && result.text.find("--memory") == std::string::npos;
+        const bool says_how_much = result.text.find("--memory") != std::string::npos ||
+                                   result.text.find("would be enough") != std::string::npos;
+        const bool by_limit = result.code == "memory" && !says_how_much;
         const std::string text = by_limit ? keeper_.want_of_memory() : result.text;
         one.entry["error"] = {{"code", result.code}, {"text", text}};
         const bool named = text.find(name_of_input(one.path)) != std::string::npos;
