@@ -115,8 +115,9 @@ struct point_writer::state {
             refuse_block("the columns are not those of the header");
         detail::io::check_columns(properties);
         if (result.written_as == precision::float32 && !options.precision && !fits_single(points))
-            refuse_block("a coordinate is not a float32 value, as the header declares; "
-                         "write_options::precision says how to write it");
+            refuse_block(
+                "a coordinate is not a float32 value, as the header declares; "
+                "write_options::precision says how to write it");
     }
 
     void check(const detail::io::row_block& block) {
