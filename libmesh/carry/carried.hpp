@@ -90,7 +90,7 @@ struct property {
     std::vector<const column*> of_input;  ///< null where it has none
 };
 
-/// The properties of an element that have one value a row, but for the normals of points.
+/// The properties of an element that have one value a row, except for the normals of points.
 [[nodiscard]] std::vector<property> properties_of(std::span<const carry_source> inputs,
                                                   const char* name);
 

@@ -87,7 +87,7 @@ struct las_changes {
     std::uint64_t without_value = 0;       ///< values that are no number, for which there is none
 
     void add(const las_changes& more);
-    /// In words, but for `moved`.
+    /// In words, except for `moved`.
     void remark(std::vector<io_warning>& warnings) const;
 };
 
