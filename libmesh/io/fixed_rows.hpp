@@ -50,7 +50,7 @@ void read_data(Values& values, column& c) {
     c.list_begin.push_back(c.size());
 }
 
-/// Appends a row to the columns of `e`. Corners are read by `take_corners`. Returns what it returns.
+/// Appends a row to the columns of `e`. `take_corners` reads the corners; its result is returned.
 template <class Values, class F>
 bool read_row(Values& values, element& e, const F& take_corners) {
     bool taken = true;
