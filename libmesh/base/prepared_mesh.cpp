@@ -25,27 +25,19 @@ prepared_mesh::~prepared_mesh() = default;
 
 prepared_mesh::prepared_mesh(mesh&& owned) : prepared_mesh() {
     state_->owned = std::move(owned);
-    view_ = state_->owned;
+    see(state_->owned);
 }
 
 prepared_mesh prepared_mesh::borrow(mesh_view view) {
     prepared_mesh result;
-    result.view_ = view;
+    result.see(view);
     return result;
 }
 
-prepared_mesh prepared_mesh::cloud(std::vector<point3>&& owned) {
-    const std::size_t count = owned.size();
-    prepared_mesh result(mesh{std::move(owned), detail::base::point_faces(count)});
-    result.cloud_ = true;
-    return result;
-}
-
-prepared_mesh prepared_mesh::borrow_cloud(points_view points) {
-    prepared_mesh result(mesh{{}, detail::base::point_faces(points.size())});
-    result.view_.points = points;
-    result.cloud_ = true;
-    return result;
+void prepared_mesh::see(mesh_view given) {
+    cloud_ = given.faces.empty() && !given.points.empty();
+    if (cloud_) state_->owned.faces = detail::base::point_faces(given.points.size());
+    view_ = {given.points, cloud_ ? state_->owned.faces : given.faces};
 }
 
 prepared_mesh::prepared_mesh(prepared_mesh&& other) noexcept

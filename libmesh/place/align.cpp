@@ -408,9 +408,7 @@ align_result aligned(points_view moving, mesh_view fixed, const align_options& o
 namespace treeform {
 
 align_result align(const mesh_ref& moving, const mesh_ref& fixed, const align_options& options) {
-    mesh_view to = fixed.view();
-    if (fixed.prepared() != nullptr && fixed.prepared()->is_cloud()) to.faces = {};
-    return detail::place::aligned(moving.view().points, to, options);
+    return detail::place::aligned(moving.view().points, fixed.view(), options);
 }
 
 }  // namespace treeform

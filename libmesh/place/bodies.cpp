@@ -48,7 +48,7 @@ prepared_mesh cloud_of(const mesh& mesh, const std::vector<std::uint32_t>& numbe
     std::vector<point3> points;
     points.reserve(numbers.size());
     for (const std::uint32_t i : numbers) points.push_back(mesh.points[i]);
-    return prepared_mesh::cloud(std::move(points));
+    return prepared_mesh(treeform::mesh{std::move(points)});
 }
 
 /// The parts of `whole`, which have no point in common, as `select_faces` gives each.

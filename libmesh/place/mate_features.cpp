@@ -107,7 +107,7 @@ class feature_mover {
     }
 
     [[nodiscard]] mesh moved(const transform<3>& by) const {
-        const mesh_view here = moving_.view();
+        const mesh_view here = mesh_ref(moving_).view();  // a cloud stays one
         mesh there{{here.points.begin(), here.points.end()},
                    {here.faces.begin(), here.faces.end()}};
         for (point3& p : there.points) {
@@ -116,11 +116,6 @@ class feature_mover {
                 for (std::size_t k = 0; k < 3; ++k) p[k] = detail::base::nearest_float(p[k]);
         }
         return there;
-    }
-
-    [[nodiscard]] prepared_mesh prepared(mesh&& there) const {
-        return moving_.is_cloud() ? prepared_mesh::cloud(std::move(there.points))
-                                  : prepared_mesh(std::move(there));
     }
 
     /// How far to pull the seated mesh out, along `out`, until it is apart from all that is fixed.
@@ -145,7 +140,7 @@ class feature_mover {
 
     /// Slid from there against `out`; the move of all of it in `matrix`.
     [[nodiscard]] placement slid(const transform<3>& from, const point3& out) {
-        const prepared_mesh there = prepared(moved(from));
+        const prepared_mesh there(moved(from));
         placement at = slide(there, fixed_, scaled(out, -1.0),
                              {.clearance = options_.clearance,
                               .precision = options_.precision,
@@ -166,7 +161,7 @@ class feature_mover {
     [[nodiscard]] placement seated(const transform<3>& seat) {
         mesh there = moved(seat);
         std::vector<point3> points = there.points;
-        const prepared_mesh shape = prepared(std::move(there));
+        const prepared_mesh shape(std::move(there));
         placement at = measured(shape, 0.8, 1.0);
         if (work_.cancelled()) return at;
         const bool near = options_.clearance > 0.0 && at.at_place != mesh_relation::clear;

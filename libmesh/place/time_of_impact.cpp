@@ -85,12 +85,11 @@ tree<3> widened_tree(mesh_view mesh, double by) {
 using pair_of_faces = std::pair<std::uint32_t, std::uint32_t>;
 
 prepared_mesh moved_by(const transform<3>& by, const prepared_mesh& mesh) {
-    const mesh_view from = mesh.view();
+    const mesh_view from = mesh_ref(mesh).view();  // a cloud stays one
     treeform::mesh there{{from.points.begin(), from.points.end()},
                          {from.faces.begin(), from.faces.end()}};
     for (point3& p : there.points) p = by(p);
-    return mesh.is_cloud() ? prepared_mesh::cloud(std::move(there.points))
-                           : prepared_mesh(std::move(there));
+    return prepared_mesh(std::move(there));
 }
 
 triangle3 moved_triangle(mesh_view mesh, std::uint32_t face, const transform<3>& by, bool moves) {

@@ -123,8 +123,7 @@ class turning {
             std::vector<point3> points = points_at(there);
             if (!detail::base::all_finite(points)) return ended(placement_end::out_of_range);
             const prepared_mesh written =
-                moving_.is_cloud() ? prepared_mesh::borrow_cloud(points)
-                                   : prepared_mesh::borrow({points, moving_.view().faces});
+                prepared_mesh::borrow({points, mesh_ref(moving_).view().faces});
             placement now = measured(written, 0.8, 1.0);
             if (good(now)) {
                 accept(std::move(now), std::move(points), there, at, end);

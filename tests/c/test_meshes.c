@@ -15,7 +15,7 @@ static void test_bad_arrays(void) {
     ENDS(TREEFORM_RANGE, "32-bit",
          treeform_mesh_create(cube_points, (size_t)1 << 33, cube_faces, 12, 0, &mesh));
     ENDS(TREEFORM_RANGE, "32-bit",
-         treeform_cloud_create(cube_points, (size_t)-1, TREEFORM_COPY, &mesh));
+         treeform_mesh_create(cube_points, (size_t)-1, NULL, 0, TREEFORM_COPY, &mesh));
     CHECK(mesh == NULL);
     INVALID("result is null", treeform_mesh_arrays(NULL, NULL));
 }
@@ -85,8 +85,8 @@ static void test_clouds_and_sets(void) {
     treeform_arrays arrays;
     treeform_relation* how = NULL;
     int32_t is_cloud = 0;
-    OK(treeform_cloud_create(cube_points, 8, TREEFORM_COPY, &cloud));
-    OK(treeform_cloud_create_float(floats, 2, 0, &floating));
+    OK(treeform_mesh_create(cube_points, 8, NULL, 0, TREEFORM_COPY, &cloud));
+    OK(treeform_mesh_create_float(floats, 2, NULL, 0, 0, &floating));
     OK(treeform_mesh_is_cloud(cloud, &is_cloud));
     CHECK(is_cloud == 1);
     OK(treeform_mesh_arrays(floating, &arrays));

@@ -143,7 +143,7 @@ static void test_deviation(void) {
     treeform_deviation_result* result = NULL;
     int calls = 0;
     size_t i;
-    OK(treeform_cloud_create(points, 3, 0, &cloud));
+    OK(treeform_mesh_create(points, 3, NULL, 0, 0, &cloud));
     fixed[0] = solid;
     treeform_deviation_options_init(&options, sizeof options);
     options.band_low = -0.1;

@@ -180,7 +180,7 @@ static void test_lay_flat(void) {
     OK(treeform_lay_flat(mesh, &options, &laid));
     CHECK(laid->bed == 2.0 && laid->points[2] >= 2.0);
     treeform_free(laid);
-    OK(treeform_cloud_create(cube_points, 1, 0, &point));
+    OK(treeform_mesh_create(cube_points, 1, NULL, 0, 0, &point));
     OK(treeform_lay_flat(point, NULL, &laid));
     CHECK(laid == NULL);
     treeform_free(point);
@@ -224,7 +224,7 @@ static void test_align(void) {
     treeform_align_result* result = NULL;
     double shift[12] = {1, 0, 0, 0.01, 0, 1, 0, 0, 0, 0, 1, 0};
     OK(treeform_mesh_arrays(fixed, &arrays));
-    OK(treeform_cloud_create(arrays.points, arrays.point_count, 0, &moving));
+    OK(treeform_mesh_create(arrays.points, arrays.point_count, NULL, 0, 0, &moving));
     treeform_align_options_init(&options, sizeof options);
     options.start = shift;
     OK(treeform_align(moving, fixed, &options, &result));
@@ -233,7 +233,7 @@ static void test_align(void) {
     CHECK(result->freedom_count == 6 && result->freedoms[0].stiffness < 0.02);
     CHECK(result->point_count == arrays.point_count && near(result->scale, 1.0));
     treeform_free(result);
-    OK(treeform_cloud_create(NULL, 0, 0, &nothing));
+    OK(treeform_mesh_create(NULL, 0, NULL, 0, 0, &nothing));
     ENDS(TREEFORM_NO_PLACE, "nothing-to-align", treeform_align(nothing, fixed, NULL, &result));
     treeform_free(result);
     options.scale = 1;

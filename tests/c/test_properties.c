@@ -115,7 +115,7 @@ static void test_features(void) {
 static void test_hull(void) {
     treeform_mesh* cloud = NULL;
     treeform_hull* hull = NULL;
-    OK(treeform_cloud_create(cube_points, 8, 0, &cloud));
+    OK(treeform_mesh_create(cube_points, 8, NULL, 0, 0, &cloud));
     OK(treeform_convex_hull(cloud, NULL, NULL, &hull));
     CHECK(hull->dimension == 3 && hull->face_count == 12 && hull->side_count == 6);
     CHECK(hull->sides[0].area == 1.0 && hull->corner_begin[6] == 24);

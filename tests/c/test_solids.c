@@ -13,6 +13,35 @@ static double volume_of(const treeform_arrays* mesh) {
     return volume;
 }
 
+/* A certified result is written in its coordinates, or not at all. */
+static void test_a_result_is_written_as_certified(void) {
+    treeform_mesh* a = cube(0.1, 0, 0, 1);
+    treeform_mesh* b = cube(0.3, 0.2, 0.5, 1);
+    treeform_boolean_options options;
+    treeform_boolean_result* result = NULL;
+    treeform_certificate broken;
+    treeform_written* written = NULL;
+    const char* const stl = path_in_work("result.stl");
+    OK(treeform_unite(a, b, NULL, &result));
+    OK(treeform_write_result(path_in_work("result.ply"), &result->mesh, result->certificate, NULL,
+                             &written));
+    CHECK(written->written_as == TREEFORM_FLOAT64 && written->max_displacement == 0.0);
+    treeform_free(written);
+    ENDS(TREEFORM_FILE, "float32",
+         treeform_write_result(stl, &result->mesh, result->certificate, NULL, NULL));
+    broken = *result->certificate;
+    broken.status = TREEFORM_STATUS_NOT_CERTIFIED;
+    INVALID("", treeform_write_result(stl, &result->mesh, &broken, NULL, NULL));
+    treeform_free(result);
+    treeform_boolean_options_init(&options, sizeof options);
+    options.precision = TREEFORM_FLOAT32;
+    OK(treeform_unite(a, b, &options, &result));
+    OK(treeform_write_result(stl, &result->mesh, result->certificate, NULL, NULL));
+    treeform_free(result);
+    treeform_free(b);
+    treeform_free(a);
+}
+
 /* Checks the volume of a certified result, and frees it. */
 static void has_volume(treeform_boolean_result* result, double volume) {
     CHECK(result != NULL && result->certificate->status == TREEFORM_STATUS_OK);
@@ -233,6 +262,7 @@ static void test_wrap(void) {
 
 void test_solids(void) {
     test_booleans();
+    test_a_result_is_written_as_certified();
     test_open();
     test_resolve();
     test_repair();

@@ -19,7 +19,7 @@ static void test_cloud(void) {
     const uint32_t labels[4] = {0, 1, 2, 2};
     uint64_t count = 9;
     int asked = 0, calls = 0;
-    OK(treeform_cloud_create(scan, 4, 0, &cloud));
+    OK(treeform_mesh_create(scan, 4, NULL, 0, 0, &cloud));
     treeform_weld_options_init(&options, sizeof options);
     options.tolerance = 0.01;
     OK(treeform_weld(cloud, &options, &result));

@@ -240,10 +240,7 @@ BOUND = [
                        ", from.las->offset.end(), to.las_offset);")]}),
     Bound("read_options", custom={"+": [Member("const char* format", "null: determined by the "
                                                                      "content")]}),
-    Bound("write_options", leave="keep_names round", custom={"+": [Member(
-        "int32_t certified",
-        "the coordinates are certified: fail instead of rounding them. For "
-        "`treeform_write_mesh`")]}),
+    Bound("write_options", leave="keep_names round"),
     Bound("write_result", "written"),
     Bound("part_options"),
     Bound("usable_mesh", "part", leave="distinct stored_face", custom={

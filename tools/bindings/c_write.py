@@ -15,8 +15,7 @@ from headers import GENERATED, ROOT, Enum
 INCLUDE = ROOT / "tools/c/include/treeform/c"
 MADE = ROOT / "tools/c/made"
 #: Phrases of C++ docstrings, and those of C.
-IN_C = {"operand_element::none": "TREEFORM_NONE", "prepared_mesh::cloud": "treeform_cloud_create",
-        "carry_sources": "treeform_carry"}
+IN_C = {"operand_element::none": "TREEFORM_NONE", "carry_sources": "treeform_carry"}
 _BLOCK = re.compile(r"^// made of [^\n]+:\n((?://   [^\n]+\n)+).*?^// end\n", re.M | re.S)
 _STRUCT = re.compile(r"^typedef struct (treeform_\w+) \{\n(.*?)^\} \1;", re.M | re.S)
 

@@ -31,7 +31,7 @@ inline tf::mesh_file read(const std::filesystem::path& path, std::string_view fo
 inline answer_of<treeform_mesh> read_mesh(const std::filesystem::path& path) {
     tf::mesh own = tf::read_mesh(path).mesh;
     const std::span<const tf::face> faces = own.faces;  // stay where they are when moved
-    return mesh_of(std::move(own), {}, faces, false, 0);
+    return mesh_of(std::move(own), {}, faces, 0);
 }
 
 /// Reads the file at `path` as `treeform_read` does; options may be null.
@@ -173,16 +173,29 @@ inline tf::write_result write(const std::filesystem::path& path, const tf::mesh_
 
 /// The same for a mesh without attributes. `written` may be null.
 inline tf::write_result write_mesh(const std::filesystem::path& path, const treeform_mesh* mesh,
-                                   const treeform_write_options* options) {
+                                   const tf::write_options& options) {
+    return tf::write(path, copy_of(mesh), options);
+}
+
+/// The mesh of a result, in its certified coordinates: fails instead of rounding them. Fails also
+/// if the certificate's status is not ok. `written` may be null.
+inline tf::write_result write_result(const std::filesystem::path& path,
+                                     const treeform_arrays* mesh,
+                                     const treeform_certificate* certificate,
+                                     const tf::write_options& options) {
     struct certified_mesh {  // as `write` takes one
         tf::certificate certificate{};
         tf::mesh mesh{};
         [[nodiscard]] const tf::mesh& value() const { return mesh; }
     };
-    const auto o = chosen(options, treeform_write_options_init);
-    tf::mesh copy = copy_of(mesh);
-    if (o.certified != 0) return tf::write(path, certified_mesh{{}, std::move(copy)}, read(o));
-    return tf::write(path, std::move(copy), read(o));
+    if (need(certificate, "certificate").status != TREEFORM_STATUS_OK)
+        throw std::invalid_argument(certificate->message);
+    const treeform_arrays& of = need(mesh, "mesh");
+    const auto points = glue::points(of.points, of.point_count, "points");
+    const auto faces = glue::faces(of.faces, of.face_count, "faces");
+    certified_mesh whole;
+    whole.mesh = {{points.begin(), points.end()}, {faces.begin(), faces.end()}};
+    return tf::write(path, whole, options);
 }
 
 /// The bytes of the file, in the format in `options`.

@@ -194,7 +194,7 @@ const treeform_mesh* const* handles(keeper& kept, const std::vector<tf::prepared
 
 tf::mesh_ref ref(const treeform_mesh* mesh, const char* name) {
     const treeform_mesh& m = need(mesh, name);
-    if (m.one_use) return m.prepared->view();
+    if (m.one_use) return view(mesh);
     return *m.prepared;
 }
 
@@ -209,7 +209,7 @@ std::vector<tf::mesh_view> views(const treeform_mesh* const* meshes, std::size_t
                                  const char* name) {
     std::vector<tf::mesh_view> result;
     for (const treeform_mesh* one : array(meshes, count, name))
-        result.push_back(need(one, name).prepared->view());
+        result.push_back(ref(one, name).view());
     return result;
 }
 

@@ -31,16 +31,12 @@ template <class Handle>
     else
         return found;
 }
+/// The mesh as the caller passed it.
 [[nodiscard]] inline tf::mesh_view view(const treeform_mesh* mesh) {
-    return need(mesh, "mesh").prepared->view();
-}
-/// The mesh as the caller passed it: a cloud has no faces.
-[[nodiscard]] inline tf::mesh_view stored(const treeform_mesh* mesh) {
-    const tf::mesh_view all = view(mesh);
-    return mesh->prepared->is_cloud() ? tf::mesh_view{all.points, {}} : all;
+    return tf::mesh_ref(*need(mesh, "mesh").prepared).view();
 }
 [[nodiscard]] inline tf::mesh copy_of(const treeform_mesh* mesh) {
-    const tf::mesh_view all = stored(mesh);
+    const tf::mesh_view all = view(mesh);
     return {{all.points.begin(), all.points.end()}, {all.faces.begin(), all.faces.end()}};
 }
 /// \throws std::invalid_argument naming a face with a corner that is not finite

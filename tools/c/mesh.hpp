@@ -14,8 +14,7 @@ namespace glue {
 /// The handle for points and faces, which are in `own` unless that is empty. Checks the numbers of
 /// corners, so that functions may rely on them.
 inline answer_of<treeform_mesh> mesh_of(tf::mesh own, tf::points_view points,
-                                        std::span<const tf::face> faces, bool cloud,
-                                        std::uint32_t flags) {
+                                        std::span<const tf::face> faces, std::uint32_t flags) {
     if ((flags & ~std::uint32_t{TREEFORM_COPY | TREEFORM_ONE_USE}) != 0)
         throw std::invalid_argument("flags " + std::to_string(flags) + " are unknown");
     if (!own.points.empty()) points = own.points;
@@ -34,10 +33,9 @@ inline answer_of<treeform_mesh> mesh_of(tf::mesh own, tf::points_view points,
         faces = m.arrays.faces;
     }
     if (!m.arrays.points.empty()) points = m.arrays.points;
-    m.mine = cloud ? tf::prepared_mesh::borrow_cloud(points)
-                   : tf::prepared_mesh::borrow(tf::mesh_view{points, faces});
+    m.mine = tf::prepared_mesh::borrow({points, faces});
     m.prepared = &m.mine;
-    m.one_use = (flags & TREEFORM_ONE_USE) != 0 && !cloud;
+    m.one_use = (flags & TREEFORM_ONE_USE) != 0;
     return made;
 }
 
@@ -56,7 +54,9 @@ inline std::vector<tf::point3> widened(const float* points, std::size_t count) {
     return result;
 }
 
-/// A mesh of `points` [point_count][3] and `faces` [face_count][3].
+/// A mesh of `points` [point_count][3] and `faces` [face_count][3]; without faces, a point cloud,
+/// which can be measured, moved, welded and aligned like a mesh. Queries take each point of a cloud
+/// as a degenerate face, so face numbers are point numbers. A cloud bounds no solid.
 ///
 /// Without `TREEFORM_COPY` both arrays are borrowed, not copied: they must stay unchanged as long
 /// as the mesh exists. Coordinates may be NaN or infinite; functions that need finite coordinates
@@ -68,7 +68,7 @@ inline answer_of<treeform_mesh> mesh_create(const double* points, std::size_t po
                                             std::uint32_t flags) {
     check_counts(point_count, face_count);
     return mesh_of({}, glue::points(points, point_count, "points"),
-                   glue::faces(faces, face_count, "faces"), false, flags);
+                   glue::faces(faces, face_count, "faces"), flags);
 }
 
 /// The same for 32-bit floats, which are converted to doubles exactly. Points are copied; faces are
@@ -78,29 +78,13 @@ inline answer_of<treeform_mesh> mesh_create_float(const float* points, std::size
                                                   std::size_t face_count, std::uint32_t flags) {
     check_counts(point_count, face_count);
     return mesh_of({widened(points, point_count), {}}, {}, glue::faces(faces, face_count, "faces"),
-                   false, flags);
+                   flags);
 }
 
-/// A point cloud, which can be measured, moved, welded and aligned like a mesh. Each point is a
-/// degenerate face, so face numbers are point numbers. A cloud bounds no solid. `flags` as for
-/// meshes.
-inline answer_of<treeform_mesh> cloud_create(const double* points, std::size_t point_count,
-                                             std::uint32_t flags) {
-    check_counts(point_count, 0);
-    return mesh_of({}, glue::points(points, point_count, "points"), {}, true, flags);
-}
+/// The arrays of a mesh, valid as long as the mesh exists.
+inline treeform_arrays mesh_arrays(const treeform_mesh* mesh) { return arrays(view(mesh)); }
 
-/// The same for 32-bit floats, which are copied.
-inline answer_of<treeform_mesh> cloud_create_float(const float* points, std::size_t point_count,
-                                                   std::uint32_t flags) {
-    check_counts(point_count, 0);
-    return mesh_of({widened(points, point_count), {}}, {}, {}, true, flags);
-}
-
-/// The arrays of a mesh, valid as long as the mesh exists. A cloud has no faces.
-inline treeform_arrays mesh_arrays(const treeform_mesh* mesh) { return arrays(stored(mesh)); }
-
-/// Whether the mesh is a point cloud.
+/// Whether the mesh is a point cloud: it has points and no faces.
 inline bool mesh_is_cloud(const treeform_mesh* mesh) {
     return need(mesh, "mesh").prepared->is_cloud();
 }
@@ -118,11 +102,8 @@ inline answer_of<treeform_mesh_set> mesh_set_create(const treeform_mesh* const* 
                                                     std::size_t count) {
     auto made = make<treeform_mesh_set>();
     auto& row = made->keep(std::vector<tf::prepared_mesh>());
-    for (const treeform_mesh* one : array(meshes, count, "meshes")) {
-        const tf::mesh_view view = glue::view(one);
-        row.push_back(one->prepared->is_cloud() ? tf::prepared_mesh::borrow_cloud(view.points)
-                                                : tf::prepared_mesh::borrow(view));
-    }
+    for (const treeform_mesh* one : array(meshes, count, "meshes"))
+        row.push_back(tf::prepared_mesh::borrow(view(one)));
     made->value.meshes = handles(*made, row);
     made->value.count = count;
     return made;

@@ -8,12 +8,6 @@
 
 namespace glue {
 
-/// Merges the points of a mesh or cloud that are within the tolerance of each other; exact.
-inline tf::weld_result weld(const treeform_mesh* mesh, const tf::weld_options& options) {
-    return need(mesh, "mesh").prepared->is_cloud() ? tf::weld(view(mesh).points, options)
-                                                   : tf::weld(ref(mesh, "mesh"), options);
-}
-
 inline treeform_code give(tf::file_weld_result&& welded, treeform_weld_result** out) {
     check(welded.status);
     give_file(std::move(welded), out);

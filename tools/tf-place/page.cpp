@@ -89,10 +89,8 @@ std::optional<tf::deviation_result> find_distances(job& work, const placing& p,
                                                    tf::points_view points) {
     const auto is_cloud = [](const tf::prepared_mesh& m) { return m.is_cloud(); };
     if (p.fixed.shapes.empty() || std::ranges::any_of(p.fixed.shapes, is_cloud)) return {};
-    const std::span<const tf::face> faces = p.moving.shapes[0].view().faces;
-    tf::mesh placed{{points.begin(), points.end()}, {faces.begin(), faces.end()}};
-    if (p.moving.shapes[0].is_cloud()) placed.faces.clear();
-    auto found = tf::deviation(tf::prepared_mesh(std::move(placed)), p.fixed.shapes,
+    const std::span<const tf::face> faces = tf::mesh_ref(p.moving.shapes[0]).view().faces;
+    auto found = tf::deviation(tf::mesh_view{points, faces}, p.fixed.shapes,
                                {.both_ways = false, .progress = work.progress("page")});
     work.call_ended(found && found->status == tf::status::cancelled);
     return found;

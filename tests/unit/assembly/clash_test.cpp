@@ -195,7 +195,7 @@ TEST_CASE("clash: an open part has no volume in common, a cloud penetrates with 
     CHECK(found.pairs[0].depth.has_value());
     std::vector<tf::prepared_mesh> parts;
     parts.emplace_back(box(2, 2, 2));
-    parts.push_back(tf::prepared_mesh::cloud({{1, 1, 1}, {9, 9, 9}}));
+    parts.push_back(tf::prepared_mesh(tf::mesh{{{1, 1, 1}, {9, 9, 9}}}));
     const auto cloud = tf::clash(parts);
     REQUIRE(cloud.pairs.size() == 1);
     CHECK(cloud.pairs[0].how == mesh_relation::penetrating);

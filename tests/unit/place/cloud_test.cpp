@@ -166,7 +166,7 @@ TEST_CASE("clouds: what has been slid or separated penetrates nothing as written
         const tf::mesh above = random_cloud(source, 40, 0.4, {0.2, 0.1, 3.0});
         const auto time = tf::time_of_impact(above, solid, {0.1, 0, -1}).time;
         for (const auto precision : {tf::precision::float64, tf::precision::float32}) {
-            const auto moving = tf::prepared_mesh::borrow_cloud(above.points);
+            const auto moving = tf::prepared_mesh::borrow({above.points});
             CHECK(moving.is_cloud());
             const auto slid = tf::slide(moving, fixed, {0.1, 0, -1}, {.precision = precision});
             REQUIRE(slid);
@@ -175,7 +175,7 @@ TEST_CASE("clouds: what has been slid or separated penetrates nothing as written
             CHECK(std::abs(slid.travel / std::hypot(0.1, 1.0) - time) < 1e-5);
         }
         const tf::mesh within = random_cloud(source, 40, 0.4, {0.5, 0.1, 0.2});
-        const auto out = tf::separate(tf::prepared_mesh::cloud(std::vector(within.points)), fixed);
+        const auto out = tf::separate(within.points, fixed);
         REQUIRE(out);
         CHECK(out.end == tf::placement_end::moved_apart);
         CHECK(relation_by_points(cloud(out.points), solid) != mesh_relation::penetrating);

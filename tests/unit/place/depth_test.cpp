@@ -105,7 +105,7 @@ TEST_CASE("depth: there is none apart, touching, of open sheets side by side, or
     CHECK_FALSE(tf::penetration_depth(a, moved(a, {1, 0, 0})).has_value());
     CHECK_FALSE(tf::penetration_depth(a, tf::mesh{}).has_value());
     CHECK_FALSE(tf::penetration_depth(tf::mesh{}, a).has_value());
-    const auto cloud = tf::prepared_mesh::cloud({{0.5, 0.5, 0.5}});
+    const std::vector<tf::point3> cloud{{0.5, 0.5, 0.5}};
     CHECK_FALSE(tf::penetration_depth(cloud, tf::prepared_mesh::borrow(a)).has_value());
 }
 

@@ -95,7 +95,7 @@ TEST_CASE("deviation: an open surface and a cloud have no inside, so distances h
     const tf::mesh a = points_only({{0.5, 0.5, 0.75}});
     CHECK_FALSE(found_for(a, open).is_signed);
     CHECK(found_for(a, open).distances[0] == 0.25);
-    const auto cloud = tf::prepared_mesh::cloud({{0.5, 0.5, 0.5}, {9, 9, 9}});
+    const std::vector<tf::point3> cloud{{0.5, 0.5, 0.5}, {9, 9, 9}};
     const auto found = tf::deviation(tf::prepared_mesh(points_only(a.points)), cloud);
     CHECK_FALSE(found->is_signed);
     CHECK(found->distances[0] == 0.25);

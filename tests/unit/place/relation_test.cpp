@@ -111,7 +111,7 @@ TEST_CASE("count_inside_out: components that are, and are in no other one") {
     tf::mesh open = inside_out(b);
     open.faces.pop_back();
     CHECK(tf::count_inside_out(open) == 0);
-    CHECK(tf::count_inside_out(tf::prepared_mesh::cloud(std::vector(b.points))) == 0);
+    CHECK(tf::count_inside_out(b.points) == 0);
     CHECK(tf::count_inside_out(moved(inside_out(b), {1e9, -1e9, 1e9})) == 1);
     open.faces[0][0] = 99;
     CHECK_THROWS_AS(static_cast<void>(tf::count_inside_out(open)), std::invalid_argument);

@@ -248,7 +248,7 @@ TEST_CASE("slide and drop: what cannot be meant is refused, and named") {
 
 TEST_CASE("slide: clouds move, and stand still") {
     const std::vector<tf::point3> points{{0.25, 0.5, 4}, {0.5, 0.25, 5}};
-    const prepared_mesh cloud = prepared_mesh::borrow_cloud(points);
+    const prepared_mesh cloud = prepared_mesh::borrow({points});
     const prepared_mesh floor(box(1, 1, 1));
     const auto down_to_floor = tf::slide(cloud, floor, down);
     CHECK(down_to_floor.points == std::vector<tf::point3>{{0.25, 0.5, 1}, {0.5, 0.25, 2}});

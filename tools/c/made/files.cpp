@@ -327,7 +327,24 @@ treeform_code treeform_write_mesh(const char* path, const treeform_mesh* mesh,
                                   treeform_written** written) {
     return glue::guard([&] {
         glue::give_written(
-            [&] { return glue::write_mesh(std::string(&glue::need(path, "path")), mesh, options); },
+            [&] {
+                return glue::write_mesh(std::string(&glue::need(path, "path")), mesh,
+                                        glue::read(options));
+            },
+            written);
+    });
+}
+
+treeform_code treeform_write_result(const char* path, const treeform_arrays* mesh,
+                                    const treeform_certificate* certificate,
+                                    const treeform_write_options* options,
+                                    treeform_written** written) {
+    return glue::guard([&] {
+        glue::give_written(
+            [&] {
+                return glue::write_result(std::string(&glue::need(path, "path")), mesh, certificate,
+                                          glue::read(options));
+            },
             written);
     });
 }

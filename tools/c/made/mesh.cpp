@@ -33,22 +33,6 @@ treeform_code treeform_mesh_create_float(const float* points, size_t point_count
     });
 }
 
-treeform_code treeform_cloud_create(const double* points, size_t point_count, uint32_t flags,
-                                    treeform_mesh** mesh) {
-    return glue::guard([&] {
-        glue::start(mesh);
-        return glue::give(glue::cloud_create(points, point_count, flags), mesh);
-    });
-}
-
-treeform_code treeform_cloud_create_float(const float* points, size_t point_count, uint32_t flags,
-                                          treeform_mesh** mesh) {
-    return glue::guard([&] {
-        glue::start(mesh);
-        return glue::give(glue::cloud_create_float(points, point_count, flags), mesh);
-    });
-}
-
 treeform_code treeform_mesh_arrays(const treeform_mesh* mesh, treeform_arrays* result) {
     return glue::guard([&] {
         (void)glue::need(result, "result");

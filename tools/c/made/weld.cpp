@@ -102,7 +102,7 @@ treeform_code treeform_weld(const treeform_mesh* mesh, const treeform_weld_optio
                             treeform_weld_result** result) {
     return glue::guard([&] {
         glue::start(result);
-        return glue::give(glue::weld(mesh, glue::read(options)), result);
+        return glue::give(tf::weld(glue::ref(mesh, "mesh"), glue::read(options)), result);
     });
 }
 

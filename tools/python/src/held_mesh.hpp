@@ -22,7 +22,7 @@ class held_mesh {
           faces_(std::vector<py::ssize_t>{0, 3}),
           keep_(true),
           view_{points_of(points_), {}},
-          prepared_(tf::prepared_mesh::borrow_cloud(view_.points)) {}
+          prepared_(tf::prepared_mesh::borrow(view_)) {}
 
     [[nodiscard]] const points_array& points() const { return points_; }
     [[nodiscard]] const faces_array& faces() const { return faces_; }
@@ -35,14 +35,11 @@ class held_mesh {
     [[nodiscard]] std::size_t size() const { return view_.points.size() + view_.faces.size(); }
 
     /// A prepared mesh of its own, without indexes.
-    [[nodiscard]] tf::prepared_mesh borrowed() const {
-        return prepared_.is_cloud() ? tf::prepared_mesh::borrow_cloud(view_.points)
-                                    : tf::prepared_mesh::borrow(view_);
-    }
+    [[nodiscard]] tf::prepared_mesh borrowed() const { return tf::prepared_mesh::borrow(view_); }
 
     /// The prepared mesh, or the view if there will be no further queries.
     [[nodiscard]] tf::mesh_ref ref() const {
-        if (keep_ || prepared_.is_cloud()) return prepared_;
+        if (keep_) return prepared_;
         return view_;
     }
 

@@ -168,8 +168,8 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
 
     The returned coordinates are checked again: if rounding made the mesh penetrate, or come nearer
     than the clearance, it is moved back by units in the last place. A mesh that touches at the
-    start stays there. A mesh that penetrates at the start has no place. Points without faces move
-    along and are otherwise ignored.
+    start stays there. A mesh that penetrates at the start has no place. Points that no face uses
+    move along and are otherwise ignored; points without any face are a cloud.
 
     Only fixed meshes on the way are tested and indexed. For many calls, pass prepared meshes.
 
@@ -306,7 +306,8 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
     coordinate. `contacts` are the pairs of faces within the tolerance, beyond the clearance.
     `at_place` is exact: separate, in general, by no more than the tolerance.
 
-    Points that no face uses turn along and are otherwise ignored.
+    Points that no face uses turn along and are otherwise ignored; points without any face are a
+    cloud.
 
     fixed: a fixed body, or a list of them.
     axis: (3,) the direction of the axis, of any length.

@@ -55,9 +55,14 @@ using points_view = std::span<const point3>;  ///< [V]
 using face = std::array<std::uint32_t, 3>;
 
 /// A mesh that refers to the caller's arrays. Every corner is less than `points.size()`.
+///
+/// Points without faces are a point cloud. It can be measured, moved, welded and aligned like a
+/// mesh. Queries take each point as a degenerate face, so face numbers are point numbers. A cloud
+/// bounds no solid: it penetrates a mesh if a point is strictly inside the solid that the mesh
+/// bounds, and touches it if a point is on a face.
 struct mesh_view {
-    std::span<const point3> points;  ///< [V]
-    std::span<const face> faces;     ///< [F]
+    std::span<const point3> points{};  ///< [V]
+    std::span<const face> faces{};     ///< [F]
 };
 
 /// The floating-point format of coordinates.
@@ -73,10 +78,11 @@ enum class vertex_identity : std::uint8_t {
     by_index         ///< corners with the same point number
 };
 
-/// A triangle mesh that owns its arrays. Every corner is less than `points.size()`.
+/// A triangle mesh that owns its arrays. Every corner is less than `points.size()`. Without faces,
+/// a point cloud, as `mesh_view`.
 struct mesh {
-    std::vector<point3> points;  ///< [V]
-    std::vector<face> faces;     ///< [F]
+    std::vector<point3> points{};  ///< [V]
+    std::vector<face> faces{};     ///< [F]
 
     operator mesh_view() const { return {points, faces}; }  // NOLINT: meant to be implicit
     friend bool operator==(const mesh&, const mesh&) = default;
@@ -124,21 +130,16 @@ class TREEFORM_API prepared_mesh {
     explicit prepared_mesh(const usable_mesh&) = delete;
     /// Refers to the caller's arrays, which must stay unchanged during the lifetime of the result.
     [[nodiscard]] static prepared_mesh borrow(mesh_view view);
-    static prepared_mesh borrow(mesh&&) = delete;  // a temporary would dangle: let this own it
-
-    /// A point cloud, which can be measured, slid and separated like a mesh. Each point is a
-    /// degenerate face, so face numbers are point numbers. A cloud bounds no solid. It penetrates a
-    /// mesh if a point is strictly inside the solid that the mesh bounds, and touches it if a point
-    /// is on a face.
-    [[nodiscard]] static prepared_mesh cloud(std::vector<point3>&& owned);
-    /// The same, but refers to the caller's points, as `borrow` does.
-    [[nodiscard]] static prepared_mesh borrow_cloud(points_view points);
+    template <std::same_as<mesh> Temporary>
+    static prepared_mesh borrow(Temporary&&) = delete;  // it would dangle: let this own it
 
     ~prepared_mesh();
     prepared_mesh(prepared_mesh&&) noexcept;
     prepared_mesh& operator=(prepared_mesh&&) noexcept;
 
+    /// The mesh that queries see: a cloud has a degenerate face for each point.
     [[nodiscard]] mesh_view view() const { return view_; }
+    /// Whether the mesh has points and no faces.
     [[nodiscard]] bool is_cloud() const { return cloud_; }
 
     /// Number of indexes built so far. It does not grow when a query reuses its indexes.
@@ -148,6 +149,8 @@ class TREEFORM_API prepared_mesh {
     friend class detail::base::prepared_slots;
     struct state;
 
+    void see(mesh_view given);
+
     mesh_view view_{};
     bool cloud_ = false;
     std::shared_ptr<state> state_;
@@ -156,9 +159,6 @@ class TREEFORM_API prepared_mesh {
 /// Refers to a mesh, a prepared mesh, a view, a result of `as_mesh`, or points and faces. For
 /// parameters only; arguments convert implicitly. A temporary mesh lives until the call returns, so
 /// `unite(as_mesh(f), as_mesh(g))` is safe.
-///
-/// A mesh of points without faces is empty: nothing is near it. For a point cloud, pass
-/// `prepared_mesh::cloud`.
 ///
 /// A prepared mesh keeps the indexes that a function builds; for any other mesh they are discarded
 /// after the call.
@@ -173,7 +173,7 @@ class mesh_ref {
         const Points& points TREEFORM_LIFETIMEBOUND)
         : view_{points, {}} {}                                  // NOLINT
     mesh_ref(const prepared_mesh& mesh TREEFORM_LIFETIMEBOUND)  // NOLINT
-        : view_(mesh.view()), prepared_(&mesh) {}
+        : view_(mesh.is_cloud() ? mesh_view{mesh.view().points} : mesh.view()), prepared_(&mesh) {}
     TREEFORM_API mesh_ref(const usable_mesh& mesh TREEFORM_LIFETIMEBOUND);  // NOLINT
 
     [[nodiscard]] mesh_view view() const { return view_; }

@@ -54,10 +54,10 @@ struct placement_options {
 /// that of `time_to_distance`. The returned coordinates are checked again: if rounding made the
 /// mesh penetrate, or come nearer than the clearance, it is moved back by units in the last place.
 /// A mesh that touches at the start stays there. A mesh that penetrates at the start has no place.
-/// Points without faces move along and are otherwise ignored.
+/// Points that no face uses move along and are otherwise ignored; points without any face are a
+/// cloud.
 ///
-/// Only fixed meshes on the way are tested and indexed. For many calls, pass prepared meshes. Make
-/// point clouds with `prepared_mesh::cloud`.
+/// Only fixed meshes on the way are tested and indexed. For many calls, pass prepared meshes.
 ///
 /// \throws std::invalid_argument for a direction that is zero or not finite; a clearance that is
 ///         negative or not finite; a bed that is not finite or beyond float32; naming the operand

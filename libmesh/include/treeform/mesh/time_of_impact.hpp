@@ -116,8 +116,8 @@ struct impact {
 /// coordinate. `contacts` are the pairs of faces within the tolerance, beyond the clearance.
 /// `at_place` is exact: separate, in general, by no more than the tolerance.
 ///
-/// Points that no face uses turn along and are otherwise ignored. Make point clouds with
-/// `prepared_mesh::cloud`.
+/// Points that no face uses turn along and are otherwise ignored; points without any face are a
+/// cloud.
 ///
 /// \throws std::invalid_argument as `slide`; for an axis that is zero or not finite, an angle out
 ///         of range, or a tolerance that is not positive

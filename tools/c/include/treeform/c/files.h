@@ -193,6 +193,7 @@ enum {
 // made of the headers of C++:
 //   file_add_text() file_split_polygons() file_round_to_las() file_round_to_float32()
 //   file_transform() file_turn_normals() write_options write_result write() write_mesh()
+//   write_result()
 /// Adds a line of text: a comment, a remark, or the name of a material or texture file, by `kind`.
 TREEFORM_C_API treeform_code treeform_file_add_text(treeform_file* file, treeform_text kind,
                                                     const char* text);
@@ -228,8 +229,6 @@ typedef struct treeform_write_options {
     /// only hold float32. 3MF holds doubles, but most of its readers convert to float, so none
     /// means float32 there; a `treeform_precision`, or -1
     int32_t precision;
-    /// the coordinates are certified: fail instead of rounding them. For `treeform_write_mesh`
-    int32_t certified;
     /// Called with 0 at the start and during the writing, and with 1 before the file is renamed.
     /// If it returns false, nothing is written, and an existing file is unchanged.
     treeform_progress progress;
@@ -270,6 +269,13 @@ TREEFORM_C_API treeform_code treeform_write(const char* path, const treeform_fil
 TREEFORM_C_API treeform_code treeform_write_mesh(const char* path, const treeform_mesh* mesh,
                                                  const treeform_write_options* options,
                                                  treeform_written** written);
+
+/// The mesh of a result, in its certified coordinates: fails instead of rounding them. Fails also
+/// if the certificate's status is not ok. `treeform_written` may be null.
+TREEFORM_C_API treeform_code treeform_write_result(const char* path, const treeform_arrays* mesh,
+                                                   const treeform_certificate* certificate,
+                                                   const treeform_write_options* options,
+                                                   treeform_written** written);
 // end
 
 /// An array of bytes.

@@ -16,9 +16,10 @@ enum {
 };
 
 // made of the headers of C++:
-//   mesh_create() mesh_create_float() cloud_create() cloud_create_float() mesh_arrays()
-//   mesh_is_cloud() mesh_indexes_built()
-/// A mesh of `points` [point_count][3] and `faces` [face_count][3].
+//   mesh_create() mesh_create_float() mesh_arrays() mesh_is_cloud() mesh_indexes_built()
+/// A mesh of `points` [point_count][3] and `faces` [face_count][3]; without faces, a point cloud,
+/// which can be measured, moved, welded and aligned like a mesh. Queries take each point of a
+/// cloud as a degenerate face, so face numbers are point numbers. A cloud bounds no solid.
 ///
 /// Without `TREEFORM_COPY` both arrays are borrowed, not copied: they must stay unchanged as long
 /// as the mesh exists. Coordinates may be NaN or infinite; functions that need finite coordinates
@@ -35,21 +36,11 @@ TREEFORM_C_API treeform_code treeform_mesh_create_float(const float* points, siz
                                                         const uint32_t* faces, size_t face_count,
                                                         uint32_t flags, treeform_mesh** mesh);
 
-/// A point cloud, which can be measured, moved, welded and aligned like a mesh. Each point is a
-/// degenerate face, so face numbers are point numbers. A cloud bounds no solid. `flags` as for
-/// meshes.
-TREEFORM_C_API treeform_code treeform_cloud_create(const double* points, size_t point_count,
-                                                   uint32_t flags, treeform_mesh** mesh);
-
-/// The same for 32-bit floats, which are copied.
-TREEFORM_C_API treeform_code treeform_cloud_create_float(const float* points, size_t point_count,
-                                                         uint32_t flags, treeform_mesh** mesh);
-
-/// The arrays of a mesh, valid as long as the mesh exists. A cloud has no faces.
+/// The arrays of a mesh, valid as long as the mesh exists.
 TREEFORM_C_API treeform_code treeform_mesh_arrays(const treeform_mesh* mesh,
                                                   treeform_arrays* result);
 
-/// Whether the mesh is a point cloud.
+/// Whether the mesh is a point cloud: it has points and no faces.
 TREEFORM_C_API treeform_code treeform_mesh_is_cloud(const treeform_mesh* mesh, int32_t* result);
 
 /// Number of indexes built so far.

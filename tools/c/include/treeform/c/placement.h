@@ -151,11 +151,10 @@ TREEFORM_C_API void treeform_place_options_init(treeform_place_options* options,
 /// clearance, it is that of `treeform_time_to_distance`. The returned coordinates are checked
 /// again: if rounding made the mesh penetrate, or come nearer than the clearance, it is moved back
 /// by units in the last place. A mesh that touches at the start stays there. A mesh that
-/// penetrates at the start has no place. Points without faces move along and are otherwise
-/// ignored.
+/// penetrates at the start has no place. Points that no face uses move along and are otherwise
+/// ignored; points without any face are a cloud.
 ///
-/// Only fixed meshes on the way are tested and indexed. For many calls, pass prepared meshes. Make
-/// point clouds with `treeform_cloud_create`.
+/// Only fixed meshes on the way are tested and indexed. For many calls, pass prepared meshes.
 TREEFORM_C_API treeform_code treeform_slide(const treeform_mesh* moving,
                                             const treeform_mesh* const* fixed, size_t count,
                                             const double direction[3],
@@ -208,8 +207,8 @@ TREEFORM_C_API treeform_code treeform_separate(const treeform_mesh* moving,
 /// largest coordinate. `contacts` are the pairs of faces within the tolerance, beyond the
 /// clearance. `at_place` is exact: separate, in general, by no more than the tolerance.
 ///
-/// Points that no face uses turn along and are otherwise ignored. Make point clouds with
-/// `treeform_cloud_create`.
+/// Points that no face uses turn along and are otherwise ignored; points without any face are a
+/// cloud.
 TREEFORM_C_API treeform_code treeform_turn(const treeform_mesh* moving,
                                            const treeform_mesh* const* fixed, size_t count,
                                            const double origin[3], const double direction[3],

@@ -105,7 +105,39 @@ typedef struct treeform_weld_result {
     const treeform_file* file;
 } treeform_weld_result;
 
-/// Merges the points of a mesh or cloud that are within the tolerance of each other; exact.
+/// Merges the points of a mesh or point cloud that are within the tolerance of each other.
+///
+/// Distances are compared exactly, on the coordinates as given. Points are in the order of the
+/// first points of their groups; faces keep their order. With `weld_keep::first`, kept points keep
+/// their coordinates bit for bit. A point with a NaN or infinite coordinate is never merged, not
+/// even with a copy of itself.
+///
+/// Faces that repeat a corner are dropped unless `keep_degenerate` is set: those that repeated it
+/// before (`degenerate`) and those that do now (`collapsed`). So input faces = faces of the result
+/// + collapsed + degenerate. Faces that became equal to others are kept. Edges are counted over
+/// faces with three different corners.
+///
+/// With `keep` other than `first`, kept points may be within the tolerance of each other again,
+/// and with the rule `first` a point may move by twice the tolerance.
+///
+/// A mean is the first point's value plus the mean of the differences from it, added in the order
+/// of points and rounded at each step. For n values that differ by at most d, its error is at most
+/// n d 2^-52 plus one unit in the last place. It is between the least and the greatest value;
+/// float32 columns are rounded once more. Averaged normals are not scaled to length 1. A mean with
+/// a NaN or an infinity is NaN.
+///
+/// `keep_manifold` merges points of a group only along edges: two edges that would become one edge
+/// with at most two faces, or an edge that shrinks to a point. Points of a group linked in this
+/// way become one point; other points of the group stay separate. Each linked part has its own
+/// first, last or mean; points without faces join the lowest part with faces. So a surface that
+/// was cut open closes along its seams, while solids that meet in an edge or a corner stay apart.
+/// If merging a group would still make an edge or a point nonmanifold, because a point was
+/// nonmanifold before or faces collapse, the group is not merged. Points with equal coordinates
+/// are merged first, and the results again; so coincident corners stay merged even if the rest of
+/// their group does not. In the result, every edge of more than two faces had more than two
+/// before, and every point with several fans contains a point that had several before. Points of
+/// one group may stay within the tolerance of each other, and with the rule `first` a point may
+/// move by twice the tolerance.
 TREEFORM_C_API treeform_code treeform_weld(const treeform_mesh* mesh,
                                            const treeform_weld_options* options,
                                            treeform_weld_result** result);
