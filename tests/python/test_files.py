@@ -97,6 +97,17 @@ def test_certified_coordinates_are_not_rounded_unless_told(tmp_path):
     assert same_mesh(tf.read(tmp_path / "m.ply"), made.mesh)
 
 
+def test_certified_coordinates_are_doubles_in_3mf_only_if_asked_for(tmp_path):
+    made = tf.union(CUBE, (CUBE.vertices / 3 + 0.9, CUBE.faces))
+    for mesh in (made, [made], {"a": made}):
+        with pytest.raises(tf.FileError, match="say precision='float64', or say round=True"):
+            tf.write(tmp_path / "m.3mf", mesh)
+        assert tf.write(tmp_path / "m.3mf", mesh, precision="float64").precision == "float64"
+        assert same_mesh(tf.read(tmp_path / "m.3mf"), made.mesh)
+        assert tf.write(tmp_path / "m.3mf", mesh, round=True).precision == "float32"
+        (tmp_path / "m.3mf").unlink()
+
+
 def test_what_cannot_be_read_is_an_os_error_that_names_it(tmp_path):
     with pytest.raises(OSError, match="no_such.stl"):
         tf.read(tmp_path / "no_such.stl")

@@ -54,13 +54,10 @@ py::object write(const std::filesystem::path& path, const held_mesh& mesh, bool 
     options.progress = [report = report_of_job()](double done) {
         return done < 1.0 ? !report || report(done) : commit_job();
     };
-    const bool bare = mesh.data().is_none();
     const tf::mesh_file file = file_of(mesh);
     return as_python(run([&](const tf::progress_callback&) {
-        if (!certified || options.round || tf::fits_single(file.mesh.points))
-            return tf::write(path, file, options);
-        if (!bare && !options.precision) options.precision = tf::precision::float64;
-        return tf::detail::io::write_certified(path, file, options);
+        return certified && !options.round ? tf::detail::io::write_certified(path, file, options)
+                                           : tf::write(path, file, options);
     }));
 }
 
