@@ -400,8 +400,12 @@ RESULTS = [
                "(2, 3), number of pairs of faces, faces of a, faces of b).", "regions_of(from)")]}),
     Result("pose_result", "PoseClashes", "_assembly", leave="boxes_apart",
            doc="The clashes in each of many poses: n pairs of parts, pose after pose.",
-           docs={"clashing": "Number of poses with a pair that penetrates or is too close."},
-           custom={"poses": [
+           docs={"clashing": "Number of poses in collision."},
+           custom={"in_collision": [Attribute(
+               "in_collision", "NDArray[np.bool_]", "(P,) whether, in each pose, a pair penetrates "
+               "or is too close; with a clearance, also whether a pair touches.",
+               'as_python(std::move(from.in_collision)).attr("view")("bool")')],
+               "poses": [
                Attribute("pose", "Ids", "(n,) the number of the pose, ascending.",
                          "column_of_poses(from, [](std::uint32_t pose, const tf::pose_clash&) "
                          "{ return pose; })"),

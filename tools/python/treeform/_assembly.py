@@ -80,34 +80,6 @@ def clashes(parts: Iterable[Body], poses: ArrayLike | None, how: _core.ClashOpti
     return _core.clash_parts(bodies, how, _pairs(ignored), progress=progress)
 
 
-# made of headers:
-#   PoseClashes
-@dataclass(frozen=True, repr=False)
-class PoseClashes(Result):
-    """The clashes in each of many poses: n pairs of parts, pose after pose.
-
-    pose: (n,) the number of the pose, ascending.
-    parts: (n, 2) the two parts, the lower number first.
-    how: (n,) uint8: their relation, an index into `RELATIONS`.
-    distance: (n,) of those that are closer than the clearance; else 0.
-    clashing: Number of poses with a pair that penetrates or is too close.
-    """
-
-    pose: Ids
-    parts: Ids
-    how: NDArray[np.uint8]
-    distance: Floats
-    clashing: int
-# end
-
-    def in_collision(self, poses: int) -> NDArray[np.bool_]:
-        """(poses,) bool: whether any parts penetrate or are too close in each pose."""
-        bad = np.zeros(poses, np.bool_)
-        bad[self.pose[np.isin(self.how, [RELATIONS.index("penetrating"),
-                                         RELATIONS.index("closer_than_clearance")])]] = True
-        return bad
-
-
 def clashes_in_poses(parts: Iterable[Body], poses: ArrayLike, how: _core.ClashOptions,
                      ignored: PartPairs, progress: Progress) -> PoseClashes:
     """Implements `check_poses`."""
@@ -124,8 +96,9 @@ def clashes_in_poses(parts: Iterable[Body], poses: ArrayLike, how: _core.ClashOp
 
 
 # made of headers:
-#   intersects distance NearestPoints closest_points PartClash ClashResult clash check_poses
-def intersects(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
+#   intersects distance NearestPoints closest_points PartClash ClashResult clash
+#   PoseClashes check_poses
+def intersects(a: Body, b: Body, *, move_a: ArrayLike | None = None,
                move_b: ArrayLike | None = None, progress: Progress = None) -> Any:
     """Whether a face of `a` and a face of `b` have a common point; touching counts. Exact. Returns
     as soon as one pair is found. For meshes that are not a `Mesh`, only the faces that reach into
@@ -322,6 +295,27 @@ def clash(parts: Iterable[Body], clearance: float = 0.0, *, volumes: bool = True
     return clashes(parts, poses, how, ignored, progress)
 
 
+@dataclass(frozen=True, repr=False)
+class PoseClashes(Result):
+    """The clashes in each of many poses: n pairs of parts, pose after pose.
+
+    pose: (n,) the number of the pose, ascending.
+    parts: (n, 2) the two parts, the lower number first.
+    how: (n,) uint8: their relation, an index into `RELATIONS`.
+    distance: (n,) of those that are closer than the clearance; else 0.
+    in_collision: (P,) whether, in each pose, a pair penetrates or is too close; with a clearance,
+        also whether a pair touches.
+    clashing: Number of poses in collision.
+    """
+
+    pose: Ids
+    parts: Ids
+    how: NDArray[np.uint8]
+    distance: Floats
+    in_collision: NDArray[np.bool_]
+    clashing: int
+
+
 def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0, *,
                 first_only: bool = False, vertices: str = "by_coordinates", ignored: PartPairs = (),
                 progress: Progress = None) -> PoseClashes:
@@ -353,7 +347,7 @@ def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0,
     >>> found = treeform.check_poses([cube, cube], poses)
     >>> [(int(p), treeform.RELATIONS[h]) for p, h in zip(found.pose, found.how)]
     [(0, 'penetrating'), (1, 'touching')]
-    >>> found.in_collision(3)
+    >>> found.in_collision
     array([ True, False, False])
     """
     how = options(_core.ClashOptions, locals())

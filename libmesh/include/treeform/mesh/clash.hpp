@@ -138,7 +138,10 @@ struct pose_result {
     /// the lowest pair that penetrates, is too close or, with a clearance, touches; without a
     /// clearance, pairs that touch are omitted.
     std::vector<std::vector<pose_clash>> poses{};
-    std::uint64_t clashing = 0;     ///< poses with a pair that penetrates or is too close
+    /// [P] 1 for a pose with a pair that penetrates or is too close; with a clearance, also for one
+    /// with a pair that touches. Else 0.
+    std::vector<std::uint8_t> in_collision{};
+    std::uint64_t clashing = 0;     ///< number of poses in collision
     std::uint64_t boxes_apart = 0;  ///< pairs excluded by their boxes, over all poses
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is invalid
 };

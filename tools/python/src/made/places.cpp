@@ -218,6 +218,7 @@ py::object object(of_result, tf::pose_result&& from) {
         column_of_poses(from, [](std::uint32_t, const tf::pose_clash& one) { return one.how; });
     made["distance"] = column_of_poses(
         from, [](std::uint32_t, const tf::pose_clash& one) { return one.distance; });
+    made["in_collision"] = as_python(std::move(from.in_collision)).attr("view")("bool");
     made["clashing"] = as_python(std::move(from.clashing));
     return object_of("treeform._assembly", "PoseClashes", made);
 }

@@ -154,8 +154,11 @@ typedef struct treeform_poses_result {
     const size_t* begin;  ///< [pose_count + 1]
     const treeform_pose_clash* clashes;
     size_t pose_count;
-    uint64_t clashing;  ///< poses with a pair that penetrates or is too close
+    uint64_t clashing;  ///< number of poses in collision
     uint64_t boxes_apart;
+    /// [pose_count] 1 for a pose with a pair that penetrates or is too close; with a clearance,
+    /// also for one with a pair that touches. Else 0.
+    const uint8_t* in_collision;
 } treeform_poses_result;
 
 // made of the headers of C++:
