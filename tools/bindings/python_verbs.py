@@ -59,6 +59,7 @@ _IN_STEPS = ("`{}` in steps, for many processes on one machine or on several tha
              "the tiles; when all are done, one calls `finish` and `remove_folder`. Tiles that are "
              "finished are not {} again.")
 _FIXED = "a fixed body, or a list of them."
+_BODIES = "`a` and `b` are each a mesh or a cloud (n, 3). Points of a cloud count as faces."
 
 #: A set operation by its name.
 def _operation(name: str, what: str, leave: str = "gap",
@@ -440,7 +441,7 @@ FUNCTIONS = [
                  "folder": "the folder for the tiles; empty: the name of the first input with "
                            "\".tiles\"."}),
     # _nearness
-    Function("closest_point(mesh: Mesh, points: Points, *, radius: float = np.inf)"
+    Function("closest_point(mesh: Body, points: Points, *, radius: float = np.inf)"
              " -> ClosestPoints", "tf::closest_point(mesh.prepared(), $points.subspan(begin, end - "
              "begin), radius)", pieces="$points.size()",
              doc="The point on the surface nearest to each of `points` (n, 3). The error of a "
@@ -533,7 +534,7 @@ FUNCTIONS = [
              leave="directions effort",
              docs={"vertices": "'by_coordinates': vertices with equal coordinates are the same "
                                "vertex; 'by_index': only those with the same number."}),
-    Function("penetration_depth(a: Mesh, b: Mesh, options: measure_options) -> Optional[Depth]",
+    Function("penetration_depth(a: Body, b: Body, options: measure_options) -> Optional[Depth]",
              "tf::penetration_depth(a.prepared(), b.prepared(), options)",
              leave="radius vertices",
              docs={"directions": "the number of directions, spread over the sphere, to try in "
@@ -541,8 +542,9 @@ FUNCTIONS = [
                    "effort": "limit for the number of pairs of faces that the search examines, "
                              "where a pair in motion counts as two; 0: 20 million, plus 200 for "
                              "each face."}),
-    Function("time_of_impact(a: Mesh, b: Mesh, motion: Vector, options: impact_options) -> Impact",
+    Function("time_of_impact(a: Body, b: Body, motion: Vector, options: impact_options) -> Impact",
              "tf::time_of_impact(a.prepared(), b.prepared(), $motion, options)",
+             also=_BODIES,
              docs=_MOVES | {"motion": "(3,) the translation of `a` in one unit of time."}),
     Function("lay_flat(mesh: Mesh, options: lay_flat_options) -> Optional[LaidFlat]",
              "tf::lay_flat(mesh.prepared(), options)", "mesh",
@@ -566,16 +568,17 @@ FUNCTIONS = [
              given="size=extent_of(size)", leave="size",
              docs={"size": "(2,) or (3,) the width, depth and height of a plate."}),
     # _assembly
-    Function("intersects(a: Mesh, b: Mesh, *, move_a: Poses = None, move_b: Poses = None) -> Bytes",
-             cpp="intersects in intersections", docs=_POSES, made="Any",
+    Function("intersects(a: Body, b: Body, *, move_a: Poses = None, move_b: Poses = None) -> Bytes",
+             cpp="intersects in intersections", also=_BODIES, docs=_POSES, made="Any",
              value="one_or_all({}.view(np.bool_), move_a, move_b)"),
-    Function("distance(a: Mesh, b: Mesh, *, move_a: Poses = None, move_b: Poses = None, "
+    Function("distance(a: Body, b: Body, *, move_a: Poses = None, move_b: Poses = None, "
              "radius: float = np.inf) -> Floats", cpp="distance in distance", made="Any",
-             docs=_POSES | {"radius": "larger distances are returned as infinite."},
+             also=_BODIES, docs=_POSES | {"radius": "larger distances are returned as infinite."},
              value="one_or_all({}, move_a, move_b)"),
-    Function("closest_points(a: Mesh, b: Mesh, *, move_a: Matrix = None, move_b: Matrix = None, "
+    Function("closest_points(a: Body, b: Body, *, move_a: Matrix = None, move_b: Matrix = None, "
              "radius: float = np.inf) -> Optional[NearestPoints]",
              "tf::closest_points(a.prepared(), b.prepared(), {$move_a, $move_b, radius})",
+             also=_BODIES,
              docs=_MOVES | {"radius": "return None if the meshes are farther apart than this."}),
     Function("clash_parts(parts: Parts, options: clash_options, ignored: Pairs) -> ClashResult",
              "(options.ignored = $ignored, tf::clash(borrowed(parts), options))"),

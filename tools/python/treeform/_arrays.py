@@ -71,6 +71,8 @@ def one_of(value: Any, name: str, words: tuple[str, ...] | list[str]) -> str:
 
 def several(values: Any, name: str) -> list[Any]:
     """`values` as a list."""
+    if isinstance(values, Mapping):
+        raise ValueError(f"{name}: expected a sequence, not a dict: pass a list of its values")
     try:
         return list(values)
     except TypeError:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._errors import options
-from ._mesh import Body, MeshLike, held, held_body
+from ._mesh import Body, held, held_body
 from ._placement import SearchEffort
 from ._progress import Progress
 from ._results import Result, tuple_repr
@@ -104,6 +104,8 @@ def intersects(a: Body, b: Body, *, move_a: ArrayLike | None = None,
     as soon as one pair is found. For meshes that are not a `Mesh`, only the faces that reach into
     the intersection of both bounding boxes (after the transforms) are indexed.
 
+    `a` and `b` are each a mesh or a cloud (n, 3). Points of a cloud count as faces.
+
     move_a: an affine transform of `a`, (4, 4), or several, (n, 4, 4). With several, the result is
         an array (n,).
     move_b: likewise for `b`.
@@ -118,15 +120,16 @@ def intersects(a: Body, b: Body, *, move_a: ArrayLike | None = None,
     >>> treeform.intersects(cube, cube, move_b=np.stack([np.eye(4), away]))
     array([ True, False])
     """
-    return one_or_all(_core.intersects(held(a), held(b), poses_of(move_a, "move_a"),
+    return one_or_all(_core.intersects(held_body(a), held_body(b), poses_of(move_a, "move_a"),
                                        poses_of(move_b, "move_b"),
                                        progress=progress).view(np.bool_), move_a, move_b)
 
 
-def distance(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
-             move_b: ArrayLike | None = None, radius: float = np.inf,
-             progress: Progress = None) -> Any:
-    """The distance of the surfaces `a` and `b`; infinite if `closest_points` returns none.
+def distance(a: Body, b: Body, *, move_a: ArrayLike | None = None, move_b: ArrayLike | None = None,
+             radius: float = np.inf, progress: Progress = None) -> Any:
+    """The distance of the surfaces `a` and `b`; infinite if `closest_points` returns None.
+
+    `a` and `b` are each a mesh or a cloud (n, 3). Points of a cloud count as faces.
 
     move_a: an affine transform of `a`, (4, 4), or several, (n, 4, 4). With several, the result is
         an array (n,).
@@ -139,7 +142,7 @@ def distance(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     >>> treeform.distance(cube, cube, move_b=away)
     0.5
     """
-    return one_or_all(_core.distance(held(a), held(b), poses_of(move_a, "move_a"),
+    return one_or_all(_core.distance(held_body(a), held_body(b), poses_of(move_a, "move_a"),
                                      poses_of(move_b, "move_b"), _arrays.number(radius, "radius"),
                                      progress=progress), move_a, move_b)
 
@@ -164,7 +167,7 @@ class NearestPoints(NamedTuple):
         return tuple_repr(self)
 
 
-def closest_points(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
+def closest_points(a: Body, b: Body, *, move_a: ArrayLike | None = None,
                    move_b: ArrayLike | None = None, radius: float = np.inf,
                    progress: Progress = None) -> NearestPoints | None:
     """The nearest points of the surfaces `a` and `b`; none if one has no faces, or if they are
@@ -181,6 +184,8 @@ def closest_points(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     nearly flat surfaces that are not axis-aligned. Transforms other than rotations, uniform
     scalings and reflections are slower.
 
+    `a` and `b` are each a mesh or a cloud (n, 3). Points of a cloud count as faces.
+
     move_a: (4, 4) an affine transform applied to `a` first.
     move_b: (4, 4) an affine transform applied to `b` first.
     radius: return None if the meshes are farther apart than this.
@@ -193,7 +198,7 @@ def closest_points(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     >>> treeform.closest_points(cube, (cube.vertices + [0, 0, 3], cube.faces)).distance
     2.0
     """
-    return _core.closest_points(held(a), held(b), _arrays.matrix(move_a, "move_a"),
+    return _core.closest_points(held_body(a), held_body(b), _arrays.matrix(move_a, "move_a"),
                                 _arrays.matrix(move_b, "move_b"), _arrays.number(radius, "radius"),
                                 progress=progress)
 

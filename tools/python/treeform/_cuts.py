@@ -117,7 +117,7 @@ def joined(meshes: Iterable[MeshLike], progress: Progress) -> Mesh:
     """Implements `concatenate`."""
     several = listed(meshes)
     if several is None:
-        raise ValueError("meshes: expected a list of meshes, not a mesh")
+        raise ValueError(f"meshes: expected a list of meshes, not a {type(meshes).__name__}")
     return _core.concatenate([held(one) for one in several], progress=progress)
 
 

@@ -244,7 +244,7 @@ def _read_only(array: _Array) -> _Array:
 
 def listed(meshes: Any) -> tuple[Any, ...] | None:
     """The elements of a list or another iterable of meshes; None if `meshes` is a single mesh."""
-    if not isinstance(meshes, Iterable) or isinstance(meshes, (str, bytes)) or any(
+    if not isinstance(meshes, Iterable) or isinstance(meshes, (str, bytes, dict)) or any(
             hasattr(meshes, name) for name in ("mesh", "vertices", "points", "__array__")):
         return None
     several = tuple(meshes)
@@ -289,11 +289,14 @@ def cloud_of(body: Any) -> Floats | None:
 def held_body(body: Any) -> _core.HeldMesh:
     """A mesh or point cloud for the extension."""
     points = cloud_of(body)
-    if isinstance(body, Mesh) and body._ready()._is_cloud():  # as a cloud is read
-        made = _core.HeldMesh(body.vertices)
-        made.data = held(body).data
-        return made
-    return held(body) if points is None else _core.HeldMesh(points)
+    if points is not None:
+        return _core.HeldMesh(points)
+    mesh = held(body)
+    if len(mesh.faces) or not len(mesh.vertices):
+        return mesh
+    made = _core.HeldMesh(mesh.vertices)  # points without faces, as a cloud is read
+    made.data = mesh.data
+    return made
 
 
 def bodies(fixed: Any) -> list[_core.HeldMesh]:

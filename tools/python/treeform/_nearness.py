@@ -96,7 +96,7 @@ class ClosestPoints(NamedTuple):
         return tuple_repr(self)
 
 
-def closest_point(mesh: MeshLike, points: ArrayLike, *, radius: float = np.inf,
+def closest_point(mesh: Body, points: ArrayLike, *, radius: float = np.inf,
                   progress: Progress = None) -> ClosestPoints:
     """The point on the surface nearest to each of `points` (n, 3). The error of a distance is at
     most 16 u L, where u = 2^-53 and L is the larger of the distance and the diagonal of the
@@ -118,7 +118,7 @@ def closest_point(mesh: MeshLike, points: ArrayLike, *, radius: float = np.inf,
     >>> closest.tolist(), distance.tolist()
     ([[0.5, 0.25, 1.0]], [2.0])
     """
-    return _core.closest_point(held(mesh), _arrays.points(points, "points"),
+    return _core.closest_point(held_body(mesh), _arrays.points(points, "points"),
                                _arrays.number(radius, "radius"), progress=progress)
 
 

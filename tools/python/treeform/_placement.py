@@ -730,7 +730,7 @@ class Depth(NamedTuple):
         return tuple_repr(self)
 
 
-def penetration_depth(a: MeshLike, b: MeshLike, *, directions: int = 256, effort: int = 0,
+def penetration_depth(a: Body, b: Body, *, directions: int = 256, effort: int = 0,
                       progress: Progress = None) -> Depth | None:
     """The length of a short translation that separates `a` from `b`: an upper bound of the
     penetration depth, which is the length of the shortest one. None if they do not penetrate each
@@ -760,7 +760,7 @@ def penetration_depth(a: MeshLike, b: MeshLike, *, directions: int = 256, effort
     0.25
     """
     how = options(_core.MeasureOptions, locals())
-    return _core.penetration_depth(held(a), held(b), how, progress=progress)
+    return _core.penetration_depth(held_body(a), held_body(b), how, progress=progress)
 
 
 class Impact(NamedTuple):
@@ -782,7 +782,7 @@ class Impact(NamedTuple):
         return tuple_repr(self)
 
 
-def time_of_impact(a: MeshLike, b: MeshLike, motion: ArrayLike, *, move_a: ArrayLike | None = None,
+def time_of_impact(a: Body, b: Body, motion: ArrayLike, *, move_a: ArrayLike | None = None,
                    move_b: ArrayLike | None = None, latest: float = np.inf,
                    progress: Progress = None) -> Impact:
     """The least t >= 0 at which `a`, moved by t times `motion`, has a common point with `b`.
@@ -791,6 +791,8 @@ def time_of_impact(a: MeshLike, b: MeshLike, motion: ArrayLike, *, move_a: Array
     compared as exact quotients of determinants, so all simultaneous contacts are found, even of
     parallel or coplanar faces. Surfaces count, not solids: inside a closed mesh, `a` moves until it
     meets the surface. Grazing is a contact.
+
+    `a` and `b` are each a mesh or a cloud (n, 3). Points of a cloud count as faces.
 
     motion: (3,) the translation of `a` in one unit of time.
     move_a: (4, 4) an affine transform applied to `a` first.
@@ -808,6 +810,6 @@ def time_of_impact(a: MeshLike, b: MeshLike, motion: ArrayLike, *, move_a: Array
     3.0
     """
     how = options(_core.ImpactOptions, locals())
-    return _core.time_of_impact(held(a), held(b), _arrays.vector(motion, "motion"), how,
+    return _core.time_of_impact(held_body(a), held_body(b), _arrays.vector(motion, "motion"), how,
                                 progress=progress)
 # end
