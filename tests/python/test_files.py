@@ -46,12 +46,25 @@ def test_attributes_travel(tmp_path):
     extra.set_vertex("quality", quality)
     extra.set_face("label", np.arange(12, dtype=np.int32))
     assert list(extra.vertex) == ["quality"]
+    extra.vertex["weight"] = list(range(8))
+    extra.face["label"] = extra.face["label"] + 1
+    with pytest.raises(ValueError, match="read-only"):
+        extra.face["label"][0] = 5
+    with pytest.raises(ValueError, match="weight: 3 values for 8 rows"):
+        extra.vertex["weight"] = [1, 2, 3]
+    with pytest.raises(TypeError, match="drop"):
+        del extra.vertex["weight"]
+    assert extra.vertex["weight"].tolist() == list(range(8)) and len(extra.vertex) == 2
+    kept = extra.vertex
+    kept["weight"] = np.ones(8)
+    assert kept["weight"].all() and extra.vertex["weight"].dtype == np.float64
     mesh = tf.Mesh(CUBE.vertices, CUBE.faces, extra)
     tf.write(tmp_path / "m.ply", mesh)
     again = tf.read(tmp_path / "m.ply")
     assert np.array_equal(again.attributes.vertex["quality"], quality)
     assert again.attributes.vertex["quality"].dtype == np.float32
-    assert np.array_equal(again.attributes.face["label"], np.arange(12))
+    assert np.array_equal(again.attributes.face["label"], np.arange(12) + 1)
+    assert again.attributes.vertex["weight"].all()
     assert again.attributes.format == "ply-binary-le"
     with pytest.raises(ValueError, match="label: 3 values for 12 rows"):
         extra.set_face("label", [1, 2, 3])
