@@ -35,7 +35,7 @@ def test_slide():
     assert made.direction.tolist() == [0, 0, -1] and made.travel == pytest.approx(7)
     assert tf.measure(made, CUBE).relation == "touching"
     assert np.allclose(made.vertices, ball.vertices + made.matrix[:3, 3])
-    assert made.contacts.points.shape == (made.contact_count, 3)
+    assert made.contacts.point.shape == (made.contact_count, 3)
     assert made.nearest_fixed == 0 and made.nearest.distance == 0
     gap = tf.slide(ball, CUBE, [0, 0, -1], 0.25)
     assert gap.at_place == "clear" and tf.distance(gap, CUBE) == pytest.approx(0.25)

@@ -291,13 +291,13 @@ RESULTS = [
                              "as_python(std::move(from.histogram))")]}),
     Result("closest_points_result", "NearestPoints", "_assembly", "NamedTuple"),
     Result("closest_point_result", "ClosestPoints", "_nearness", "NamedTuple",
-           rows="std::optional<tf::{}>", names={"point": "closest", "face": "triangle_id"},
+           rows="std::optional<tf::{}>",
            doc="The nearest point of a mesh for each query, in the order of trimesh: "
-               "`closest, distance, triangle_id = closest_point(mesh, points)`.",
-           docs={"closest": "(n, 3) points on the mesh, rounded; NaN if none is within the "
+               "`point, distance, face = closest_point(mesh, points)`.",
+           docs={"point": "(n, 3) points on the mesh, rounded; NaN if none is within the "
                             "radius.",
                  "distance": "(n,) distances, not squared; infinite if there is no point.",
-                 "triangle_id": "(n,) uint32 face numbers; 4294967295 if there is no point."}),
+                 "face": "(n,) uint32 face numbers; 4294967295 if there is no point."}),
     Result("mesh_hit", "RayHits", "_nearness", "NamedTuple", rows="std::optional<tf::{}>",
            leave="coplanar t_end", doc="The first face that each ray hits.",
            docs={"t": "(n,) the point hit is origin + t direction; infinite without a hit.",
@@ -310,8 +310,8 @@ RESULTS = [
     # _placement
     Result("placement_contact", "Contacts", "_placement", "NamedTuple", rows="tf::{}",
            doc="Pairs of faces that touch in the final position, or are at the clearance.",
-           names={"point": "points", "normal": "normals"},
-           docs={"normals": "(n, 3) of length 1, from the fixed to the moving mesh; 0 if there "
+           docs={"point": "(n, 3) a common point of each pair, rounded.",
+                 "normal": "(n, 3) of length 1, from the fixed to the moving mesh; 0 if there "
                             "is none.",
                  "moving": "faces of the moving mesh.",
                  "fixed_face": "faces of the fixed mesh; 4294967295 for the bed."},

@@ -52,16 +52,16 @@ def distances(mesh: MeshLike, points: ArrayLike, progress: Progress) -> Floats:
 
 class AllRayHits(NamedTuple):
     """All hits of rays, in the order of trimesh's `intersects_location`:
-    `locations, index_ray, index_tri = raycast_all(...)`.
+    `point, ray, face = raycast_all(...)`.
 
-    locations: (n, 3) the points that are hit, rounded.
-    index_ray: (n,) uint32 the number of the ray, ascending.
-    index_tri: (n,) uint32 the face.
+    point: (n, 3) the points that are hit, rounded.
+    ray: (n,) uint32 the number of the ray, ascending.
+    face: (n,) uint32 the face.
     """
 
-    locations: Floats
-    index_ray: Ids
-    index_tri: Ids
+    point: Floats
+    ray: Ids
+    face: Ids
 
     def __repr__(self) -> str:
         return tuple_repr(self)
@@ -80,17 +80,17 @@ def all_hits(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, t_min: f
 #   ClosestPoints closest_point contains locate winding_number signed_distance RayHits raycast
 #   raycast_all raycast_any Deviation deviation
 class ClosestPoints(NamedTuple):
-    """The nearest point of a mesh for each query, in the order of trimesh: `closest, distance,
-    triangle_id = closest_point(mesh, points)`.
+    """The nearest point of a mesh for each query, in the order of trimesh: `point, distance, face =
+    closest_point(mesh, points)`.
 
-    closest: (n, 3) points on the mesh, rounded; NaN if none is within the radius.
+    point: (n, 3) points on the mesh, rounded; NaN if none is within the radius.
     distance: (n,) distances, not squared; infinite if there is no point.
-    triangle_id: (n,) uint32 face numbers; 4294967295 if there is no point.
+    face: (n,) uint32 face numbers; 4294967295 if there is no point.
     """
 
-    closest: Floats
+    point: Floats
     distance: Floats
-    triangle_id: Ids
+    face: Ids
 
     def __repr__(self) -> str:
         return tuple_repr(self)
@@ -114,8 +114,8 @@ def closest_point(mesh: Body, points: ArrayLike, *, radius: float = np.inf,
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
-    >>> closest, distance, face = treeform.closest_point(cube, [[0.5, 0.25, 3.0]])
-    >>> closest.tolist(), distance.tolist()
+    >>> point, distance, face = treeform.closest_point(cube, [[0.5, 0.25, 3.0]])
+    >>> point.tolist(), distance.tolist()
     ([[0.5, 0.25, 1.0]], [2.0])
     """
     return _core.closest_point(held_body(mesh), _arrays.points(points, "points"),
@@ -249,8 +249,8 @@ def raycast_all(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
-    >>> locations, ray, face = treeform.raycast_all(cube, [[0.5, 0.25, 3]], [[0, 0, -1]])
-    >>> locations.tolist()
+    >>> point, ray, face = treeform.raycast_all(cube, [[0.5, 0.25, 3]], [[0, 0, -1]])
+    >>> point.tolist()
     [[0.5, 0.25, 1.0], [0.5, 0.25, 0.0]]
     """
     return all_hits(mesh, origins, directions, t_min, t_max, progress)

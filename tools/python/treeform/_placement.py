@@ -45,15 +45,15 @@ def extent_of(size: ArrayLike) -> Floats:
 class Contacts(NamedTuple):
     """Pairs of faces that touch in the final position, or are at the clearance.
 
-    points: (n, 3)
-    normals: (n, 3) of length 1, from the fixed to the moving mesh; 0 if there is none.
+    point: (n, 3) a common point of each pair, rounded.
+    normal: (n, 3) of length 1, from the fixed to the moving mesh; 0 if there is none.
     moving: (n,) faces of the moving mesh.
     fixed_face: (n,) faces of the fixed mesh; 4294967295 for the bed.
     fixed: (n,) number of the fixed mesh.
     """
 
-    points: Floats
-    normals: Floats
+    point: Floats
+    normal: Floats
     moving: Ids
     fixed_face: Ids
     fixed: Ids
