@@ -170,7 +170,7 @@ class NearestPoints(NamedTuple):
 def closest_points(a: Body, b: Body, *, move_a: ArrayLike | None = None,
                    move_b: ArrayLike | None = None, radius: float = np.inf,
                    progress: Progress = None) -> NearestPoints | None:
-    """The nearest points of the surfaces `a` and `b`; none if one has no faces, or if they are
+    """The nearest points of the surfaces `a` and `b`; None if one has no faces, or if they are
     further apart than the radius. Surfaces count, not solids: inside a closed mesh, the distance is
     that to its surface.
 
@@ -215,11 +215,10 @@ class PartClash(Result):
     distance: Distance of the surfaces; 0 if they meet.
     nearest: (2, 3) For parts that are too close: the nearest points on a and on b.
     face_pairs: Pairs of faces that meet.
-    volume: For closed parts that penetrate: the volume of their intersection, as
-        `operand_volumes::both`.
+    volume: For closed parts that penetrate: the volume of their intersection.
     depth: For penetrating parts: `penetration_depth`, the length of `move`.
     move: (3,) a short translation that separates `a` from `b`.
-    depth_effort: Of `depth`, as in `penetration_depth_result`.
+    depth_effort: Of `depth`, as in `Depth`.
     regions: Regions where they meet: (box (2, 3), number of pairs of faces, faces of a, faces of
         b).
     """
@@ -243,7 +242,7 @@ class PartClash(Result):
 class ClashResult(Result):
     """The clashes of all parts of an assembly.
 
-    pairs: Ascending.
+    pairs: Those not clear of each other, ascending.
     counts: Number of tested pairs, by relation.
     clashes: Number of pairs that penetrate or are closer than the clearance; with a clearance, also
         pairs that touch.
@@ -334,7 +333,7 @@ def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0,
     poses: (P, N, 4, 4) for each of P poses, an affine transform for each of the N parts; or (P, 4,
         4), to move only the first part.
     clearance: Parts nearer than this are too close; not squared.
-    first_only: `check_poses`: only the first clash of each pose.
+    first_only: Find only the first clash of each pose.
     vertices: 'by_coordinates' or 'by_index'. As in `measure`.
     ignored: pairs of part numbers to ignore.
 

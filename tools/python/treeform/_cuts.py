@@ -431,7 +431,7 @@ class MassProperties(Result):
     """Mass properties of a solid of density 1.
 
     volume: The enclosed volume; negative if the mesh is inside out.
-    center: (3,) of mass.
+    center: (3,) the center of mass.
     inertia: (3, 3) Inertia tensor about the center, in axes x, y and z: the energy of rotation w is
         w . (inertia w) / 2.
     """

@@ -142,7 +142,7 @@ def locate(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> N
     share, so no second ray is needed. Points with equal coordinates are one vertex.
 
     Returns (n,) int8: 1 for points strictly inside, 0 for points on the surface, -1 for points
-    outside. Raises NotSolidError if the mesh is open.
+    outside. The error for an open mesh is a NotSolidError.
 
     points: (n, 3) the points to locate.
 
@@ -175,14 +175,7 @@ def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = N
     """(n,) the signed distance of each of `points` (n, 3) from the surface of a closed mesh:
     positive inside, as in trimesh, negative outside, and exactly 0 on the surface. The sign is
     exact. `deviation` uses the opposite sign, as metrology does. Raises NotSolidError if the mesh
-    is open.
-
-    Raises ValueError for a point of `a` that is not finite; a face of `b` as in `closest_point`; a
-    band that is NaN or reversed; more than 2^20 bins.
-
-    Cost: `closest_point` for each point, in a spatial order; for signs a winding number for one
-    point in 1024, and the faces between neighbors for the others. A copy of `b` if there are
-    several.
+    is open. For other errors and the cost, see `closest_point` and `locate`.
 
     >>> import treeform
     >>> treeform.signed_distance(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.75], [0, 0, 3]])
@@ -331,27 +324,25 @@ class Deviation(Result):
 def deviation(a: Body, b: Body, *, band: tuple[float, float] | None = None, bins: int = 40,
               both_ways: bool = True, progress: Progress = None) -> Deviation:
     """The signed distances of all points of `a`, used by faces or not, from the surface of `b`.
-    Several meshes `b` count as one, with faces numbered mesh after mesh.
 
     The sign is exact: that of the winding number of `b` around the point (`locate`). Corners of `b`
     with equal coordinates are one vertex. If `b` is open, or a cloud, it has no inside, and
     distances have no sign. Magnitudes have the error bound of `closest_point`, 16 u L; a distance
     may round to 0.
 
-    None if `a` has no points or `b` has no faces.
+    Raises ValueError if `a` has no points or `b` has no faces.
 
     `a` and `b` are each a mesh or a cloud (n, 3).
 
     band: the lowest and highest signed distance that are within tolerance.
-    bins: Of the histogram; 0: none.
+    bins: Number of intervals of the histogram; 0: none.
     both_ways: Also compute distances of the points of `b` from `a`.
 
     Raises ValueError for a point of `a` that is not finite; a face of `b` as in `closest_point`; a
     band that is NaN or reversed; more than 2^20 bins.
 
     Cost: `closest_point` for each point, in a spatial order; for signs a winding number for one
-    point in 1024, and the faces between neighbors for the others. A copy of `b` if there are
-    several.
+    point in 1024, and the faces between neighbors for the others.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")

@@ -64,8 +64,8 @@ typedef struct treeform_weld_options {
     const char* keep_by;
     /// A property as in `treeform_weld_condition`: the rule visits points by its values, the least
     /// first, NaN last, of equal ones the lowest-numbered; the first point of a group in this
-    /// order is kept. Needs `weld_keep::first`. Empty: by point number. Kept points remain in the
-    /// order of their numbers.
+    /// order is kept. Needs `TREEFORM_KEEP_FIRST`. Empty: by point number. Kept points remain in
+    /// the order of their numbers.
     const char* order_by;
     int32_t highest_first;  ///< for `order_by`: the greatest value first
     int32_t only_borders;   ///< merge only points on edges of exactly one face
