@@ -123,9 +123,10 @@ pose_result check_poses(const mesh_refs& given_parts, std::span<const transform<
         return result;
     }
     for (looked_at& one : found) {
-        result.clashing += std::any_of(
+        result.in_collision.push_back(std::any_of(
             one.clashes.begin(), one.clashes.end(),
-            [&](const pose_clash& clash) { return is_clash(clash, options.clearance); });
+            [&](const pose_clash& clash) { return is_clash(clash, options.clearance); }));
+        result.clashing += result.in_collision.back();
         result.boxes_apart += one.boxes_apart;
         result.poses.push_back(std::move(one.clashes));
     }

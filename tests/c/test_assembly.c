@@ -66,6 +66,7 @@ static void test_poses(void) {
     treeform_clash_options_init(&options, sizeof options);
     OK(treeform_check_poses(parts, 2, poses, 2, &options, &result));
     CHECK(result->pose_count == 2 && result->clashing == 1);
+    CHECK(result->in_collision[0] == 0 && result->in_collision[1] == 1);
     CHECK(result->begin[0] == 0 && result->begin[1] == 0 && result->begin[2] == 1);
     CHECK(result->clashes[0].a == 0 && result->clashes[0].how == TREEFORM_PENETRATING);
     treeform_free(result);

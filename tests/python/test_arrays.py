@@ -289,6 +289,7 @@ def test_points_may_come_in_anything_that_lists_them():
                   Vertices(), Cloud.points):
         assert len(tf.weld(cloud, 1).points) == 1
         assert len(tf.deviation(cloud, CUBE).distances) == 2
+        assert tf.measure(cloud, CUBE).relation == "touching"
 
 
 def test_a_matrix_that_is_none_is_refused():

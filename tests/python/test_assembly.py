@@ -86,9 +86,9 @@ def test_what_is_inside_out_is_the_same_solid():
     assert tf.measure(CUBE, turned).relation == "penetrating"
     assert tf.contains(turned, [[1, 0.5, 0.5], [0.25, 0.5, 0.5]]).tolist() == [True, False]
     poses = matrices([[0, 0, 0], [0.5, 0, 0], [0, 0, 0], [1, 0, 0]]).reshape(2, 2, 4, 4)
-    assert tf.check_poses([turned, CUBE], poses).in_collision(2).all()
+    assert tf.check_poses([turned, CUBE], poses).in_collision.all()
     poses[:, 1, 0] = [[-1, 0, 0, 1.5], [-1, 0, 0, 2.5]]  # a mirror, from 0.5 to 1.5, or from 1.5
-    assert tf.check_poses([turned, CUBE], poses).in_collision(2).tolist() == [True, False]
+    assert tf.check_poses([turned, CUBE], poses).in_collision.tolist() == [True, False]
 
 
 def test_a_mirror_turns_faces_over():
@@ -111,7 +111,7 @@ def test_poses_are_as_one_by_one():
             assert there.pop((p, one.a, one.b)) == one.how
             bad[p] |= one.how != "touching"
     assert not there
-    assert np.array_equal(found.in_collision(40), bad) and found.clashing == bad.sum()
+    assert np.array_equal(found.in_collision, bad) and found.clashing == bad.sum()
     first = tf.check_poses(parts, poses, 0.1, first_only=True)
     assert len(first.pose) == len(set(first.pose.tolist()))
     with pytest.raises(ValueError, match="poses"):

@@ -90,7 +90,8 @@ def cells(mesh):
 def test_volumes_are_those_of_cells(a, b, c):
     x, y, z = map(cells, (a, b, c))
     for made, filled in ((a | b, x | y), (a - b, x & ~y), (a & b, x & y), (a ^ b, x ^ y),
-                         ((a | b) - c, (x | y) & ~z), ((a ^ b) & c, (x ^ y) & z)):
+                         ((a | b) - c, (x | y) & ~z), ((a ^ b) & c, (x ^ y) & z),
+                         ((a + b) * c, (x | y) & z), (tuple(a) * (b + c), x & (y | z))):
         if filled.any():
             assert made.volume == filled.sum()
             assert made.is_solid and len(tf.self_intersections(made)) == 0

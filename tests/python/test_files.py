@@ -46,12 +46,25 @@ def test_attributes_travel(tmp_path):
     extra.set_vertex("quality", quality)
     extra.set_face("label", np.arange(12, dtype=np.int32))
     assert list(extra.vertex) == ["quality"]
+    extra.vertex["weight"] = list(range(8))
+    extra.face["label"] = extra.face["label"] + 1
+    with pytest.raises(ValueError, match="read-only"):
+        extra.face["label"][0] = 5
+    with pytest.raises(ValueError, match="weight: 3 values for 8 rows"):
+        extra.vertex["weight"] = [1, 2, 3]
+    with pytest.raises(TypeError, match="drop"):
+        del extra.vertex["weight"]
+    assert extra.vertex["weight"].tolist() == list(range(8)) and len(extra.vertex) == 2
+    kept = extra.vertex
+    kept["weight"] = np.ones(8)
+    assert kept["weight"].all() and extra.vertex["weight"].dtype == np.float64
     mesh = tf.Mesh(CUBE.vertices, CUBE.faces, extra)
     tf.write(tmp_path / "m.ply", mesh)
     again = tf.read(tmp_path / "m.ply")
     assert np.array_equal(again.attributes.vertex["quality"], quality)
     assert again.attributes.vertex["quality"].dtype == np.float32
-    assert np.array_equal(again.attributes.face["label"], np.arange(12))
+    assert np.array_equal(again.attributes.face["label"], np.arange(12) + 1)
+    assert again.attributes.vertex["weight"].all()
     assert again.attributes.format == "ply-binary-le"
     with pytest.raises(ValueError, match="label: 3 values for 12 rows"):
         extra.set_face("label", [1, 2, 3])
@@ -95,6 +108,17 @@ def test_certified_coordinates_are_not_rounded_unless_told(tmp_path):
     assert tf.write(tmp_path / "m.stl", single).max_displacement == 0
     tf.write(tmp_path / "m.ply", made)
     assert same_mesh(tf.read(tmp_path / "m.ply"), made.mesh)
+
+
+def test_certified_coordinates_are_doubles_in_3mf_only_if_asked_for(tmp_path):
+    made = tf.union(CUBE, (CUBE.vertices / 3 + 0.9, CUBE.faces))
+    for mesh in (made, [made], {"a": made}):
+        with pytest.raises(tf.FileError, match="say precision='float64', or say round=True"):
+            tf.write(tmp_path / "m.3mf", mesh)
+        assert tf.write(tmp_path / "m.3mf", mesh, precision="float64").precision == "float64"
+        assert same_mesh(tf.read(tmp_path / "m.3mf"), made.mesh)
+        assert tf.write(tmp_path / "m.3mf", mesh, round=True).precision == "float32"
+        (tmp_path / "m.3mf").unlink()
 
 
 def test_what_cannot_be_read_is_an_os_error_that_names_it(tmp_path):

@@ -35,7 +35,7 @@ def test_slide():
     assert made.direction.tolist() == [0, 0, -1] and made.travel == pytest.approx(7)
     assert tf.measure(made, CUBE).relation == "touching"
     assert np.allclose(made.vertices, ball.vertices + made.matrix[:3, 3])
-    assert made.contacts.points.shape == (made.contact_count, 3)
+    assert made.contacts.point.shape == (made.contact_count, 3)
     assert made.nearest_fixed == 0 and made.nearest.distance == 0
     gap = tf.slide(ball, CUBE, [0, 0, -1], 0.25)
     assert gap.at_place == "clear" and tf.distance(gap, CUBE) == pytest.approx(0.25)
@@ -160,3 +160,33 @@ def test_a_mesh_without_faces_is_a_cloud():
     read = tf.Mesh([[0.5, 0.5, 0.5], [2, 2, 2]], np.empty((0, 3), dtype=np.uint32))
     assert tf.measure(read, CUBE).relation == "penetrating"
     assert len(tf.clash([CUBE, read]).pairs) == 1
+
+
+def test_queries_of_two_meshes_take_clouds_too():
+    points = np.array([[0.5, 0.5, 3], [0.5, 0.5, 2]])
+    for cloud in (points, points.tolist(), tf.Mesh(points), (points, [])):
+        assert tf.distance(CUBE, cloud) == tf.distance(cloud, CUBE) == 1
+        assert tf.distance(cloud, [[0.5, 0.5, 2.25]]) == 0.25
+        assert not tf.intersects(cloud, CUBE)
+        lower = np.eye(4)
+        lower[2, 3] = -1
+        assert tf.intersects(CUBE, cloud, move_b=[np.eye(4), lower]).tolist() == [False, True]
+        near = tf.closest_points(CUBE, cloud)
+        assert near.face_b == 1 and near.on_a.tolist() == [0.5, 0.5, 1]
+        assert tf.closest_point(cloud, [[0.5, 0.5, 0]]).distance.tolist() == [2]
+        assert tf.penetration_depth(cloud, CUBE) is None
+        assert tf.time_of_impact(cloud, CUBE, [0, 0, -2]).time == 0.5
+        assert tf.measure(cloud, CUBE).distance == 1
+    assert tf.distance(CUBE, ([], [])) == np.inf
+
+
+def test_a_dict_of_meshes_is_refused_with_what_to_pass():
+    parts = {"a": CUBE, "b": CUBE}
+    for call in (tf.clash, tf.union, lambda some: tf.boolean("a - b", some),
+                 lambda some: tf.slide(CUBE, some, [0, 0, 1]),
+                 lambda some: tf.pack(some, [8, 8])):
+        with pytest.raises(ValueError, match="dict.*: pass a list of its values"):
+            call(parts)
+    with pytest.raises(ValueError, match="a list of meshes, not a dict"):
+        tf.concatenate(parts)
+    assert tf.boolean("a - b", **parts).mesh.volume == 0

@@ -129,7 +129,7 @@ def test_closest_points_by_brute_force(seed, faces):
         assert distances_from(tf.Mesh(mesh.vertices, mesh.faces[[number]]), point[None]) < 1e-12
     near = tf.closest_point(mesh, points, radius=1.0)
     assert np.array_equal(np.isfinite(near.distance), distance <= 1.0)
-    assert (near.triangle_id[distance > 1.0] == tf.NONE).all()
+    assert (near.face[distance > 1.0] == tf.NONE).all()
 
 
 def test_many_queries_are_those_of_few():
@@ -138,7 +138,7 @@ def test_many_queries_are_those_of_few():
     whole = tf.closest_point(ball, points)
     few = tf.closest_point(ball, points[99_000:])
     assert np.array_equal(whole.distance[99_000:], few.distance)
-    assert np.array_equal(whole.triangle_id[99_000:], few.triangle_id)
+    assert np.array_equal(whole.face[99_000:], few.face)
 
 
 def test_inside_and_outside():

@@ -15,7 +15,8 @@ from headers import GENERATED, ROOT, Enum
 INCLUDE = ROOT / "tools/c/include/treeform/c"
 MADE = ROOT / "tools/c/made"
 #: Phrases of C++ docstrings, and those of C.
-IN_C = {"operand_element::none": "TREEFORM_NONE", "carry_sources": "treeform_carry"}
+IN_C = {"operand_element::none": "TREEFORM_NONE", "carry_sources": "treeform_carry",
+        "convex_hull_result::faces": "treeform_hull::faces"}
 _BLOCK = re.compile(r"^// made of [^\n]+:\n((?://   [^\n]+\n)+).*?^// end\n", re.M | re.S)
 _STRUCT = re.compile(r"^typedef struct (treeform_\w+) \{\n(.*?)^\} \1;", re.M | re.S)
 
@@ -59,16 +60,23 @@ class Writer:
     def words(self, text: str) -> str:
         """A sentence of C++ with the names of C in backticks."""
         def name(found: re.Match[str]) -> str:
-            word = found.group(1)
+            word, _, of = found.group(1).partition("::")
+            if word in self.enums and of:
+                names = [value for value, _ in self.language.enums[word].values]
+                return f"`{self.constants(word)[names.index(of)]}`"
             bound = self.language.bound.get(word)
             if bound:
-                return f"`{bound.c}`"
+                return f"`{bound.c}{of and '::' + of}`"
+            if of:
+                return found.group(0)
             there = f"treeform_{word}" in self.known and word not in self.fields | self.values
             return f"`treeform_{word}`" if there else found.group(0)
-        text = re.sub(r"; none( for|:)", r"; `TREEFORM_NONE`\1", re.sub(r"`(\w+)`", name, text))
+        text = re.sub(r"`(\w+(?:::\w+)?)`", name, text)
+        text = re.sub(r"; none( for|:)", r"; `TREEFORM_NONE`\1", text)
         for cpp, c in IN_C.items():
             text = text.replace(f"`{cpp}`", f"`{c}`")
-        return text
+        unknown = r"`(?!treeform_)\w+::\w+`"  # what C does not have, in parentheses or a sentence
+        return re.sub(rf" \({unknown}\)|(?<=\.)\s{unknown}[^.]*\.", "", text)
 
     # ---- headers ----
 

@@ -124,7 +124,7 @@ class FunctionWriter:
 
         text = re.sub(r" \(`([^`]+)`\)", lambda m: m[0] if is_known(m[1]) else "", text)
         kept = []
-        for one in re.split(r"(?<=[.;])\s+(?=[A-Z`\[(]|for |naming )", text):
+        for one in re.split(r"(?<=[.;])\s+(?=[A-Z`\[(]|for |if |naming )", text):
             if all(map(is_known, re.findall(r"`([^`]*)`", one))):
                 kept.append(one)
         made = " ".join(kept).strip()
@@ -140,6 +140,8 @@ class FunctionWriter:
         said = [one.doc] if one.doc else [
             self.said(" ".join(part.split()), names, one.name)
             for part in re.split(r"\n\n|\n(?=- )", body)]
+        if one.missing:
+            said = [part.replace("None if ", "Raises ValueError if ") for part in said]
         raises: list[str] = []
         cost = ""
         for tag in tags:

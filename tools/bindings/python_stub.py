@@ -291,7 +291,7 @@ class Stub:
 
     def text(self) -> str:
         modules = sorted({(one.module, one.name) for one in self.language.results.values()}
-                         | {("_cuts", "CutPieces"), ("_mesh", "Mesh")})
+                         | {("_arrays", "ColumnDict"), ("_cuts", "CutPieces"), ("_mesh", "Mesh")})
         text = HEAD.format(imports="".join(f"from .{module} import {name}\n"
                                            for module, name in modules))
         text += "\n" + "".join(f"{name}: {type}\n" for name, type in sorted(self.values)) + "\n"

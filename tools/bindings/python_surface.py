@@ -24,6 +24,21 @@ WORDS = {"columns as in `las_header`": "columns are the fields of its records",
          "for prepared meshes": "for a `Mesh`",
          "`signed_volume`": "`Mesh.volume`", "`surface_area`": "`Mesh.area`",
          "`boolean_statistics`": "`BooleanResult.statistics`",
+         "`points` are moved by it": "Vertices are moved by it",
+         "`points` differ from it": "Vertices differ from it",
+         "`points` differ from `matrix`": "vertices differ from `matrix`",
+         "rounded coordinates in `points`": "rounded coordinates",
+         "Several meshes `b` count as one, with faces numbered mesh after mesh.": "",
+         "pass prepared meshes": "pass a `Mesh`", "once for a prepared mesh": "once for a `Mesh`",
+         "; none if one has no faces": "; None if one has no faces",
+         "returns none": "returns None", "so none means": "so None means",
+         "`penetration_depth_result`": "`Depth`", "`repair_statistics`": "`RepairResult.steps`",
+         "those of `repair_options`": "those of `steps`",
+         "For `self_intersections`: which": "Which",
+         "counted in `statistics`": "counted in `RepairResult.steps`",
+         "first in `sides`": "first in `LaidFlat.areas`", "first `overhang_sides` sides":
+             "32 largest sides",
+         "line \"unit ...\" of `obj_info`": "line \"obj_info unit ...\" of a PLY file",
          "bounding_box": "Mesh.bounds", "`written_as`": "`precision`"}
 
 MESSAGE = Attribute("message", "str", "The outcome as a clause for people, without a full stop.",
@@ -169,7 +184,7 @@ RESULTS = [
                                    "py::cast(from.message())")]}),
     Result("mesh_defects", "MeshDefects", "_properties"),
     Result("topology_counts", "Topology", "_properties"),
-    Result("mesh_feature", "Feature", "_properties"),
+    Result("mesh_feature", "Feature", "_properties", docs={"kind": "'plane' or 'axis'."}),
     # _intersections
     Result("intersection_result", "FacePairs", "_intersections",
              leave="box_pairs exact_pairs predicates tree_seconds pair_seconds",
@@ -291,13 +306,13 @@ RESULTS = [
                              "as_python(std::move(from.histogram))")]}),
     Result("closest_points_result", "NearestPoints", "_assembly", "NamedTuple"),
     Result("closest_point_result", "ClosestPoints", "_nearness", "NamedTuple",
-           rows="std::optional<tf::{}>", names={"point": "closest", "face": "triangle_id"},
+           rows="std::optional<tf::{}>",
            doc="The nearest point of a mesh for each query, in the order of trimesh: "
-               "`closest, distance, triangle_id = closest_point(mesh, points)`.",
-           docs={"closest": "(n, 3) points on the mesh, rounded; NaN if none is within the "
+               "`point, distance, face = closest_point(mesh, points)`.",
+           docs={"point": "(n, 3) points on the mesh, rounded; NaN if none is within the "
                             "radius.",
                  "distance": "(n,) distances, not squared; infinite if there is no point.",
-                 "triangle_id": "(n,) uint32 face numbers; 4294967295 if there is no point."}),
+                 "face": "(n,) uint32 face numbers; 4294967295 if there is no point."}),
     Result("mesh_hit", "RayHits", "_nearness", "NamedTuple", rows="std::optional<tf::{}>",
            leave="coplanar t_end", doc="The first face that each ray hits.",
            docs={"t": "(n,) the point hit is origin + t direction; infinite without a hit.",
@@ -310,8 +325,8 @@ RESULTS = [
     # _placement
     Result("placement_contact", "Contacts", "_placement", "NamedTuple", rows="tf::{}",
            doc="Pairs of faces that touch in the final position, or are at the clearance.",
-           names={"point": "points", "normal": "normals"},
-           docs={"normals": "(n, 3) of length 1, from the fixed to the moving mesh; 0 if there "
+           docs={"point": "(n, 3) a common point of each pair, rounded.",
+                 "normal": "(n, 3) of length 1, from the fixed to the moving mesh; 0 if there "
                             "is none.",
                  "moving": "faces of the moving mesh.",
                  "fixed_face": "faces of the fixed mesh; 4294967295 for the bed."},
@@ -359,7 +374,8 @@ RESULTS = [
     Result("penetration_depth_result", "Depth", "_placement", "NamedTuple"),
     Result("laid_flat", "LaidFlat", "_placement", "MeshResult", context="moving",
            leave="bed contact corrected", doc="A mesh on the bed.",
-           docs={"certificate": "The outcome of checking the coordinates."},
+           docs={"certificate": "The outcome of checking the coordinates.",
+                 "chosen": "The side that is on the bed, as an index into `areas`."},
            custom={
                "points": [Attribute("mesh", "Mesh", "The mesh on the bed.",
                                     "moved_mesh(std::move(from.points), moving, from.matrix, "
@@ -373,7 +389,9 @@ RESULTS = [
     Result("align_result", "Alignment", "_placement", "MeshResult", context="moving",
            leave="pivot pivot_moved freedoms", true="self.converged",
            doc="The motion that `align` found.",
-           docs={"end": "'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'."},
+           docs={"end": "'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'.",
+                 "matrix": "(4, 4) new = M * old, with `start` included.",
+                 "converged": "Whether `end` is 'converged'."},
            custom={"points": [Attribute("mesh", "Mesh", "The moved mesh; without faces for a "
                                         "cloud.", "moved_mesh(std::move(from.points), moving, "
                                         "from.matrix, py::none())")],
@@ -400,8 +418,12 @@ RESULTS = [
                "(2, 3), number of pairs of faces, faces of a, faces of b).", "regions_of(from)")]}),
     Result("pose_result", "PoseClashes", "_assembly", leave="boxes_apart",
            doc="The clashes in each of many poses: n pairs of parts, pose after pose.",
-           docs={"clashing": "Number of poses with a pair that penetrates or is too close."},
-           custom={"poses": [
+           docs={"clashing": "Number of poses in collision."},
+           custom={"in_collision": [Attribute(
+               "in_collision", "NDArray[np.bool_]", "(P,) whether, in each pose, a pair penetrates "
+               "or is too close; with a clearance, also whether a pair touches.",
+               'as_python(std::move(from.in_collision)).attr("view")("bool")')],
+               "poses": [
                Attribute("pose", "Ids", "(n,) the number of the pose, ascending.",
                          "column_of_poses(from, [](std::uint32_t pose, const tf::pose_clash&) "
                          "{ return pose; })"),

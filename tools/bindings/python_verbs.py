@@ -59,6 +59,7 @@ _IN_STEPS = ("`{}` in steps, for many processes on one machine or on several tha
              "the tiles; when all are done, one calls `finish` and `remove_folder`. Tiles that are "
              "finished are not {} again.")
 _FIXED = "a fixed body, or a list of them."
+_BODIES = "`a` and `b` are each a mesh or a cloud (n, 3). Points of a cloud count as faces."
 
 #: A set operation by its name.
 def _operation(name: str, what: str, leave: str = "gap",
@@ -208,7 +209,7 @@ FUNCTIONS = [
              docs={"drains": "(n, 4) drain holes through the wall: for each, a point and a "
                              "diameter. The hole is at the surface point nearest to that point."}),
     Function("thicken(mesh: Mesh, thickness: float, options: offset_options) -> OffsetResult",
-             "tf::thicken($mesh, thickness, options)", kind="long_work", check="solid",
+             "tf::thicken($mesh, thickness, options)", kind="long_work", check="mesh",
              leave="offset",
              docs={"shift": "move the surface by this distance before thickening: toward its "
                             "front if positive, toward its back if negative. By default, half of "
@@ -258,7 +259,9 @@ FUNCTIONS = [
                              "are determined by a minimum cut."}),
     Function("wrap(mesh: Mesh, size: float, options: offset_options) -> OffsetResult",
              "tf::wrap($mesh, size, options)", kind="long_work", check="mesh",
-             leave="resolution shift"),
+             leave="resolution shift",
+             docs={"offset": "the distance of the wrap's vertices from the mesh, in its length "
+                             "unit. None: a thirtieth of `size`."}),
     Function("convex_hull(points: Cloud) -> ConvexHull", "tf::convex_hull($points, report)",
              docs={"points": "points (n, 3), or a mesh."}),
     Function("rounded(points: Points, precision: precision = \"float32\") -> Floats",
@@ -269,8 +272,10 @@ FUNCTIONS = [
     Function("find_rounding_defects(mesh: Mesh, placed: Points) -> tuple[int, int]",
              "tf::find_rounding_defects(mesh.view(), $placed, report)",
              docs={"placed": "(V, 3) the rounded vertices."},
-             also="Returns the number of faces that became degenerate, and the number of pairs of"
-                  " faces that intersect only after rounding."),
+             doc="The number of faces that become degenerate, and the number of pairs of faces "
+                 "that newly meet (all kinds except touching and degenerate), when the vertices "
+                 "of `mesh` become `placed`. Exact. Distances are not compared, so `placed` may "
+                 "also be moved and rotated."),
     Function("join_equal_points(mesh: Mesh) -> Mesh"),
     # _properties
     Function("bounds(mesh: Mesh) -> Optional[Floats]", "tf::bounding_box(mesh.view().points)"),
@@ -440,7 +445,7 @@ FUNCTIONS = [
                  "folder": "the folder for the tiles; empty: the name of the first input with "
                            "\".tiles\"."}),
     # _nearness
-    Function("closest_point(mesh: Mesh, points: Points, *, radius: float = np.inf)"
+    Function("closest_point(mesh: Body, points: Points, *, radius: float = np.inf)"
              " -> ClosestPoints", "tf::closest_point(mesh.prepared(), $points.subspan(begin, end - "
              "begin), radius)", pieces="$points.size()",
              doc="The point on the surface nearest to each of `points` (n, 3). The error of a "
@@ -473,18 +478,19 @@ FUNCTIONS = [
     Function("locate(mesh: MeshLike, points: ArrayLike) -> NDArray[np.int8]",
              body="np.array([-1, 1, 0], np.int8)[located(mesh, points, progress)[0]]",
              also="Returns (n,) int8: 1 for points strictly inside, 0 for points on the surface, "
-                  "-1 for points outside. Raises NotSolidError if the mesh is open.",
+                  "-1 for points outside. The error for an open mesh is a NotSolidError.",
              docs={"points": "(n, 3) the points to locate."}),
     Function("winding_number(mesh: MeshLike, points: ArrayLike) -> NDArray[np.int32]",
              body="np.asarray(located(mesh, points, progress)[1])",
              doc="(n,) int32: the winding number of a closed mesh around each of `points` (n, 3);"
                  " 0 for points on the surface. Exact. Raises NotSolidError if the mesh is open."),
     Function("signed_distance(mesh: MeshLike, points: ArrayLike) -> Floats",
-             body="distances(mesh, points, progress)", cpp="deviation",
+             body="distances(mesh, points, progress)",
              doc="(n,) the signed distance of each of `points` (n, 3) from the surface of a "
                  "closed mesh: positive inside, as in trimesh, negative outside, and exactly 0 on"
                  " the surface. The sign is exact. `deviation` uses the opposite sign, as "
-                 "metrology does. Raises NotSolidError if the mesh is open."),
+                 "metrology does. Raises NotSolidError if the mesh is open. For other errors and "
+                 "the cost, see `closest_point` and `locate`."),
     Function("raycast_all(mesh: Mesh, origins: Points, directions: Points, *, t_min: float = 0.0, "
              "t_max: float = np.inf) -> AllRayHits",
              body="all_hits(mesh, origins, directions, t_min, t_max, progress)", docs=_RAYS),
@@ -501,6 +507,9 @@ FUNCTIONS = [
             "options: placement_options)",
             "onto.empty() ? tf::drop($moving, options, $direction) : "
             "tf::drop($moving, $onto, options, $direction)", "bed",
+            doc="Moves `moving` down until it rests on the bed or on one of `onto`. Without "
+                "`onto`, a mesh below the bed goes up, back along the direction; with `onto`, it "
+                "has no place.",
             docs={"onto": _FIXED, "direction": "(3,) the downward direction, of any length.",
                   "bed": "z of the bed. None: no bed if there are fixed bodies, otherwise a bed "
                          "at 0.",
@@ -531,9 +540,10 @@ FUNCTIONS = [
                  "relation is exact, and so is whether the distance is 0. Other distances are "
                  "rounded as in `distance`.",
              leave="directions effort",
-             docs={"vertices": "'by_coordinates': vertices with equal coordinates are the same "
+             docs={"radius": "ignore bodies farther apart than this; inclusive.",
+                   "vertices": "'by_coordinates': vertices with equal coordinates are the same "
                                "vertex; 'by_index': only those with the same number."}),
-    Function("penetration_depth(a: Mesh, b: Mesh, options: measure_options) -> Optional[Depth]",
+    Function("penetration_depth(a: Body, b: Body, options: measure_options) -> Optional[Depth]",
              "tf::penetration_depth(a.prepared(), b.prepared(), options)",
              leave="radius vertices",
              docs={"directions": "the number of directions, spread over the sphere, to try in "
@@ -541,8 +551,9 @@ FUNCTIONS = [
                    "effort": "limit for the number of pairs of faces that the search examines, "
                              "where a pair in motion counts as two; 0: 20 million, plus 200 for "
                              "each face."}),
-    Function("time_of_impact(a: Mesh, b: Mesh, motion: Vector, options: impact_options) -> Impact",
+    Function("time_of_impact(a: Body, b: Body, motion: Vector, options: impact_options) -> Impact",
              "tf::time_of_impact(a.prepared(), b.prepared(), $motion, options)",
+             also=_BODIES,
              docs=_MOVES | {"motion": "(3,) the translation of `a` in one unit of time."}),
     Function("lay_flat(mesh: Mesh, options: lay_flat_options) -> Optional[LaidFlat]",
              "tf::lay_flat(mesh.prepared(), options)", "mesh",
@@ -566,16 +577,17 @@ FUNCTIONS = [
              given="size=extent_of(size)", leave="size",
              docs={"size": "(2,) or (3,) the width, depth and height of a plate."}),
     # _assembly
-    Function("intersects(a: Mesh, b: Mesh, *, move_a: Poses = None, move_b: Poses = None) -> Bytes",
-             cpp="intersects in intersections", docs=_POSES, made="Any",
+    Function("intersects(a: Body, b: Body, *, move_a: Poses = None, move_b: Poses = None) -> Bytes",
+             cpp="intersects in intersections", also=_BODIES, docs=_POSES, made="Any",
              value="one_or_all({}.view(np.bool_), move_a, move_b)"),
-    Function("distance(a: Mesh, b: Mesh, *, move_a: Poses = None, move_b: Poses = None, "
+    Function("distance(a: Body, b: Body, *, move_a: Poses = None, move_b: Poses = None, "
              "radius: float = np.inf) -> Floats", cpp="distance in distance", made="Any",
-             docs=_POSES | {"radius": "larger distances are returned as infinite."},
+             also=_BODIES, docs=_POSES | {"radius": "larger distances are returned as infinite."},
              value="one_or_all({}, move_a, move_b)"),
-    Function("closest_points(a: Mesh, b: Mesh, *, move_a: Matrix = None, move_b: Matrix = None, "
+    Function("closest_points(a: Body, b: Body, *, move_a: Matrix = None, move_b: Matrix = None, "
              "radius: float = np.inf) -> Optional[NearestPoints]",
              "tf::closest_points(a.prepared(), b.prepared(), {$move_a, $move_b, radius})",
+             also=_BODIES,
              docs=_MOVES | {"radius": "return None if the meshes are farther apart than this."}),
     Function("clash_parts(parts: Parts, options: clash_options, ignored: Pairs) -> ClashResult",
              "(options.ignored = $ignored, tf::clash(borrowed(parts), options))"),

@@ -75,7 +75,7 @@ inline answer_of<treeform_poses_result> check_poses(const treeform_mesh* const* 
     if (count != 0 && pose_count > (std::size_t{1} << 36) / count)
         throw std::length_error("too many poses");
     (void)array(poses, 12 * pose_count * count, "poses");
-    const tf::pose_result found = tf::check_poses(
+    tf::pose_result found = tf::check_poses(
         refs(parts, count, "parts"),
         {reinterpret_cast<const tf::transform<3>*>(poses), pose_count * count}, options);
     check(found.status);
@@ -91,6 +91,7 @@ inline answer_of<treeform_poses_result> check_poses(const treeform_mesh* const* 
     made->value.clashes = same<treeform_pose_clash>(all);
     made->value.clashing = found.clashing;
     made->value.boxes_apart = found.boxes_apart;
+    made->value.in_collision = made->keep(std::move(found.in_collision)).data();
     return made;
 }
 

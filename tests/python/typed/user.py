@@ -73,7 +73,7 @@ def assembly(parts: dict[str, Mesh], poses: NDArray[np.float64]) -> list[tuple[s
     names = list(parts)
     found = tf.clash(parts.values(), clearance=0.1, poses=poses)
     many = tf.check_poses(list(parts.values()), poses[None], ignored=[(0, 1)])
-    print(many.in_collision(1), tf.RELATIONS)
+    print(many.in_collision, tf.RELATIONS)
     return [(names[one.a] + names[one.b], one.depth or 0.0) for one in found.pairs]
 
 

@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -162,6 +163,11 @@ TEST_CASE("poses: ignored pairs, the first clash only, and counts") {
     REQUIRE(all.poses[1].size() == 1);
     CHECK(all.poses[1][0] == tf::pose_clash{0, 1, mesh_relation::touching, 0.0});
     CHECK(all.clashing == 1);
+    CHECK(all.in_collision == std::vector<std::uint8_t>{1, 0, 0});
+    tf::clash_options near;
+    near.clearance = 0.5;  // then touching counts
+    CHECK(tf::check_poses(prepared(parts), poses, near).in_collision ==
+          std::vector<std::uint8_t>{1, 1, 1});
     CHECK(all.boxes_apart == 4);
     tf::clash_options options;
     options.first_only = true;

@@ -54,13 +54,10 @@ py::object write(const std::filesystem::path& path, const held_mesh& mesh, bool 
     options.progress = [report = report_of_job()](double done) {
         return done < 1.0 ? !report || report(done) : commit_job();
     };
-    const bool bare = mesh.data().is_none();
     const tf::mesh_file file = file_of(mesh);
     return as_python(run([&](const tf::progress_callback&) {
-        if (!certified || options.round || tf::fits_single(file.mesh.points))
-            return tf::write(path, file, options);
-        if (!bare && !options.precision) options.precision = tf::precision::float64;
-        return tf::detail::io::write_certified(path, file, options);
+        return certified && !options.round ? tf::detail::io::write_certified(path, file, options)
+                                           : tf::write(path, file, options);
     }));
 }
 
@@ -71,6 +68,7 @@ py::object column_values(const tf::column& c) {
         std::vector<T> values(c.size());
         if (!values.empty()) std::memcpy(values.data(), c.values.data(), c.values.size());
         py::array numbers = as_array(std::move(values));
+        numbers.attr("setflags")(py::arg("write") = false);
         if (!c.list_length) return numbers;
         std::vector<std::uint64_t> begin = c.list_begin;
         return py::make_tuple(as_array(std::move(begin)), numbers);
@@ -83,6 +81,12 @@ py::dict columns(const file_data& data, const std::string& element) {
         for (const tf::column& c : rows->columns)
             if (c.role == tf::column_role::data) all[py::str(c.name)] = column_values(c);
     return all;
+}
+
+/// A mapping of the columns, in which columns can be set.
+py::object column_dict(const py::object& data, const std::string& element) {
+    return py::module_::import("treeform._arrays")
+        .attr("ColumnDict")(data.attr("columns")(element), data.attr(("set_" + element).c_str()));
 }
 
 void set_column(file_data& data, const std::string& element, const std::string& name,
@@ -152,13 +156,13 @@ std::string text_of(const file_data& data) {
 
 void add_columns(py::class_<file_data>& made) {
     made.def_property_readonly(
-            "vertex", [](const file_data& d) -> py::dict { return columns(d, "vertex"); },
-            "Copies of the columns of vertices, (V,).")
+            "vertex", [](const py::object& d) -> py::object { return column_dict(d, "vertex"); },
+            "Read-only columns of vertices, (V,); assign to set one.")  // -> ColumnDict
         .def_property_readonly(
-            "face", [](const file_data& d) -> py::dict { return columns(d, "face"); },
-            "Copies of the columns of faces, as stored in the file.")
+            "face", [](const py::object& d) -> py::object { return column_dict(d, "face"); },
+            "Read-only columns of faces, as in the file; assign to set one.")  // -> ColumnDict
         .def("columns", &columns, py::arg("element"),
-             "Copies of the columns of `element`; lists are (begin, values).")
+             "Read-only copies of the columns of `element`; lists are (begin, values).")
         .def(
             "set_vertex",
             [](file_data& d, const std::string& name, const array_like& values) {
@@ -187,7 +191,7 @@ but not lists and other elements.
 >>> import numpy as np
 >>> import treeform
 >>> extra = treeform.Attributes()
->>> extra.set_vertex("quality", np.array([0.5, 1.0, 2.0]))
+>>> extra.vertex["quality"] = np.array([0.5, 1.0, 2.0])
 >>> extra.vertex
 {'quality': array([0.5, 1. , 2. ])})");
     made.attr("__module__") = "treeform";

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import operator
 import os
-from typing import Any, Mapping, TypeVar
+from collections import UserDict
+from typing import Any, Callable, Mapping, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,6 +23,21 @@ _IDENTITY = np.eye(4)
 
 #: Stands for no element in arrays of numbers of elements.
 NONE = 0xFFFFFFFF
+
+
+class ColumnDict(UserDict[str, Any]):
+    """The columns of `Attributes` by name. Assigning a column sets it there, too."""
+
+    def __init__(self, columns: dict[str, Any], put: Callable[[str, Any], None]) -> None:
+        self.data, self._put = columns, put
+
+    def __setitem__(self, name: str, values: ArrayLike) -> None:
+        self._put(name, values)
+        self.data[name] = np.array(values)
+        self.data[name].setflags(write=False)
+
+    def __delitem__(self, name: str) -> None:
+        raise TypeError("columns cannot be removed; `write` leaves out those in `drop`")
 
 
 # ---- numbers, strings, lists ----
@@ -71,6 +87,8 @@ def one_of(value: Any, name: str, words: tuple[str, ...] | list[str]) -> str:
 
 def several(values: Any, name: str) -> list[Any]:
     """`values` as a list."""
+    if isinstance(values, Mapping):
+        raise ValueError(f"{name}: expected a sequence, not a dict: pass a list of its values")
     try:
         return list(values)
     except TypeError:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._errors import options
-from ._mesh import Body, MeshLike, held, held_body
+from ._mesh import Body, held, held_body
 from ._placement import SearchEffort
 from ._progress import Progress
 from ._results import Result, tuple_repr
@@ -60,8 +60,7 @@ def _pairs(pairs: PartPairs) -> Ids:
 
 def _at(body: _core.HeldMesh, pose: Floats) -> _core.HeldMesh:
     """A transformed body."""
-    moved = _core.transformed(body, pose)
-    return _core.HeldMesh(moved.vertices) if body.is_cloud else held(moved)
+    return held(_core.transformed(body, pose))
 
 
 def _held(parts: Iterable[Body]) -> list[_core.HeldMesh]:
@@ -80,34 +79,6 @@ def clashes(parts: Iterable[Body], poses: ArrayLike | None, how: _core.ClashOpti
     return _core.clash_parts(bodies, how, _pairs(ignored), progress=progress)
 
 
-# made of headers:
-#   PoseClashes
-@dataclass(frozen=True, repr=False)
-class PoseClashes(Result):
-    """The clashes in each of many poses: n pairs of parts, pose after pose.
-
-    pose: (n,) the number of the pose, ascending.
-    parts: (n, 2) the two parts, the lower number first.
-    how: (n,) uint8: their relation, an index into `RELATIONS`.
-    distance: (n,) of those that are closer than the clearance; else 0.
-    clashing: Number of poses with a pair that penetrates or is too close.
-    """
-
-    pose: Ids
-    parts: Ids
-    how: NDArray[np.uint8]
-    distance: Floats
-    clashing: int
-# end
-
-    def in_collision(self, poses: int) -> NDArray[np.bool_]:
-        """(poses,) bool: whether any parts penetrate or are too close in each pose."""
-        bad = np.zeros(poses, np.bool_)
-        bad[self.pose[np.isin(self.how, [RELATIONS.index("penetrating"),
-                                         RELATIONS.index("closer_than_clearance")])]] = True
-        return bad
-
-
 def clashes_in_poses(parts: Iterable[Body], poses: ArrayLike, how: _core.ClashOptions,
                      ignored: PartPairs, progress: Progress) -> PoseClashes:
     """Implements `check_poses`."""
@@ -124,12 +95,15 @@ def clashes_in_poses(parts: Iterable[Body], poses: ArrayLike, how: _core.ClashOp
 
 
 # made of headers:
-#   intersects distance NearestPoints closest_points PartClash ClashResult clash check_poses
-def intersects(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
+#   intersects distance NearestPoints closest_points PartClash ClashResult clash
+#   PoseClashes check_poses
+def intersects(a: Body, b: Body, *, move_a: ArrayLike | None = None,
                move_b: ArrayLike | None = None, progress: Progress = None) -> Any:
     """Whether a face of `a` and a face of `b` have a common point; touching counts. Exact. Returns
     as soon as one pair is found. For meshes that are not a `Mesh`, only the faces that reach into
     the intersection of both bounding boxes (after the transforms) are indexed.
+
+    `a` and `b` are each a mesh or a cloud (n, 3). Points of a cloud count as faces.
 
     move_a: an affine transform of `a`, (4, 4), or several, (n, 4, 4). With several, the result is
         an array (n,).
@@ -145,15 +119,16 @@ def intersects(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     >>> treeform.intersects(cube, cube, move_b=np.stack([np.eye(4), away]))
     array([ True, False])
     """
-    return one_or_all(_core.intersects(held(a), held(b), poses_of(move_a, "move_a"),
+    return one_or_all(_core.intersects(held_body(a), held_body(b), poses_of(move_a, "move_a"),
                                        poses_of(move_b, "move_b"),
                                        progress=progress).view(np.bool_), move_a, move_b)
 
 
-def distance(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
-             move_b: ArrayLike | None = None, radius: float = np.inf,
-             progress: Progress = None) -> Any:
-    """The distance of the surfaces `a` and `b`; infinite if `closest_points` returns none.
+def distance(a: Body, b: Body, *, move_a: ArrayLike | None = None, move_b: ArrayLike | None = None,
+             radius: float = np.inf, progress: Progress = None) -> Any:
+    """The distance of the surfaces `a` and `b`; infinite if `closest_points` returns None.
+
+    `a` and `b` are each a mesh or a cloud (n, 3). Points of a cloud count as faces.
 
     move_a: an affine transform of `a`, (4, 4), or several, (n, 4, 4). With several, the result is
         an array (n,).
@@ -166,7 +141,7 @@ def distance(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     >>> treeform.distance(cube, cube, move_b=away)
     0.5
     """
-    return one_or_all(_core.distance(held(a), held(b), poses_of(move_a, "move_a"),
+    return one_or_all(_core.distance(held_body(a), held_body(b), poses_of(move_a, "move_a"),
                                      poses_of(move_b, "move_b"), _arrays.number(radius, "radius"),
                                      progress=progress), move_a, move_b)
 
@@ -191,10 +166,10 @@ class NearestPoints(NamedTuple):
         return tuple_repr(self)
 
 
-def closest_points(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
+def closest_points(a: Body, b: Body, *, move_a: ArrayLike | None = None,
                    move_b: ArrayLike | None = None, radius: float = np.inf,
                    progress: Progress = None) -> NearestPoints | None:
-    """The nearest points of the surfaces `a` and `b`; none if one has no faces, or if they are
+    """The nearest points of the surfaces `a` and `b`; None if one has no faces, or if they are
     further apart than the radius. Surfaces count, not solids: inside a closed mesh, the distance is
     that to its surface.
 
@@ -208,6 +183,8 @@ def closest_points(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     nearly flat surfaces that are not axis-aligned. Transforms other than rotations, uniform
     scalings and reflections are slower.
 
+    `a` and `b` are each a mesh or a cloud (n, 3). Points of a cloud count as faces.
+
     move_a: (4, 4) an affine transform applied to `a` first.
     move_b: (4, 4) an affine transform applied to `b` first.
     radius: return None if the meshes are farther apart than this.
@@ -220,7 +197,7 @@ def closest_points(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
     >>> treeform.closest_points(cube, (cube.vertices + [0, 0, 3], cube.faces)).distance
     2.0
     """
-    return _core.closest_points(held(a), held(b), _arrays.matrix(move_a, "move_a"),
+    return _core.closest_points(held_body(a), held_body(b), _arrays.matrix(move_a, "move_a"),
                                 _arrays.matrix(move_b, "move_b"), _arrays.number(radius, "radius"),
                                 progress=progress)
 
@@ -237,11 +214,10 @@ class PartClash(Result):
     distance: Distance of the surfaces; 0 if they meet.
     nearest: (2, 3) For parts that are too close: the nearest points on a and on b.
     face_pairs: Pairs of faces that meet.
-    volume: For closed parts that penetrate: the volume of their intersection, as
-        `operand_volumes::both`.
+    volume: For closed parts that penetrate: the volume of their intersection.
     depth: For penetrating parts: `penetration_depth`, the length of `move`.
     move: (3,) a short translation that separates `a` from `b`.
-    depth_effort: Of `depth`, as in `penetration_depth_result`.
+    depth_effort: Of `depth`, as in `Depth`.
     regions: Regions where they meet: (box (2, 3), number of pairs of faces, faces of a, faces of
         b).
     """
@@ -265,7 +241,7 @@ class PartClash(Result):
 class ClashResult(Result):
     """The clashes of all parts of an assembly.
 
-    pairs: Ascending.
+    pairs: Those not clear of each other, ascending.
     counts: Number of tested pairs, by relation.
     clashes: Number of pairs that penetrate or are closer than the clearance; with a clearance, also
         pairs that touch.
@@ -322,6 +298,27 @@ def clash(parts: Iterable[Body], clearance: float = 0.0, *, volumes: bool = True
     return clashes(parts, poses, how, ignored, progress)
 
 
+@dataclass(frozen=True, repr=False)
+class PoseClashes(Result):
+    """The clashes in each of many poses: n pairs of parts, pose after pose.
+
+    pose: (n,) the number of the pose, ascending.
+    parts: (n, 2) the two parts, the lower number first.
+    how: (n,) uint8: their relation, an index into `RELATIONS`.
+    distance: (n,) of those that are closer than the clearance; else 0.
+    in_collision: (P,) whether, in each pose, a pair penetrates or is too close; with a clearance,
+        also whether a pair touches.
+    clashing: Number of poses in collision.
+    """
+
+    pose: Ids
+    parts: Ids
+    how: NDArray[np.uint8]
+    distance: Floats
+    in_collision: NDArray[np.bool_]
+    clashing: int
+
+
 def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0, *,
                 first_only: bool = False, vertices: str = "by_coordinates", ignored: PartPairs = (),
                 progress: Progress = None) -> PoseClashes:
@@ -335,7 +332,7 @@ def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0,
     poses: (P, N, 4, 4) for each of P poses, an affine transform for each of the N parts; or (P, 4,
         4), to move only the first part.
     clearance: Parts nearer than this are too close; not squared.
-    first_only: `check_poses`: only the first clash of each pose.
+    first_only: Find only the first clash of each pose.
     vertices: 'by_coordinates' or 'by_index'. As in `measure`.
     ignored: pairs of part numbers to ignore.
 
@@ -353,7 +350,7 @@ def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0,
     >>> found = treeform.check_poses([cube, cube], poses)
     >>> [(int(p), treeform.RELATIONS[h]) for p, h in zip(found.pose, found.how)]
     [(0, 'penetrating'), (1, 'touching')]
-    >>> found.in_collision(3)
+    >>> found.in_collision
     array([ True, False, False])
     """
     how = options(_core.ClashOptions, locals())

@@ -115,13 +115,13 @@ def union(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float6
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
-    certified; ValueError if the expression has another number of operands; naming a face with a
-    corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000; for a
-    `gap` if the expression is not a union of all operands.
+    certified; ValueError naming a face with a corner out of range, or a corner with a coordinate
+    that is not finite or beyond 2^1000; for a `gap` if the expression is not a union of all
+    operands.
 
     Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
-    manifolds that meet in few places, the cost of finding these (prepared meshes: once) and of a
-    copy. A `gap` adds O(P) for the P pairs of faces whose boxes are that near.
+    manifolds that meet in few places, the cost of finding these (once for a `Mesh`) and of a copy.
+    A `gap` adds O(P) for the P pairs of faces whose boxes are that near.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -159,12 +159,11 @@ def intersection(*meshes: MeshesLike, inside: str = "nonzero", precision: str = 
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
-    certified; ValueError if the expression has another number of operands; naming a face with a
-    corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000.
+    certified; ValueError naming a face with a corner out of range, or a corner with a coordinate
+    that is not finite or beyond 2^1000.
 
     Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
-    manifolds that meet in few places, the cost of finding these (prepared meshes: once) and of a
-    copy.
+    manifolds that meet in few places, the cost of finding these (once for a `Mesh`) and of a copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -204,12 +203,11 @@ def difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "f
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
-    certified; ValueError if the expression has another number of operands; naming a face with a
-    corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000.
+    certified; ValueError naming a face with a corner out of range, or a corner with a coordinate
+    that is not finite or beyond 2^1000.
 
     Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
-    manifolds that meet in few places, the cost of finding these (prepared meshes: once) and of a
-    copy.
+    manifolds that meet in few places, the cost of finding these (once for a `Mesh`) and of a copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -248,12 +246,11 @@ def symmetric_difference(*meshes: MeshesLike, inside: str = "nonzero", precision
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
-    certified; ValueError if the expression has another number of operands; naming a face with a
-    corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000.
+    certified; ValueError naming a face with a corner out of range, or a corner with a coordinate
+    that is not finite or beyond 2^1000.
 
     Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
-    manifolds that meet in few places, the cost of finding these (prepared meshes: once) and of a
-    copy.
+    manifolds that meet in few places, the cost of finding these (once for a `Mesh`) and of a copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -308,12 +305,11 @@ def boolean(expression: str, *operands: MeshesLike, inside: str = "nonzero",
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
-    certified; ValueError if the expression has another number of operands; naming a face with a
-    corner out of range, or a corner with a coordinate that is not finite or beyond 2^1000.
+    certified; ValueError naming a face with a corner out of range, or a corner with a coordinate
+    that is not finite or beyond 2^1000.
 
     Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
-    manifolds that meet in few places, the cost of finding these (prepared meshes: once) and of a
-    copy.
+    manifolds that meet in few places, the cost of finding these (once for a `Mesh`) and of a copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -346,8 +342,7 @@ def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", inside: st
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
-    certified; ValueError as `boolean`; if `sheet` is not an operand; if the expression may be true
-    outside of the sheet, as in a union.
+    certified; ValueError as `boolean`.
 
     Cost: as `boolean`; faces of solids whose boxes overlap no face of the sheet are skipped.
 

@@ -5,6 +5,7 @@ from typing import Any, Callable, Mapping, Optional, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ._arrays import ColumnDict
 from ._assembly import ClashResult
 from ._assembly import NearestPoints
 from ._assembly import PartClash
@@ -103,14 +104,14 @@ class Attributes:
         are triangles.
         """
     @property
-    def vertex(self) -> dict[str, Any]:
-        """Copies of the columns of vertices, (V,)."""
+    def vertex(self) -> ColumnDict:
+        """Read-only columns of vertices, (V,); assign to set one."""
     @property
-    def face(self) -> dict[str, Any]:
-        """Copies of the columns of faces, as stored in the file."""
+    def face(self) -> ColumnDict:
+        """Read-only columns of faces, as in the file; assign to set one."""
     def columns(self,
                 element: str) -> dict[str, Any]:
-        """Copies of the columns of `element`; lists are (begin, values)."""
+        """Read-only copies of the columns of `element`; lists are (begin, values)."""
     def set_vertex(self, name: str,
                    values: ArrayLike) -> None:
         """Sets a column of vertices, (V,), with the type of `values`."""

@@ -117,7 +117,7 @@ def joined(meshes: Iterable[MeshLike], progress: Progress) -> Mesh:
     """Implements `concatenate`."""
     several = listed(meshes)
     if several is None:
-        raise ValueError("meshes: expected a list of meshes, not a mesh")
+        raise ValueError(f"meshes: expected a list of meshes, not a {type(meshes).__name__}")
     return _core.concatenate([held(one) for one in several], progress=progress)
 
 
@@ -431,7 +431,7 @@ class MassProperties(Result):
     """Mass properties of a solid of density 1.
 
     volume: The enclosed volume; negative if the mesh is inside out.
-    center: (3,) of mass.
+    center: (3,) the center of mass.
     inertia: (3, 3) Inertia tensor about the center, in axes x, y and z: the energy of rotation w is
         w . (inertia w) / 2.
     """

@@ -229,9 +229,11 @@ def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: b
       floats from 0 to 1); nx, ny and nz become NORMAL, scaled to length 1; s and t, u and v, or
       texture_u and texture_v become TEXCOORD_0 (u = s, v = 1-t). Normals and texture coordinates of
       corners take precedence over those of points; a point with several of them is repeated.
-
-    Polygons are written as triangles. Numbers are written as the shortest text of the double, so
-    that readers of floats and of doubles get the same value.
+    - 3MF: one object and one item of the build for each part, with its name; materials of parts
+      with the colors of their faces; else colors of faces, else of points; the unit in the line
+      "obj_info unit ..." of a PLY file, else millimeters. Polygons are written as triangles.
+      Numbers are written as the shortest text of the double, so that readers of floats and of
+      doubles get the same value.
 
     Columns of points that several formats have get the name and type of the written format: colors
     are red, green and blue of 8 bits, but in LAS of 16, in PCD the packed `rgb`, in OBJ numbers
@@ -253,7 +255,7 @@ def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: b
         compressed file.
     precision: 'float32' or 'float64'. Precision of the coordinates; None: the stored precision.
         Binary STL and GLB only hold float32. 3MF holds doubles, but most of its readers convert to
-        float, so none means float32 there.
+        float, so None means float32 there.
     drop: Columns of points to omit; "normal", "uv" or "color" for all columns of that kind, also of
         corners.
     rename: new names for columns of points: {'old': 'new'}.

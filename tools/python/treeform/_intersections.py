@@ -169,13 +169,15 @@ def self_intersections(mesh: MeshLike, *, vertices: str = "by_coordinates",
     Exact on the coordinates as given. A degenerate face (collinear corners) is treated as the
     segment or point that it is; its pairs have a kind of their own.
 
-    vertices: 'by_coordinates' or 'by_index'. `self_intersections`: which corners count as shared.
+    vertices: 'by_coordinates' or 'by_index'. Which corners count as shared.
     first_only: Only the first pair; the same on any number of threads.
     kinds: the kinds to search for, from `KINDS`; None: all. 'crossing': the faces pass through each
         other and share no vertex; 'pierce': likewise, with one shared vertex; 'overlap': coplanar,
         with a common area; 'fold': coplanar, on the same side of a shared edge; 'duplicate': the
         same three vertices; 'touching': contact without crossing; 'degenerate': a face has no area.
     limit: List at most this many pairs, the lowest; all are counted.
+
+    Raises ValueError naming a face with a corner out of range, or a point that is not finite.
 
     Cost: O(F log F + B) time for the B pairs whose boxes overlap, about 100 bytes a face.
 
@@ -305,7 +307,8 @@ def intersection_curves(mesh: MeshLike, found: FacePairs, *,
 
     found: pairs of faces of `mesh`; the faces must not be degenerate.
 
-    Raises ValueError as `intersection_curves`, and for a face without area.
+    Raises ValueError naming the pair with a face or a corner that is out of range or not finite;
+    for a face without area.
 
     Cost: O(P log P) for P pairs.
 

@@ -82,9 +82,10 @@ class Mesh:
     A mesh is immutable: its arrays are read-only, and the arrays that it was made from must not be
     changed while it is in use. It keeps the indexes that queries build, so later queries are fast.
 
-    `a | b`, `a - b`, `a & b` and `a ^ b` are exact set operations on solids (see `boolean`). They
-    are evaluated together when the result is first used: `(a | b) - c` is cut and rounded only
-    once. An operand that does not bound a solid raises NotSolidError.
+    `a | b`, `a - b`, `a & b` and `a ^ b` are exact set operations on solids (see `boolean`);
+    `a + b` is `a | b`, and `a * b` is `a & b`. They are evaluated together when the result is first
+    used: `(a | b) - c` is cut and rounded only once. An operand that does not bound a solid raises
+    NotSolidError.
 
     >>> import numpy as np
     >>> import treeform
@@ -200,8 +201,8 @@ class Mesh:
     to_vtk = _others.to_vtk
     to_meshio = _others.to_meshio
 
-    __or__, __ror__ = _operators("|")
-    __and__, __rand__ = _operators("&")
+    __or__, __ror__ = __add__, __radd__ = _operators("|")
+    __and__, __rand__ = __mul__, __rmul__ = _operators("&")
     __sub__, __rsub__ = _operators("-")
     __xor__, __rxor__ = _operators("^")
 
@@ -244,7 +245,7 @@ def _read_only(array: _Array) -> _Array:
 
 def listed(meshes: Any) -> tuple[Any, ...] | None:
     """The elements of a list or another iterable of meshes; None if `meshes` is a single mesh."""
-    if not isinstance(meshes, Iterable) or isinstance(meshes, (str, bytes)) or any(
+    if not isinstance(meshes, Iterable) or isinstance(meshes, (str, bytes, dict)) or any(
             hasattr(meshes, name) for name in ("mesh", "vertices", "points", "__array__")):
         return None
     several = tuple(meshes)
@@ -289,10 +290,6 @@ def cloud_of(body: Any) -> Floats | None:
 def held_body(body: Any) -> _core.HeldMesh:
     """A mesh or point cloud for the extension."""
     points = cloud_of(body)
-    if isinstance(body, Mesh) and body._ready()._is_cloud():  # as a cloud is read
-        made = _core.HeldMesh(body.vertices)
-        made.data = held(body).data
-        return made
     return held(body) if points is None else _core.HeldMesh(points)
 
 

@@ -52,16 +52,16 @@ def distances(mesh: MeshLike, points: ArrayLike, progress: Progress) -> Floats:
 
 class AllRayHits(NamedTuple):
     """All hits of rays, in the order of trimesh's `intersects_location`:
-    `locations, index_ray, index_tri = raycast_all(...)`.
+    `point, ray, face = raycast_all(...)`.
 
-    locations: (n, 3) the points that are hit, rounded.
-    index_ray: (n,) uint32 the number of the ray, ascending.
-    index_tri: (n,) uint32 the face.
+    point: (n, 3) the points that are hit, rounded.
+    ray: (n,) uint32 the number of the ray, ascending.
+    face: (n,) uint32 the face.
     """
 
-    locations: Floats
-    index_ray: Ids
-    index_tri: Ids
+    point: Floats
+    ray: Ids
+    face: Ids
 
     def __repr__(self) -> str:
         return tuple_repr(self)
@@ -80,23 +80,23 @@ def all_hits(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, t_min: f
 #   ClosestPoints closest_point contains locate winding_number signed_distance RayHits raycast
 #   raycast_all raycast_any Deviation deviation
 class ClosestPoints(NamedTuple):
-    """The nearest point of a mesh for each query, in the order of trimesh: `closest, distance,
-    triangle_id = closest_point(mesh, points)`.
+    """The nearest point of a mesh for each query, in the order of trimesh: `point, distance, face =
+    closest_point(mesh, points)`.
 
-    closest: (n, 3) points on the mesh, rounded; NaN if none is within the radius.
+    point: (n, 3) points on the mesh, rounded; NaN if none is within the radius.
     distance: (n,) distances, not squared; infinite if there is no point.
-    triangle_id: (n,) uint32 face numbers; 4294967295 if there is no point.
+    face: (n,) uint32 face numbers; 4294967295 if there is no point.
     """
 
-    closest: Floats
+    point: Floats
     distance: Floats
-    triangle_id: Ids
+    face: Ids
 
     def __repr__(self) -> str:
         return tuple_repr(self)
 
 
-def closest_point(mesh: MeshLike, points: ArrayLike, *, radius: float = np.inf,
+def closest_point(mesh: Body, points: ArrayLike, *, radius: float = np.inf,
                   progress: Progress = None) -> ClosestPoints:
     """The point on the surface nearest to each of `points` (n, 3). The error of a distance is at
     most 16 u L, where u = 2^-53 and L is the larger of the distance and the diagonal of the
@@ -114,11 +114,11 @@ def closest_point(mesh: MeshLike, points: ArrayLike, *, radius: float = np.inf,
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
-    >>> closest, distance, face = treeform.closest_point(cube, [[0.5, 0.25, 3.0]])
-    >>> closest.tolist(), distance.tolist()
+    >>> point, distance, face = treeform.closest_point(cube, [[0.5, 0.25, 3.0]])
+    >>> point.tolist(), distance.tolist()
     ([[0.5, 0.25, 1.0]], [2.0])
     """
-    return _core.closest_point(held(mesh), _arrays.points(points, "points"),
+    return _core.closest_point(held_body(mesh), _arrays.points(points, "points"),
                                _arrays.number(radius, "radius"), progress=progress)
 
 
@@ -142,7 +142,7 @@ def locate(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> N
     share, so no second ray is needed. Points with equal coordinates are one vertex.
 
     Returns (n,) int8: 1 for points strictly inside, 0 for points on the surface, -1 for points
-    outside. Raises NotSolidError if the mesh is open.
+    outside. The error for an open mesh is a NotSolidError.
 
     points: (n, 3) the points to locate.
 
@@ -175,14 +175,7 @@ def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = N
     """(n,) the signed distance of each of `points` (n, 3) from the surface of a closed mesh:
     positive inside, as in trimesh, negative outside, and exactly 0 on the surface. The sign is
     exact. `deviation` uses the opposite sign, as metrology does. Raises NotSolidError if the mesh
-    is open.
-
-    Raises ValueError for a point of `a` that is not finite; a face of `b` as in `closest_point`; a
-    band that is NaN or reversed; more than 2^20 bins.
-
-    Cost: `closest_point` for each point, in a spatial order; for signs a winding number for one
-    point in 1024, and the faces between neighbors for the others. A copy of `b` if there are
-    several.
+    is open. For other errors and the cost, see `closest_point` and `locate`.
 
     >>> import treeform
     >>> treeform.signed_distance(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.75], [0, 0, 3]])
@@ -249,8 +242,8 @@ def raycast_all(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
-    >>> locations, ray, face = treeform.raycast_all(cube, [[0.5, 0.25, 3]], [[0, 0, -1]])
-    >>> locations.tolist()
+    >>> point, ray, face = treeform.raycast_all(cube, [[0.5, 0.25, 3]], [[0, 0, -1]])
+    >>> point.tolist()
     [[0.5, 0.25, 1.0], [0.5, 0.25, 0.0]]
     """
     return all_hits(mesh, origins, directions, t_min, t_max, progress)
@@ -331,27 +324,25 @@ class Deviation(Result):
 def deviation(a: Body, b: Body, *, band: tuple[float, float] | None = None, bins: int = 40,
               both_ways: bool = True, progress: Progress = None) -> Deviation:
     """The signed distances of all points of `a`, used by faces or not, from the surface of `b`.
-    Several meshes `b` count as one, with faces numbered mesh after mesh.
 
     The sign is exact: that of the winding number of `b` around the point (`locate`). Corners of `b`
     with equal coordinates are one vertex. If `b` is open, or a cloud, it has no inside, and
     distances have no sign. Magnitudes have the error bound of `closest_point`, 16 u L; a distance
     may round to 0.
 
-    None if `a` has no points or `b` has no faces.
+    Raises ValueError if `a` has no points or `b` has no faces.
 
     `a` and `b` are each a mesh or a cloud (n, 3).
 
     band: the lowest and highest signed distance that are within tolerance.
-    bins: Of the histogram; 0: none.
+    bins: Number of intervals of the histogram; 0: none.
     both_ways: Also compute distances of the points of `b` from `a`.
 
     Raises ValueError for a point of `a` that is not finite; a face of `b` as in `closest_point`; a
     band that is NaN or reversed; more than 2^20 bins.
 
     Cost: `closest_point` for each point, in a spatial order; for signs a winding number for one
-    point in 1024, and the faces between neighbors for the others. A copy of `b` if there are
-    several.
+    point in 1024, and the faces between neighbors for the others.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")

@@ -32,7 +32,8 @@ def arrays_of(mesh: Any) -> tuple[ArrayLike, ArrayLike]:
         return _numbers_of(mesh.vertex["positions"]), _numbers_of(mesh.triangle["indices"])
     if hasattr(mesh, "GetPolys"):
         return _arrays_of_vtk(mesh)
-    hint = ": read the file by treeform.read" if isinstance(mesh, str) else ""
+    hint = ": read the file by treeform.read" if isinstance(mesh, str) else (
+        ": pass a list of its values" if isinstance(mesh, dict) else "")
     raise ValueError(f"mesh: {type(mesh).__name__} has no vertices and faces{hint}")
 
 

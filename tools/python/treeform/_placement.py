@@ -45,15 +45,15 @@ def extent_of(size: ArrayLike) -> Floats:
 class Contacts(NamedTuple):
     """Pairs of faces that touch in the final position, or are at the clearance.
 
-    points: (n, 3)
-    normals: (n, 3) of length 1, from the fixed to the moving mesh; 0 if there is none.
+    point: (n, 3) a common point of each pair, rounded.
+    normal: (n, 3) of length 1, from the fixed to the moving mesh; 0 if there is none.
     moving: (n,) faces of the moving mesh.
     fixed_face: (n,) faces of the fixed mesh; 4294967295 for the bed.
     fixed: (n,) number of the fixed mesh.
     """
 
-    points: Floats
-    normals: Floats
+    point: Floats
+    normal: Floats
     moving: Ids
     fixed_face: Ids
     fixed: Ids
@@ -68,7 +68,7 @@ class Placement(MeshResult):
 
     mesh: The moved mesh, in the checked coordinates; the unmoved mesh if there is no place.
     matrix: (4, 4) new = M * old: a translation; for `turn` and `mate_features` also a rotation.
-        `points` are moved by it and rounded once, except for points that are set on the bed.
+        Vertices are moved by it and rounded once, except for points that are set on the bed.
     end: Why the placement ended where it did: 'contact', 'bed', 'unchanged', 'moved_apart',
         'nothing_met', 'too_far', 'starts_penetrating', 'starts_too_near', 'starts_touching',
         'starts_below_bed', 'not_representable', 'too_many_steps', 'out_of_range'.
@@ -171,7 +171,7 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
     start stays there. A mesh that penetrates at the start has no place. Points that no face uses
     move along and are otherwise ignored; points without any face are a cloud.
 
-    Only fixed meshes on the way are tested and indexed. For many calls, pass prepared meshes.
+    Only fixed meshes on the way are tested and indexed. For many calls, pass a `Mesh`.
 
     onto: a fixed body, or a list of them.
     direction: (3,) the direction of motion, of any length.
@@ -202,8 +202,8 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
 def drop(moving: Body, onto: Any = None, *, direction: ArrayLike = (0, 0, -1),
          clearance: float = 0.0, max_travel: float | None = None, precision: str = "float64",
          bed: float | None = None, progress: Progress = None) -> Placement:
-    """Moves `moving` down until it rests on the bed. From below the bed it goes up, back along the
-    direction.
+    """Moves `moving` down until it rests on the bed or on one of `onto`. Without `onto`, a mesh
+    below the bed goes up, back along the direction; with `onto`, it has no place.
 
     onto: a fixed body, or a list of them.
     direction: (3,) the downward direction, of any length.
@@ -260,8 +260,8 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
     meet, and others around the best. The nearest of the places found is returned, if its
     coordinates pass the check of `slide`. It need not be the globally nearest place, which is on
     the boundary of a set with O(n^2 m^2) faces. The search is limited by `effort`, and skips
-    candidates that would take much of it, as in `penetration_depth`; `Placement.effort` has their
-    number (`cut`).
+    candidates that would take much of it, as in `penetration_depth`; `Placement.effort` counts
+    them.
 
     fixed: a fixed body, or a list of them.
     clearance: Gap to leave, a distance; 0: contact.
@@ -302,7 +302,7 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
     means undecided: the mesh passes another at a distance that is very small compared with its
     size, over a long way.
 
-    `travel` is 0, and `points` differ from `matrix` by a few units in the last place of the largest
+    `travel` is 0, and vertices differ from `matrix` by a few units in the last place of the largest
     coordinate. `contacts` are the pairs of faces within the tolerance, beyond the clearance.
     `at_place` is exact: separate, in general, by no more than the tolerance.
 
@@ -381,9 +381,9 @@ class LaidFlat(MeshResult):
     """A mesh on the bed.
 
     mesh: The mesh on the bed.
-    matrix: (4, 4) new = M * old, a rotation and a translation. `points` differ from it by a few
+    matrix: (4, 4) new = M * old, a rotation and a translation. Vertices differ from it by a few
         units in the last place of the largest coordinate, old or new.
-    chosen: Number in `sides`.
+    chosen: The side that is on the bed, as an index into `areas`.
     message: The outcome as a clause for people, without a full stop.
     areas: (S,) areas of the flat sides of the convex hull, largest first.
     normals: (S, 3) outward normals, before the rotation.
@@ -391,12 +391,12 @@ class LaidFlat(MeshResult):
         an edge of it, so that the mesh tips over. 90 if the center is in the plane of the side.
         Negative if the center is not over the side: then the mesh tips over by itself.
     overhangs: (S,) area of the faces that need support if the side is down: faces off the bed that
-        point down at more than `overhang_angle` from the vertical. Only computed for the first
-        `overhang_sides` sides and the chosen one, else NaN.
+        point down at more than `overhang_angle` from the vertical. Only computed for the 32 largest
+        sides and the chosen one, else NaN.
     center_of_mass: (3,) before the rotation, rounded.
-    on_bed: (n,) points of that side, ascending.
+    on_bed: (n,) points of the chosen side, ascending.
     certificate: The outcome of checking the coordinates.
-    center_heights: (S,) of the center of mass over the plane of the side.
+    center_heights: (S,) height of the center of mass above each side.
     mass_dimension: What the mass is attributed to: 3 for the solid that a closed mesh bounds; 2 for
         the faces of an open mesh, as sheets of equal thickness; 0 for the points of a mesh without
         a face of positive area.
@@ -422,13 +422,13 @@ def lay_flat(mesh: MeshLike, *, normal: ArrayLike | None = None, point: ArrayLik
              bed: float = 0.0, overhang_angle: float = 45.0, precision: str = "float64",
              progress: Progress = None) -> LaidFlat:
     """Rotates `mesh` so that a flat side of its convex hull is on the bed. The center of its box
-    keeps x and y. None if there is no side: fewer than three points, or all on a line.
+    keeps x and y. Raises ValueError if there is no side: fewer than three points, or all on a line.
 
     Every point in the plane of the side, exactly or within the tolerance, gets exactly the z of the
     bed, and no point is below. Areas and angles are rounded; values within 2^-40 of the best are
     treated as equal. Of equal sides, one that is already exactly down is chosen, else the largest,
-    else the first in `sides`. Points without faces move along and are otherwise ignored; a mesh
-    without faces uses all its points.
+    else the first in `LaidFlat.areas`. Points without faces move along and are otherwise ignored; a
+    mesh without faces uses all its points.
 
     normal: (3,) The side whose outward normal makes the least angle with this direction, of any
         length, in the coordinates of the mesh.
@@ -466,9 +466,7 @@ def lay_flat(mesh: MeshLike, *, normal: ArrayLike | None = None, point: ArrayLik
 class Alignment(MeshResult):
     """The motion that `align` found.
 
-    matrix: (4, 4) new = M * old, with `start` included. Far from the origin its last column is
-        large and has a large rounding error; then new = `pivot_moved` + (linear part of M) * (old -
-        `pivot`) is more accurate.
+    matrix: (4, 4) new = M * old, with `start` included.
     mesh: The moved mesh; without faces for a cloud.
     rms: Root mean square of the distances at the end, weighted if weights are used; 0 without
         partners. For two clouds with `plane_to_plane`: of the distances to the planes, weighted by
@@ -484,7 +482,7 @@ class Alignment(MeshResult):
         `undetermined` counts.
     scale: The scale found, in addition to that of `start`.
     end: 'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'.
-    converged: `end` is `converged`.
+    converged: Whether `end` is 'converged'.
     iterations: Steps from the best start.
     start: Number of the best start; 0 is the present position.
     undetermined: Number of independent motions that the data do not determine, such as a plane
@@ -553,7 +551,7 @@ def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False
         distance, and is halved while at least a third of the points are within v; finally it is 4.5
         times the median of the near distances. If false, all partners have the same weight.
     max_distance: Ignore partners farther apart than this. Not squared, not negative.
-    max_iterations: From each start.
+    max_iterations: Largest number of steps from each start.
     tolerance: Converged if the cost falls by less than this share in each of 5 consecutive steps,
         or if a step moves no point near the fixed mesh by more than 1e-11 of the diagonal of the
         fixed mesh's box.
@@ -589,7 +587,7 @@ class PackedPart(NamedTuple):
     placed: Whether a position was found.
     plate: Number of its plate, from 0.
     matrix: (4, 4) new = M * old, a rotation about z and a translation; the identity if the part is
-        not placed. `points` differ from it by a few units in the last place of the largest
+        not placed. Vertices differ from it by a few units in the last place of the largest
         coordinate.
     mesh: The moved part; the unmoved part if it is not placed.
     """
@@ -634,7 +632,7 @@ def pack(parts: Iterable[Body], size: ArrayLike, *, corner: ArrayLike = (0.0, 0.
     """Places the parts on plates, each rotated about z by one of `turns`. Unless stacked, each part
     stands on the bed with its lowest point.
 
-    For the rounded coordinates in `points`:
+    For the rounded coordinates:
     - The lowest z of a placed part is exactly that of the bed (with float32, the least number not
       below it); of a stacked part, it is not below the bed.
     - No coordinate is outside the plate or above its height.
@@ -695,13 +693,14 @@ def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coo
     if the bodies are farther apart than `radius`. The relation is exact, and so is whether the
     distance is 0. Other distances are rounded as in `distance`.
 
-    radius: For `measure`: ignore meshes farther apart than this; inclusive.
+    radius: ignore bodies farther apart than this; inclusive.
     vertices: 'by_coordinates': vertices with equal coordinates are the same vertex; 'by_index':
         only those with the same number.
 
-    Raises ValueError as `measure`; for a radius that is negative or NaN.
+    Raises ValueError naming the mesh and its lowest face with a corner out of range or not finite;
+    for a radius that is negative or NaN.
 
-    Cost: `distance`, plus `measure` if the boxes of the meshes meet.
+    Cost: `distance`; if the boxes of the meshes meet, also `mesh_intersections` and `locate`.
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
@@ -731,7 +730,7 @@ class Depth(NamedTuple):
         return tuple_repr(self)
 
 
-def penetration_depth(a: MeshLike, b: MeshLike, *, directions: int = 256, effort: int = 0,
+def penetration_depth(a: Body, b: Body, *, directions: int = 256, effort: int = 0,
                       progress: Progress = None) -> Depth | None:
     """The length of a short translation that separates `a` from `b`: an upper bound of the
     penetration depth, which is the length of the shortest one. None if they do not penetrate each
@@ -761,7 +760,7 @@ def penetration_depth(a: MeshLike, b: MeshLike, *, directions: int = 256, effort
     0.25
     """
     how = options(_core.MeasureOptions, locals())
-    return _core.penetration_depth(held(a), held(b), how, progress=progress)
+    return _core.penetration_depth(held_body(a), held_body(b), how, progress=progress)
 
 
 class Impact(NamedTuple):
@@ -783,7 +782,7 @@ class Impact(NamedTuple):
         return tuple_repr(self)
 
 
-def time_of_impact(a: MeshLike, b: MeshLike, motion: ArrayLike, *, move_a: ArrayLike | None = None,
+def time_of_impact(a: Body, b: Body, motion: ArrayLike, *, move_a: ArrayLike | None = None,
                    move_b: ArrayLike | None = None, latest: float = np.inf,
                    progress: Progress = None) -> Impact:
     """The least t >= 0 at which `a`, moved by t times `motion`, has a common point with `b`.
@@ -792,6 +791,8 @@ def time_of_impact(a: MeshLike, b: MeshLike, motion: ArrayLike, *, move_a: Array
     compared as exact quotients of determinants, so all simultaneous contacts are found, even of
     parallel or coplanar faces. Surfaces count, not solids: inside a closed mesh, `a` moves until it
     meets the surface. Grazing is a contact.
+
+    `a` and `b` are each a mesh or a cloud (n, 3). Points of a cloud count as faces.
 
     motion: (3,) the translation of `a` in one unit of time.
     move_a: (4, 4) an affine transform applied to `a` first.
@@ -809,6 +810,6 @@ def time_of_impact(a: MeshLike, b: MeshLike, motion: ArrayLike, *, move_a: Array
     3.0
     """
     how = options(_core.ImpactOptions, locals())
-    return _core.time_of_impact(held(a), held(b), _arrays.vector(motion, "motion"), how,
+    return _core.time_of_impact(held_body(a), held_body(b), _arrays.vector(motion, "motion"), how,
                                 progress=progress)
 # end

@@ -206,14 +206,14 @@ def face_components(mesh: MeshLike, *, progress: Progress = None) -> Ids:
 class Feature(Result):
     """A plane or an axis, fitted to faces by least squares.
 
-    kind: Plane or axis: 'plane' or 'axis'.
+    kind: 'plane' or 'axis'.
     origin: (3,) center of the faces, on the plane or the axis.
     direction: (3,) of length 1: the outward normal of a plane; along an axis, in either sense.
-    radius: Of the cylinder.
+    radius: Of the cylinder; 0 for a plane.
     hollow: For a cylinder: the faces point toward the axis, as in a hole.
-    area: Of the faces.
+    area: Total area of the faces.
     deviation: Largest distance of a corner from the plane or cylinder.
-    faces: (n,) ascending.
+    faces: (n,) the faces that it was fitted to, ascending.
     """
 
     kind: str

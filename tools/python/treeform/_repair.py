@@ -148,13 +148,13 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
     """Repairs a mesh to a solid: closed, oriented, manifold and free of self-intersections. Check
     the certificate: its status says whether this was possible, and it lists where it was not.
 
-    The steps are `options`, in this order. Each changes only what is defective: a mesh that is a
-    solid is returned bit for bit. Which faces meet and what is inside is decided exactly. Which
-    cracks are closed, how faces are oriented, and how holes are filled is decided by heuristics,
-    and counted in `statistics`. Points with equal coordinates are one. If faces are the sides of
-    tetrahedra, only the boundary of the tetrahedra is kept. If faces remain inconsistent, a minimum
-    cut labels cells inside or outside, by the orientations of faces and generalized winding
-    numbers; the result is used if it loses less.
+    The steps are those of `steps`, in this order. Each changes only what is defective: a mesh that
+    is a solid is returned bit for bit. Which faces meet and what is inside is decided exactly.
+    Which cracks are closed, how faces are oriented, and how holes are filled is decided by
+    heuristics, and counted in `RepairResult.steps`. Points with equal coordinates are one. If faces
+    are the sides of tetrahedra, only the boundary of the tetrahedra is kept. If faces remain
+    inconsistent, a minimum cut labels cells inside or outside, by the orientations of faces and
+    generalized winding numbers; the result is used if it loses less.
 
     Holes are filled with triangles between their vertices; large holes in smooth surfaces also with
     new points, which continue the surface smoothly. Sheets are not filled, but reported as open,
@@ -240,12 +240,9 @@ def rounded(points: ArrayLike, precision: str = "float32", *, progress: Progress
 
 def find_rounding_defects(mesh: MeshLike, placed: ArrayLike, *,
                           progress: Progress = None) -> tuple[int, int]:
-    """The faces that become degenerate (`collapsed`), and the number of pairs of faces that newly
-    meet (`meeting`; all kinds except touching and degenerate), when the points of `mesh` become
-    `placed`. Exact. Distances are not compared, so `placed` may also be moved and rotated.
-
-    Returns the number of faces that became degenerate, and the number of pairs of faces that
-    intersect only after rounding.
+    """The number of faces that become degenerate, and the number of pairs of faces that newly meet
+    (all kinds except touching and degenerate), when the vertices of `mesh` become `placed`. Exact.
+    Distances are not compared, so `placed` may also be moved and rotated.
 
     placed: (V, 3) the rounded vertices.
 

@@ -122,7 +122,7 @@ def read_urdf(path: Path, *, package_folders: Iterable[Path] = (), visual: bool 
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     _ = pathlib.Path(folder, "r.urdf").write_text(text)
     ...     robot = treeform.read_urdf(folder + "/r.urdf")
-    >>> treeform.check_poses(robot.parts, robot.poses({"j": [0.5, 2.0]})).in_collision(2).tolist()
+    >>> treeform.check_poses(robot.parts, robot.poses({"j": [0.5, 2.0]})).in_collision.tolist()
     [True, False]
     """
     return _core.read_urdf(path_of(path), _arrays.paths(package_folders, "package_folders"),

@@ -196,10 +196,9 @@ def thicken(mesh: MeshLike, thickness: float, *, resolution: float | None = None
         and GLB.
     check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError if the mesh is open, NotCertifiedError if the result could not be
-    certified; ValueError as `offset`, with half of the thickness as the distance; for a mesh
-    without faces; for a shift that is not finite; with a shift, naming a face that is inconsistent
-    with its neighbor.
+    Raises NotCertifiedError if the result could not be certified; ValueError as `offset`, with half
+    of the thickness as the distance; for a mesh without faces; for a shift that is not finite; with
+    a shift, naming a face that is inconsistent with its neighbor.
 
     Cost: as `offset`.
 
@@ -225,8 +224,8 @@ def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision:
     No face of the mesh meets the wrap or is outside of it: this is verified exactly, on the
     coordinates of both. The wrap's vertices are at the offset from the mesh, up to rounding.
 
-    offset: `wrap`: the distance of the wrap's vertices from the mesh, in its length unit. None: a
-        thirtieth of `size`.
+    offset: the distance of the wrap's vertices from the mesh, in its length unit. None: a thirtieth
+        of `size`.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
     check: if False, also return results that could not be certified; see their `certificate`.
@@ -333,7 +332,8 @@ def simplify(mesh: MeshLike, max_distance: float, *, face_groups: ArrayLike | No
 class Thickness(Result):
     """The thickness at each face, and the least thickness.
 
-    of_face: (F,) Infinite if there is nothing behind a face, or the face has no area.
+    of_face: (F,) The thickness at each face; infinite if nothing is behind it, or if it has no
+        area.
     least: Least thickness of all faces.
     thinnest: The lowest face with the least thickness.
     """
@@ -366,7 +366,7 @@ def wall_thickness(mesh: MeshLike, by: str = "ray", *, progress: Progress = None
 class OrientedBox(Result):
     """A box in any orientation.
 
-    center: (3,) of the box.
+    center: (3,) center of the box.
     axes: (3, 3) Unit axes, right-handed, rounded: along the longest, middle and shortest side.
     size: (3,) lengths along these axes.
     """
@@ -402,12 +402,13 @@ class Isoline(Result):
     """A line on a mesh along which a value has a level.
 
     level: The value along the line.
-    first_point: Consecutive; the first is not repeated.
+    first_point: Its number; the points of the line are consecutive.
     point_count: Number of its points.
-    closed: Otherwise it ends at borders of the mesh.
+    closed: Whether the last point is joined to the first; otherwise the line ends at borders of the
+        mesh.
     oriented: Whether the faces along it are consistently oriented: seen from outside, larger values
         are to its left.
-    length: Sum of its segments.
+    length: Sum of the lengths of its segments.
     """
 
     level: float

@@ -66,8 +66,7 @@ class PointTree:
     """A search tree for points (n, 2) or (n, 3), with the interface of SciPy's cKDTree.
 
     Distances are Euclidean, computed in float64. Points may coincide. Points at the same distance
-    are
-    returned in the order of their numbers. Queries use all cores, and are thread-safe.
+    are returned in the order of their numbers. Queries use all cores, and are thread-safe.
 
     >>> import treeform
     >>> tree = treeform.PointTree([[0, 0, 0], [1, 0, 0], [0, 2, 0]])

@@ -172,7 +172,7 @@ def weld(mesh_or_points: Body, tolerance: float = 0.0, *, chain: bool = False,
     faces with three different corners.
 
     With `keep` other than `first`, kept points may be within the tolerance of each other again, and
-    with the rule `first` a point may move by twice the tolerance.
+    without `chain` a point may move by twice the tolerance.
 
     A mean is the first point's value plus the mean of the differences from it, added in the order
     of points and rounded at each step. For n values that differ by at most d, its error is at most
@@ -190,8 +190,7 @@ def weld(mesh_or_points: Body, tolerance: float = 0.0, *, chain: bool = False,
     first, and the results again; so coincident corners stay merged even if the rest of their group
     does not. In the result, every edge of more than two faces had more than two before, and every
     point with several fans contains a point that had several before. Points of one group may stay
-    within the tolerance of each other, and with the rule `first` a point may move by twice the
-    tolerance.
+    within the tolerance of each other, and without `chain` a point may move by twice the tolerance.
 
     mesh_or_points: a mesh, points (n, 3), or an object with `points` or `vertices` and no faces.
     tolerance: Euclidean, inclusive; 0: equal coordinates (-0 equals +0).
@@ -219,10 +218,10 @@ def weld(mesh_or_points: Body, tolerance: float = 0.0, *, chain: bool = False,
     missing or is a list; for `order_by` with another `keep` than `first`; for more than 2^32 / 3
     faces with `keep_manifold`. The message names the lowest invalid element.
 
-    Cost: Parallel, except rule `first` for points with several others within the tolerance, if
+    Cost: Parallel, except, without `chain`, for points with several others within the tolerance, if
     points come row by row or few are kept. Memory besides the result: up to 36 bytes a point (50
-    for dense chains, 110 with `tree`), 40 more with `order_by`; 24 bytes a face, 100 with
-    `keep_manifold`; 8 bytes a point for each property in a condition.
+    for dense chains), 40 more with `order_by`; 24 bytes a face, 100 with `keep_manifold`; 8 bytes a
+    point for each property in a condition.
 
     >>> import treeform
     >>> thin = treeform.weld([[0, 0, 0], [0, 0, 0.5], [3, 0, 0]], 1.0)

@@ -59,7 +59,7 @@ struct align_options {
     /// start outside the bounds is moved to the nearest bound. Equal bounds fix the scale.
     double least_scale = 0.0;
     double most_scale = std::numeric_limits<double>::infinity();
-    unsigned max_iterations = 100;  ///< from each start
+    unsigned max_iterations = 100;  ///< largest number of steps from each start
     /// Converged if the cost falls by less than this share in each of 5 consecutive steps, or if a
     /// step moves no point near the fixed mesh by more than 1e-11 of the diagonal of the fixed
     /// mesh's box.

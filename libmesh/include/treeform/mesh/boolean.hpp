@@ -185,12 +185,12 @@ struct TREEFORM_API boolean_result {
 /// an edge or at a vertex, each part has its own vertices there, with equal coordinates, so that
 /// every edge has two faces.
 ///
-/// \throws std::invalid_argument if the expression has another number of operands; naming a face
-///         with a corner out of range, or a corner with a coordinate that is not finite or beyond
-///         2^1000; for a `gap` if the expression is not a union of all operands
+/// \throws std::invalid_argument naming a face with a corner out of range, or a corner with a
+///         coordinate that is not finite or beyond 2^1000; if the `boolean_expression` has another
+///         number of operands; for a `gap` if the expression is not a union of all operands
 /// \cost   O(F log F) for the F faces where the result's surface may be. For one or two closed
-///         manifolds that meet in few places, the cost of finding these (prepared meshes: once) and
-///         of a copy. A `gap` adds O(P) for the P pairs of faces whose boxes are that near
+///         manifolds that meet in few places, the cost of finding these (once for a prepared mesh)
+///         and of a copy. A `gap` adds O(P) for the P pairs of faces whose boxes are that near
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API boolean_result boolean(const mesh_refs& operands,
                                                   const boolean_expression& expression,
@@ -219,9 +219,9 @@ struct TREEFORM_API boolean_result {
 /// is open. If another operand is open, the status is `open_input` as in `boolean`, and the mesh is
 /// empty.
 ///
-/// \throws std::invalid_argument as `boolean`; if `sheet` is not an operand; if the expression may
-///         be true outside of the sheet (`boolean_expression::needs`), as in a union; for
-///         `min_volume` or `gap`
+/// \throws std::invalid_argument as `boolean`; if `sheet` is not a number of `mesh_refs`; if
+///         the `boolean_expression` may be true outside of the sheet
+///         (`boolean_expression::needs`), as in a union; for `min_volume` or `gap`
 /// \cost   as `boolean`; faces of solids whose boxes overlap no face of the sheet are skipped
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API boolean_result clip(const mesh_refs& operands, std::uint32_t sheet,

@@ -28,7 +28,7 @@ namespace treeform {
 using part_pair = std::array<std::uint32_t, 2>;
 
 /// Options of `clash` and `check_poses`. Only `clash` uses `volumes`, `depths`, `effort` and
-/// `limit`.
+/// `limit`; only `check_poses` uses `first_only`.
 struct clash_options {
     double clearance = 0.0;  ///< parts nearer than this are too close; not squared
     /// Compute the volume of the intersection of closed parts.
@@ -36,7 +36,7 @@ struct clash_options {
     bool depths = true;        ///< compute depths of penetrating parts
     std::uint64_t effort = 0;  ///< limit for each depth, as in `measure_options`
     std::size_t limit = 1000;  ///< largest number of faces listed for each region and part
-    bool first_only = false;   ///< `check_poses`: only the first clash of each pose
+    bool first_only = false;   ///< find only the first clash of each pose
     std::span<const part_pair> ignored{};  ///< pairs of parts to skip; any order
     vertex_identity vertices = vertex_identity::by_coordinates;  ///< as in `relation`
     progress_callback progress{};
@@ -63,8 +63,7 @@ struct part_clash {
     std::optional<std::array<point3, 2>> nearest{};
     std::uint64_t face_pairs = 0;           ///< pairs of faces that meet
     std::vector<contact_region> regions{};  ///< ordered by their lowest faces
-    /// For closed parts that penetrate: the volume of their intersection, as
-    /// `operand_volumes::both`.
+    /// For closed parts that penetrate: the volume of their intersection.
     std::optional<double> volume{};
     /// For penetrating parts: `penetration_depth`, the length of `move`.
     std::optional<double> depth{};
@@ -74,7 +73,7 @@ struct part_clash {
 
 /// All pairs that are not clear of each other.
 struct clash_result {
-    std::vector<part_clash> pairs{};        ///< ascending
+    std::vector<part_clash> pairs{};        ///< those not clear of each other, ascending
     std::array<std::uint64_t, 5> counts{};  ///< number of tested pairs, by `mesh_relation`
     std::uint64_t boxes_apart = 0;          ///< pairs excluded by their boxes
     std::uint64_t ignored = 0;              ///< ignored pairs that boxes do not exclude
@@ -138,7 +137,10 @@ struct pose_result {
     /// the lowest pair that penetrates, is too close or, with a clearance, touches; without a
     /// clearance, pairs that touch are omitted.
     std::vector<std::vector<pose_clash>> poses{};
-    std::uint64_t clashing = 0;     ///< poses with a pair that penetrates or is too close
+    /// [P] 1 for a pose with a pair that penetrates or is too close; with a clearance, also for one
+    /// with a pair that touches. Else 0.
+    std::vector<std::uint8_t> in_collision{};
+    std::uint64_t clashing = 0;     ///< number of poses in collision
     std::uint64_t boxes_apart = 0;  ///< pairs excluded by their boxes, over all poses
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is invalid
 };

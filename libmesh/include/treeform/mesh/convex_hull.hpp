@@ -72,7 +72,7 @@ struct convex_hull_result {
 
 /// A box in any orientation.
 struct oriented_box {
-    point3 center{};  ///< of the box
+    point3 center{};  ///< center of the box
     /// Unit axes, right-handed, rounded: along the longest, middle and shortest side.
     std::array<point3, 3> axes{point3{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     point3 size{};  ///< lengths along these axes

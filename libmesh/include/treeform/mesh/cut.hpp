@@ -78,7 +78,7 @@ struct cut_result {
 /// `boolean`. Caps across an axis stay flat and equal when rounded; others may bend by a step of
 /// the precision.
 ///
-/// `carry_sources` transfers the attributes of a file to pieces; `carry_source::texture_caps` gives
+/// `carry_sources` transfers the attributes of a file to pieces. `carry_source::texture_caps` gives
 /// caps planar texture coordinates.
 ///
 /// With caps, the mesh must bound a solid, like an operand of `boolean`. If it meets itself, or has

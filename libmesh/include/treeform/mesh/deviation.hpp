@@ -25,7 +25,7 @@ namespace treeform {
 struct deviation_options {
     /// Tolerance band: signed distances from the first to the second value, inclusive.
     std::optional<std::array<double, 2>> band{};
-    std::size_t bins = 40;  ///< of the histogram; 0: none
+    std::size_t bins = 40;  ///< number of intervals of the histogram; 0: none
     bool both_ways = true;  ///< also compute distances of the points of `b` from `a`
     progress_callback progress{};
 };
@@ -93,8 +93,8 @@ struct deviation_result {
 /// \throws std::invalid_argument for a point of `a` that is not finite; a face of `b` as in
 ///         `closest_point`; a band that is NaN or reversed; more than 2^20 bins
 /// \cost   `closest_point` for each point, in a spatial order; for signs a winding number for one
-///         point in 1024, and the faces between neighbors for the others. A copy of `b` if there
-///         are several
+///         point in 1024, and the faces between neighbors for the others. A copy of `b` if it is
+///         several `mesh_refs`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<deviation_result> deviation(
     const mesh_ref& a, const mesh_refs& b, const deviation_options& options = {});

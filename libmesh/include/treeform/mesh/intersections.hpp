@@ -113,7 +113,8 @@ struct curve_network {
 /// A segment common to several pairs is listed once. Paths are ordered by the number of their first
 /// point, points by their name.
 ///
-/// \throws std::invalid_argument as `intersection_curves`, and for a face without area
+/// \throws std::invalid_argument naming the pair with a face or a corner that is out of range or
+///         not finite; for a face without area
 /// \cost O(P log P) for P pairs
 /// \same on any number of threads
 [[nodiscard]] TREEFORM_API curve_network intersection_paths(mesh_view mesh,

@@ -30,7 +30,7 @@ enum class mesh_relation : std::uint8_t {
 /// Options of `relation`, `measure` and `penetration_depth`. Each ignores those that do not concern
 /// it.
 struct measure_options {
-    /// for `measure`: ignore meshes farther apart than this; inclusive
+    /// For `measure`: ignore meshes farther apart than this; inclusive, not squared.
     double radius = std::numeric_limits<double>::infinity();
     /// Only closed meshes have an inside; this decides whether a mesh is closed.
     vertex_identity vertices = vertex_identity::by_coordinates;
@@ -121,8 +121,9 @@ struct mesh_measure {
 /// The relation is exact (see `relation`), and so is whether a distance is 0. Other distances are
 /// rounded as in `distance`. If the two faces named by `relation` meet, the points are on them.
 ///
-/// \throws std::invalid_argument as `relation`; for a radius that is negative or NaN
-/// \cost   `distance`, plus `relation` if the boxes of the meshes meet
+/// \throws std::invalid_argument naming the mesh and its lowest face with a corner out of range or
+///         not finite; for a radius that is negative or NaN
+/// \cost   `distance`; if the boxes of the meshes meet, also `mesh_intersections` and `locate`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<mesh_measure> measure(const mesh_ref& a, const mesh_ref& b,
                                                                const measure_options& options = {});
@@ -167,7 +168,7 @@ enum class thickness_by : std::uint8_t {
 
 /// The thickness at each face, and the least thickness.
 struct thickness_result {
-    /// [F] Infinite if there is nothing behind a face, or the face has no area.
+    /// [F] The thickness at each face; infinite if nothing is behind it, or if it has no area.
     std::vector<double> of_face{};
     double least = std::numeric_limits<double>::infinity();  ///< least thickness of all faces
     /// The lowest face with the least thickness.

@@ -123,8 +123,9 @@ struct read_options {
     /// For XYZ, PTS and CSV: names of columns, as pairs of the new name and the name in the first
     /// line or the column number, from 1: {"x", "easting"}. Columns x, y and z are the coordinates.
     std::vector<std::pair<std::string, std::string>> columns{};
-    bool drop_non_finite =
-        false;  ///< call `mesh_file::drop_non_finite`, and add a warning; only for `read`
+    /// Drop points with a coordinate that is not finite, and their faces, and add a warning. Only
+    /// for `read`.
+    bool drop_non_finite = false;
 };
 
 /// The content of a file. Points and faces have the order and numbers of the file: nothing is

@@ -59,7 +59,7 @@ struct laid_flat {
     /// it, so that the mesh tips over. 90 if the center is in the plane of the side. Negative if
     /// the center is not over the side: then the mesh tips over by itself.
     std::vector<double> tip_angles{};
-    std::vector<double> center_heights{};  ///< [S] of the center of mass over the plane of the side
+    std::vector<double> center_heights{};  ///< [S] height of the center of mass above each side
     /// [S] area of the faces that need support if the side is down: faces off the bed that point
     /// down at more than `overhang_angle` from the vertical. Only computed for the first
     /// `overhang_sides` sides and the chosen one, else NaN.
@@ -70,7 +70,7 @@ struct laid_flat {
     /// positive area.
     int mass_dimension = 3;
     std::size_t chosen = 0;                      ///< number in `sides`
-    std::vector<std::uint32_t> on_bed{};         ///< points of that side, ascending
+    std::vector<std::uint32_t> on_bed{};         ///< points of the chosen side, ascending
     std::optional<placement_contact> contact{};  ///< the lowest face with the lowest point
     /// The largest change of a z, after the rotation, that put a point onto the bed: a few units in
     /// the last place; with a tolerance, about the tolerance.

@@ -105,7 +105,7 @@ struct topology_counts {
 /// Mass properties of a solid of density 1.
 struct mass_properties {
     double volume = 0.0;  ///< the enclosed volume; negative if the mesh is inside out
-    point3 center{};      ///< of mass
+    point3 center{};      ///< the center of mass
     /// Inertia tensor about the center, in axes x, y and z: the energy of rotation w is w .
     /// (inertia w) / 2.
     std::array<std::array<double, 3>, 3> inertia{};
@@ -145,11 +145,11 @@ struct mesh_feature {
     point3 origin{};                          ///< center of the faces, on the plane or the axis
     /// of length 1: the outward normal of a plane; along an axis, in either sense
     point3 direction{};
-    double radius = 0.0;     ///< of the cylinder
+    double radius = 0.0;     ///< of the cylinder; 0 for a plane
     bool hollow = false;     ///< for a cylinder: the faces point toward the axis, as in a hole
-    double area = 0.0;       ///< of the faces
+    double area = 0.0;       ///< total area of the faces
     double deviation = 0.0;  ///< largest distance of a corner from the plane or cylinder
-    std::vector<std::uint32_t> faces{};  ///< ascending
+    std::vector<std::uint32_t> faces{};  ///< the faces that it was fitted to, ascending
 };
 
 /// What counts as flat or cylindrical.

@@ -85,7 +85,7 @@ struct section_result {
     std::vector<point2> points{};
     /// [points] the face in which the segment from each point begins
     std::vector<std::uint32_t> faces{};
-    /// the axes x and y, and the normal, as of `oriented_plane::axes`
+    /// the axes x and y, and the normal (`oriented_plane::axes`)
     std::array<point3, 3> axes{point3{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is invalid
 
@@ -132,13 +132,15 @@ struct section_result {
 /// A line on a mesh along which a value has a level.
 struct isoline {
     double level = 0.0;           ///< the value along the line
-    std::size_t first_point = 0;  ///< consecutive; the first is not repeated
+    std::size_t first_point = 0;  ///< its number; the points of the line are consecutive
     std::size_t point_count = 0;  ///< number of its points
-    bool closed = true;           ///< otherwise it ends at borders of the mesh
+    /// Whether the last point is joined to the first; otherwise the line ends at borders of the
+    /// mesh.
+    bool closed = true;
     /// Whether the faces along it are consistently oriented: seen from outside, larger values are
     /// to its left.
     bool oriented = true;
-    double length = 0.0;  ///< sum of its segments
+    double length = 0.0;  ///< sum of the lengths of its segments
 };
 
 /// The isolines of all levels, in the given order of levels.

@@ -80,7 +80,7 @@ struct face_pair {
 /// Which pairs to search for, and the positions of meshes. Each function ignores the options that
 /// do not concern it.
 struct intersection_options {
-    /// `self_intersections`: which corners count as shared.
+    /// For `self_intersections`: which corners count as shared.
     vertex_identity vertices = vertex_identity::by_coordinates;
     /// `mesh_intersections`: applied to each mesh first. The answer is exact for the moved corners,
     /// which `transform::operator()` rounds to double. A prepared mesh is not changed.
@@ -119,9 +119,9 @@ struct intersection_result {
 /// segment or point that it is; its pairs have a kind of their own.
 ///
 /// \pre    every corner is less than `mesh.points.size()`, every coordinate is finite
-/// \throws std::invalid_argument naming the face or point that violates this; if
-///         `component_of_face` does not have one entry for each face; for `between` together with
-///         `within`
+/// \throws std::invalid_argument naming a face with a corner out of range, or a point that is not
+///         finite; if `component_of_face` does not have one entry for each face; for `between`
+///         together with `within`
 /// \cost   O(F log F + B) time for the B pairs whose boxes overlap, about 100 bytes a face
 /// \same   on any number of threads
 /// \source candidate pairs: Sajovic, Knez and Korez, tf::tree, section III-C

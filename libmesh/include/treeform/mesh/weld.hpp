@@ -113,7 +113,7 @@ struct file_weld_result {
 /// faces with three different corners.
 ///
 /// With `keep` other than `first`, kept points may be within the tolerance of each other again, and
-/// with the rule `first` a point may move by twice the tolerance.
+/// without `chain` a point may move by twice the tolerance.
 ///
 /// A mean is the first point's value plus the mean of the differences from it, added in the order
 /// of points and rounded at each step. For n values that differ by at most d, its error is at most
@@ -131,8 +131,7 @@ struct file_weld_result {
 /// first, and the results again; so coincident corners stay merged even if the rest of their group
 /// does not. In the result, every edge of more than two faces had more than two before, and every
 /// point with several fans contains a point that had several before. Points of one group may stay
-/// within the tolerance of each other, and with the rule `first` a point may move by twice the
-/// tolerance.
+/// within the tolerance of each other, and without `chain` a point may move by twice the tolerance.
 ///
 /// \throws std::invalid_argument for a tolerance that is negative or not finite; unless there is
 ///         one label for each point; for more than 2^32 - 2 points; for a corner out of range; for
@@ -140,11 +139,10 @@ struct file_weld_result {
 ///         another `keep` than `first`; for more than 2^32 / 3 faces with `keep_manifold`. The
 ///         message names the lowest invalid element
 /// \cost   O(V log V + F log F) for any tolerance and any number of equal points, if `may_merge` is
-///         empty or nearly always true. Parallel, except rule `first` for points with several
+///         empty or nearly always true. Parallel, except, without `chain`, for points with several
 ///         others within the tolerance, if points come row by row or few are kept. Memory besides
-///         the result: up to 36 bytes a point (50 for dense chains, 110 with `tree`), 40 more with
-///         `order_by`; 24 bytes a face, 100 with `keep_manifold`; 8 bytes a point for each property
-///         in a condition
+///         the result: up to 36 bytes a point (50 for dense chains), 40 more with `order_by`; 24
+///         bytes a face, 100 with `keep_manifold`; 8 bytes a point for each property in a condition
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API weld_result weld(const mesh_ref& mesh, const weld_options& options = {});
 

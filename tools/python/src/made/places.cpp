@@ -39,9 +39,9 @@ py::object object(of_result, tf::closest_points_result&& from) {
 
 py::object object(of_result, std::vector<std::optional<tf::closest_point_result>>&& from) {
     py::dict made;
-    made["triangle_id"] = column(from, &tf::closest_point_result::face);
+    made["face"] = column(from, &tf::closest_point_result::face);
     made["distance"] = column(from, &tf::closest_point_result::distance);
-    made["closest"] = column(from, &tf::closest_point_result::point);
+    made["point"] = column(from, &tf::closest_point_result::point);
     return object_of("treeform._nearness", "ClosestPoints", made);
 }
 
@@ -56,8 +56,8 @@ py::object object(of_result, std::vector<std::optional<tf::mesh_hit>>&& from) {
 
 py::object object(of_result, std::vector<tf::placement_contact>&& from) {
     py::dict made;
-    made["points"] = column(from, &tf::placement_contact::point);
-    made["normals"] = column(from, &tf::placement_contact::normal);
+    made["point"] = column(from, &tf::placement_contact::point);
+    made["normal"] = column(from, &tf::placement_contact::normal);
     made["moving"] = column(from, &tf::placement_contact::moving);
     made["fixed_face"] = column(from, &tf::placement_contact::fixed_face);
     made["fixed"] =
@@ -218,6 +218,7 @@ py::object object(of_result, tf::pose_result&& from) {
         column_of_poses(from, [](std::uint32_t, const tf::pose_clash& one) { return one.how; });
     made["distance"] = column_of_poses(
         from, [](std::uint32_t, const tf::pose_clash& one) { return one.distance; });
+    made["in_collision"] = as_python(std::move(from.in_collision)).attr("view")("bool");
     made["clashing"] = as_python(std::move(from.clashing));
     return object_of("treeform._assembly", "PoseClashes", made);
 }

@@ -51,11 +51,11 @@ TREEFORM_C_API treeform_code treeform_put_back(treeform_bodies* bodies, size_t b
                                                treeform_file** file);
 
 /// Options of `treeform_clash` and `treeform_check_poses`. Only `treeform_clash` uses `volumes`,
-/// `depths`, `effort` and `limit`.
+/// `depths`, `effort` and `limit`; only `treeform_check_poses` uses `first_only`.
 typedef struct treeform_clash_options {
     size_t size;
     double clearance;    ///< parts nearer than this are too close; not squared
-    int32_t first_only;  ///< `treeform_check_poses`: only the first clash of each pose
+    int32_t first_only;  ///< find only the first clash of each pose
     /// [ignored_count][2] pairs of parts to skip; any order; or null
     const uint32_t* ignored;
     size_t ignored_count;
@@ -97,8 +97,7 @@ typedef struct treeform_part_clash {
     /// [region_count] ordered by their lowest faces
     const treeform_contact_region* regions;
     size_t region_count;
-    /// For closed parts that penetrate: the volume of their intersection, as
-    /// `operand_volumes::both`.
+    /// For closed parts that penetrate: the volume of their intersection.
     double volume;
     /// For penetrating parts: `treeform_penetration_depth`, the length of `move`.
     double depth;
@@ -110,7 +109,8 @@ typedef struct treeform_part_clash {
 /// All pairs that are not clear of each other.
 typedef struct treeform_clashes {
     void* owner;
-    const treeform_part_clash* pairs;  ///< [count] ascending
+    /// [count] those not clear of each other, ascending
+    const treeform_part_clash* pairs;
     size_t count;
     uint64_t counts[5];    ///< number of tested pairs, by `mesh_relation`
     uint64_t boxes_apart;  ///< pairs excluded by their boxes
@@ -154,8 +154,11 @@ typedef struct treeform_poses_result {
     const size_t* begin;  ///< [pose_count + 1]
     const treeform_pose_clash* clashes;
     size_t pose_count;
-    uint64_t clashing;  ///< poses with a pair that penetrates or is too close
+    uint64_t clashing;  ///< number of poses in collision
     uint64_t boxes_apart;
+    /// [pose_count] 1 for a pose with a pair that penetrates or is too close; with a clearance,
+    /// also for one with a pair that touches. Else 0.
+    const uint8_t* in_collision;
 } treeform_poses_result;
 
 // made of the headers of C++:

@@ -210,7 +210,7 @@ enum {
     TREEFORM_STATUS_VANISHED = 6,
     /// a coordinate of the result overflows the requested precision
     TREEFORM_STATUS_OUT_OF_RANGE = 7,
-    /// a placement found no position; `placement::end` has the reason
+    /// a placement found no position; `treeform_placement::end` has the reason
     TREEFORM_STATUS_NO_PLACEMENT = 8,
     /// stopped by `progress`; there is no result
     TREEFORM_STATUS_CANCELLED = 9

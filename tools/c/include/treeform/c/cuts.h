@@ -54,11 +54,10 @@ typedef struct treeform_section_result {
     /// [points] the face in which the segment from each point begins
     const uint32_t* faces;
     size_t point_count;
-    /// the axes x and y, and the normal, as of `oriented_plane::axes`
-    double axes[3][3];
+    double axes[3][3];  ///< the axes x and y, and the normal
 } treeform_section_result;
 
-/// Sections of a mesh by the planes at `heights` above `plane` (`oriented_plane::parallel`).
+/// Sections of a mesh by the planes at `heights` above `plane`.
 ///
 /// The side of each vertex, the loops and their nesting are decided exactly, on the coordinates as
 /// given. Then points are rounded.
@@ -112,7 +111,7 @@ typedef struct treeform_cut_options {
     treeform_precision precision;
     double max_displacement;  ///< As in `treeform_boolean_options`; default infinite
     /// As in `treeform_boolean_options`, for a mesh that meets itself. Set it if merging would mix
-    /// values (`carry_sources::merging_mixes_values`).
+    /// values.
     int32_t keep_cuts;
     treeform_progress progress;
     void* progress_data;
@@ -152,8 +151,7 @@ typedef struct treeform_cut_result {
     int32_t resolved;
 } treeform_cut_result;
 
-/// The pieces of a mesh below, between and above planes at `heights` above `plane`
-/// (`oriented_plane::parallel`).
+/// The pieces of a mesh below, between and above planes at `heights` above `plane`.
 ///
 /// The side of each vertex is decided exactly, on the coordinates as given. A face in a plane
 /// belongs to the side of its solid. The section of the solid in a plane becomes a cap, the same
@@ -161,8 +159,7 @@ typedef struct treeform_cut_result {
 /// `treeform_boolean`. Caps across an axis stay flat and equal when rounded; others may bend by a
 /// step of the precision.
 ///
-/// `treeform_carry` transfers the attributes of a file to pieces; `carry_source::texture_caps`
-/// gives caps planar texture coordinates.
+/// `treeform_carry` transfers the attributes of a file to pieces.
 ///
 /// With caps, the mesh must bound a solid, like an operand of `treeform_boolean`. If it meets
 /// itself, or has parts that are inside out or hidden in others, it is first replaced by the solid

@@ -37,7 +37,8 @@ typedef struct treeform_read_options {
     /// are the coordinates.
     const treeform_named_column* columns;
     size_t column_count;
-    /// call `mesh_file::drop_non_finite`, and add a warning; only for `treeform_read`
+    /// Drop points with a coordinate that is not finite, and their faces, and add a warning. Only
+    /// for `treeform_read`.
     int32_t drop_non_finite;
 } treeform_read_options;
 /// Sets the defaults.

@@ -78,7 +78,7 @@ typedef struct treeform_intersections_options {
     uint64_t limit;
     treeform_progress progress;
     void* progress_data;
-    /// `treeform_self_intersections`: which corners count as shared.
+    /// For `treeform_self_intersections`: which corners count as shared.
     treeform_vertices vertices;
     const uint32_t* component_of_face;  ///< [F] for `between` and `within`; or null
     int32_t between;                    ///< only pairs of faces of different components
@@ -161,7 +161,7 @@ TREEFORM_C_API treeform_code treeform_intersection_curves(const treeform_mesh* m
 
 /// A path of different points, each joined to the next by a segment.
 typedef struct treeform_path {
-    /// [count] numbers in `curve_network::points`; one or more
+    /// [count] numbers in `treeform_paths::points`; one or more
     const uint32_t* points;
     size_t count;
     int32_t closed;  ///< a segment leads from the last point to the first

@@ -53,7 +53,7 @@ typedef struct treeform_laid_flat {
     size_t side_count;
     size_t chosen;             ///< number in `sides`
     double center_of_mass[3];  ///< before the rotation, rounded
-    const uint32_t* on_bed;    ///< [on_bed_count] points of that side, ascending
+    const uint32_t* on_bed;    ///< [on_bed_count] points of the chosen side, ascending
     size_t on_bed_count;
     /// The largest change of a z, after the rotation, that put a point onto the bed: a few units
     /// in the last place; with a tolerance, about the tolerance.
@@ -62,8 +62,7 @@ typedef struct treeform_laid_flat {
     /// of it, so that the mesh tips over. 90 if the center is in the plane of the side. Negative
     /// if the center is not over the side: then the mesh tips over by itself.
     const double* tip_angles;
-    /// [S] of the center of mass over the plane of the side
-    const double* center_heights;
+    const double* center_heights;  ///< [S] height of the center of mass above each side
     /// [S] area of the faces that need support if the side is down: faces off the bed that point
     /// down at more than `overhang_angle` from the vertical. Only computed for the first
     /// `overhang_sides` sides and the chosen one, else NaN.
@@ -220,7 +219,7 @@ typedef struct treeform_align_options {
     /// that makes both sides equally large, and tries from half to twice of each. It compares
     /// results by the distances between both sides, relative to their sizes.
     int32_t scale;
-    uint32_t max_iterations;  ///< from each start; default 100
+    uint32_t max_iterations;  ///< largest number of steps from each start; default 100
     /// Converged if the cost falls by less than this share in each of 5 consecutive steps, or if a
     /// step moves no point near the fixed mesh by more than 1e-11 of the diagonal of the fixed
     /// mesh's box; default 1e-6
@@ -239,8 +238,8 @@ typedef struct treeform_align_options {
     treeform_precision precision;  ///< of the points returned; default float64
     treeform_progress progress;
     void* progress_data;
-    /// Bounds of `align_result::scale` if `scale` is set: positive, or 0 and infinity for none. A
-    /// start outside the bounds is moved to the nearest bound. Equal bounds fix the scale.
+    /// Bounds of `treeform_align_result::scale` if `scale` is set: positive, or 0 and infinity for
+    /// none. A start outside the bounds is moved to the nearest bound. Equal bounds fix the scale.
     double least_scale;
     double most_scale;  ///< default infinite
     /// Weight partners at distance d by exp(-d^2 / (2 v^2)) (Welsch), so that up to half of the
@@ -254,8 +253,8 @@ typedef struct treeform_align_options {
 TREEFORM_C_API void treeform_align_options_init(treeform_align_options* options, size_t size);
 
 /// A small motion of the moving points, and how well the distances determine it. It is a rotation
-/// about `align_result::pivot_moved` and a shift, scaled so that the root mean square of the
-/// motion over the points is 1.
+/// about `treeform_align_result::pivot_moved` and a shift, scaled so that the root mean square of
+/// the motion over the points is 1.
 typedef struct treeform_freedom {
     double turn[3];   ///< axis times angle, about `pivot_moved`
     double shift[3];  ///< after the turn

@@ -167,7 +167,8 @@ typedef struct treeform_relation {
 /// ignores those that do not concern it.
 typedef struct treeform_measure_options {
     size_t size;
-    /// for `treeform_measure`: ignore meshes farther apart than this; inclusive; default infinite
+    /// For `treeform_measure`: ignore meshes farther apart than this; inclusive, not squared;
+    /// default infinite
     double radius;
     /// Only closed meshes have an inside; this decides whether a mesh is closed.
     treeform_vertices vertices;
@@ -227,7 +228,7 @@ typedef struct treeform_deviation_options {
     /// lower end of the tolerance band of signed distances; NaN: no band
     double band_low;
     double band_high;  ///< its upper end
-    uint64_t bins;     ///< of the histogram; 0: none; default 40
+    uint64_t bins;     ///< number of intervals of the histogram; 0: none; default 40
     /// also compute distances of the points of `b` from `a`; default 1
     int32_t both_ways;
     treeform_progress progress;

@@ -185,7 +185,7 @@ TREEFORM_C_API treeform_code treeform_mate(const treeform_mesh* moving,
 /// coordinates pass the check of `treeform_slide`. It need not be the globally nearest place,
 /// which is on the boundary of a set with O(n^2 m^2) faces. The search is limited by `effort`, and
 /// skips candidates that would take much of it, as in `treeform_penetration_depth`;
-/// `placement::effort` has their number (`treeform_cut`).
+/// `treeform_placement::effort` counts them.
 TREEFORM_C_API treeform_code treeform_separate(const treeform_mesh* moving,
                                                const treeform_mesh* const* fixed, size_t count,
                                                const treeform_place_options* options,

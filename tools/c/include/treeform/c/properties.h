@@ -21,7 +21,7 @@ TREEFORM_C_API treeform_code treeform_area(const treeform_mesh* mesh, double* re
 /// Mass properties of a solid of density 1.
 typedef struct treeform_mass_properties {
     double volume;     ///< the enclosed volume; negative if the mesh is inside out
-    double center[3];  ///< of mass
+    double center[3];  ///< the center of mass
     /// Inertia tensor about the center, in axes x, y and z: the energy of rotation w is w .
     /// (inertia w) / 2.
     double inertia[9];
@@ -126,10 +126,10 @@ typedef struct treeform_feature {
     double origin[3];            ///< center of the faces, on the plane or the axis
     /// of length 1: the outward normal of a plane; along an axis, in either sense
     double direction[3];
-    double radius;          ///< of the cylinder
-    double area;            ///< of the faces
+    double radius;          ///< of the cylinder; 0 for a plane
+    double area;            ///< total area of the faces
     double deviation;       ///< largest distance of a corner from the plane or cylinder
-    const uint32_t* faces;  ///< [face_count] ascending
+    const uint32_t* faces;  ///< [face_count] the faces that it was fitted to, ascending
     size_t face_count;
 } treeform_feature;
 
@@ -185,7 +185,7 @@ TREEFORM_C_API treeform_code treeform_fit_feature(const treeform_mesh* mesh,
 
 /// A flat side of a convex hull: all coplanar faces of one plane.
 typedef struct treeform_hull_side {
-    /// The first of its faces, in `convex_hull_result::faces`; any three corners span its plane.
+    /// The first of its faces, in `treeform_hull::faces`; any three corners span its plane.
     uint32_t first_face;
     uint32_t face_count;
     double area;       ///< rounded; infinite on overflow

@@ -196,7 +196,7 @@ enum {
 /// The thickness at each face, and the least thickness.
 typedef struct treeform_thickness_result {
     void* owner;
-    /// [F] Infinite if there is nothing behind a face, or the face has no area.
+    /// [F] The thickness at each face; infinite if nothing is behind it, or if it has no area.
     const double* of_face;
     double least;       ///< least thickness of all faces
     uint32_t thinnest;  ///< The lowest face with the least thickness.
@@ -214,7 +214,7 @@ TREEFORM_C_API treeform_code treeform_wall_thickness(const treeform_mesh* mesh,
 /// A box in any orientation.
 typedef struct treeform_oriented_box {
     void* owner;
-    double center[3];  ///< of the box
+    double center[3];  ///< center of the box
     /// Unit axes, right-handed, rounded: along the longest, middle and shortest side.
     double axes[3][3];
     double size[3];  ///< lengths along these axes
@@ -232,13 +232,15 @@ TREEFORM_C_API treeform_code treeform_find_oriented_box(const treeform_mesh* mes
 /// A line on a mesh along which a value has a level.
 typedef struct treeform_isoline {
     double level;        ///< the value along the line
-    size_t first_point;  ///< consecutive; the first is not repeated
+    size_t first_point;  ///< its number; the points of the line are consecutive
     size_t point_count;  ///< number of its points
-    uint8_t closed;      ///< otherwise it ends at borders of the mesh
+    /// Whether the last point is joined to the first; otherwise the line ends at borders of the
+    /// mesh.
+    uint8_t closed;
     /// Whether the faces along it are consistently oriented: seen from outside, larger values are
     /// to its left.
     uint8_t oriented;
-    double length;  ///< sum of its segments
+    double length;  ///< sum of the lengths of its segments
 } treeform_isoline;
 
 /// The isolines of all levels, in the given order of levels.

@@ -40,7 +40,7 @@ typedef struct treeform_boolean_options {
     /// edge between two flat regions. Uncut faces are not changed. `split` keeps all cuts.
     int32_t keep_cuts;
     int32_t simplify;  ///< merge all coplanar faces of the result, also those not cut
-    /// Compute `boolean_result::volumes`; only for two operands, without filled gaps.
+    /// Compute `treeform_boolean_result::volumes`; only for two operands, without filled gaps.
     int32_t volumes;
     /// [faces of all operands, one after the other] or empty: only faces with equal numbers are
     /// merged; or null
@@ -246,7 +246,7 @@ typedef struct treeform_repair_statistics {
     uint64_t detached;        ///< vertices moved apart
     uint64_t touching;        ///< vertices that still have the coordinates of another
     /// Components (faces linked by vertices) that lost all of their faces; for `treeform_repair`,
-    /// only those larger than `repair_options::strays`.
+    /// only those larger than `treeform_repair_options::strays`.
     uint64_t vanished_components;
     /// closed shells inside the solid, dropped; `odd` makes them cavities
     uint64_t dropped_shells;
@@ -254,7 +254,7 @@ typedef struct treeform_repair_statistics {
     double volume_after;
     double area_before;
     double area_after;
-    double area_lost;  ///< as in `repair_options::max_loss`
+    double area_lost;  ///< as in `treeform_repair_options::max_loss`
     /// For `treeform_resolve_self_intersections` with `split`: input faces that lie entirely on
     /// faces of lower numbers. Their pieces are those of the lower faces, so they do not count as
     /// removed.
@@ -279,7 +279,7 @@ typedef struct treeform_repair_result {
     /// the same for a surface with a border. For `treeform_resolve_self_intersections` with
     /// `split` and `remove`, ok only means that any two faces share a corner, an edge or nothing,
     /// and that no face is degenerate; with `remove`, closed parts are still closed, and faces
-    /// that touched before may still touch (`resolve_options::touching`).
+    /// that touched before may still touch (`treeform_resolve_options::touching`).
     const treeform_certificate* certificate;
     const treeform_repair_statistics* statistics;
     /// for a file: the result with its attributes; else null

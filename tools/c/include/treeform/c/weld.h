@@ -64,8 +64,8 @@ typedef struct treeform_weld_options {
     const char* keep_by;
     /// A property as in `treeform_weld_condition`: the rule visits points by its values, the least
     /// first, NaN last, of equal ones the lowest-numbered; the first point of a group in this
-    /// order is kept. Needs `weld_keep::first`. Empty: by point number. Kept points remain in the
-    /// order of their numbers.
+    /// order is kept. Needs `TREEFORM_KEEP_FIRST`. Empty: by point number. Kept points remain in
+    /// the order of their numbers.
     const char* order_by;
     int32_t highest_first;  ///< for `order_by`: the greatest value first
     int32_t only_borders;   ///< merge only points on edges of exactly one face
@@ -108,9 +108,9 @@ typedef struct treeform_weld_result {
 /// Merges the points of a mesh or point cloud that are within the tolerance of each other.
 ///
 /// Distances are compared exactly, on the coordinates as given. Points are in the order of the
-/// first points of their groups; faces keep their order. With `weld_keep::first`, kept points keep
-/// their coordinates bit for bit. A point with a NaN or infinite coordinate is never merged, not
-/// even with a copy of itself.
+/// first points of their groups; faces keep their order. With `TREEFORM_KEEP_FIRST`, kept points
+/// keep their coordinates bit for bit. A point with a NaN or infinite coordinate is never merged,
+/// not even with a copy of itself.
 ///
 /// Faces that repeat a corner are dropped unless `keep_degenerate` is set: those that repeated it
 /// before (`degenerate`) and those that do now (`collapsed`). So input faces = faces of the result
@@ -118,7 +118,7 @@ typedef struct treeform_weld_result {
 /// faces with three different corners.
 ///
 /// With `keep` other than `first`, kept points may be within the tolerance of each other again,
-/// and with the rule `first` a point may move by twice the tolerance.
+/// and without `chain` a point may move by twice the tolerance.
 ///
 /// A mean is the first point's value plus the mean of the differences from it, added in the order
 /// of points and rounded at each step. For n values that differ by at most d, its error is at most
@@ -136,8 +136,8 @@ typedef struct treeform_weld_result {
 /// are merged first, and the results again; so coincident corners stay merged even if the rest of
 /// their group does not. In the result, every edge of more than two faces had more than two
 /// before, and every point with several fans contains a point that had several before. Points of
-/// one group may stay within the tolerance of each other, and with the rule `first` a point may
-/// move by twice the tolerance.
+/// one group may stay within the tolerance of each other, and without `chain` a point may move by
+/// twice the tolerance.
 TREEFORM_C_API treeform_code treeform_weld(const treeform_mesh* mesh,
                                            const treeform_weld_options* options,
                                            treeform_weld_result** result);
