@@ -213,7 +213,7 @@ class model_writer {
         };
         say(looks_.leaves_out_points, "colors-dropped",
             "colors of points left out, since their faces have colors or materials");
-        say(count_named(job_.file) > objects_.size(), "left-out",
+        say(count_named(job_.file) > objects_.size(), "data-dropped",
             "names of parts left out, since parts that share points are one object");
         say(looks_.rounds_colors, "colors", "colors are rounded to 8 bits");
         if (looks_.lacks_colors)

@@ -150,7 +150,7 @@ class Mend(ToolTest):
         run = self.run_tool(part, "--wrap", "1.5", "-o", "out.stl", status=0)
         self.assertRegex(run.text,
                          r"part.obj: wrap, [\d,]+ faces, volume .* \(was .*\), 0.05 from the faces")
-        self.assertNotIn("skin", run.err)
+        self.assertNotIn("covers both sides", run.err)
         self.run_tool("out.stl", "--check", status=0)
         entry = self.mended(part, "--wrap", "20%", "--offset", "0.1", "-o", "out.ply")
         self.assertIsNone(entry["repair"])
@@ -160,9 +160,11 @@ class Mend(ToolTest):
         self.assertEqual(wrap["faces"], 2 * wrap["vertices"] - 4)
         self.assertEqual(entry["output"]["precision_out"], "double")
         self.run_tool("out.ply", "--check", status=0)
-        run = self.run_tool(write(self.path("open.obj"), (cube()[0], faces)), "--wrap", "0.1", "-n",
-                            status=0)
+        opened = write(self.path("open.obj"), (cube()[0], faces))
+        run = self.run_tool(opened, "--wrap", "0.1", "-n", status=0)
         self.assertIn("covers both sides", run.err)
+        warnings = self.mended(opened, "--wrap", "0.1", "-n")["warnings"]
+        self.assertEqual([w["code"] for w in warnings], ["double-walled"])
 
     def test_a_wrap_takes_no_steps_and_a_size_that_makes_sense(self):
         part = write(self.path("part.obj"), CLEAN)

@@ -30,7 +30,8 @@ class Meshes(WeldTest):
     def test_what_rounding_to_floats_folds_is_said(self):
         write(self.path("odd.obj"), cube((1e9, 1e9, 0)))
         warnings = self.report("odd.obj", "-o", "odd.stl", status=0)["files"][0]["warnings"]
-        self.assertEqual([w["code"] for w in warnings], ["rounded", "precision", "folded"])
+        self.assertEqual([w["code"] for w in warnings],
+                         ["rounded", "precision", "rounding-defects"])
         self.assertIn("12 faces lost all area", warnings[2]["text"])
         self.assertEqual(self.report("odd.obj", "-o", "odd.ply", status=0)["files"][0]["warnings"],
                          [])

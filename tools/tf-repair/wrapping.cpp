@@ -59,7 +59,7 @@ void warn_of_skin(job& work, const dirty_mesh& input, const tf::offset_result& m
     const auto edges = tf::count_topology(joined.points.size(), joined.faces);
     // Where parts overlap or are within each other, volumes say nothing.
     if (edges.boundary_edges <= edges.nonmanifold_edges) return;
-    work.warn("skin",
+    work.warn("double-walled",
               "the wrap covers both sides of faces, since it enters holes wider than about " +
                   brief(2.0 * made.resolution) + "; a larger --wrap closes them");
 }

@@ -109,7 +109,7 @@ void enter_sources(job& work, const tf::cloud_survey& survey, const tf::cloud_in
         work.entry[key] = inputs.paths.size() == 1 ? first[key] : json(nullptr);
     work.entry["precision_in"] = precision(survey.single);
     for (const tf::io_warning& w : survey.warnings)
-        work.warn(w.code, w.code == "left-out" ? w.text + " by --join" : w.text);
+        work.warn(w.code, w.code == "data-dropped" ? w.text + " by --join" : w.text);
 }
 
 void say_plan(job& work, const tf::cloud_survey& survey, const fs::path& folder) {
