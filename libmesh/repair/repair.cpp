@@ -87,7 +87,7 @@ class repairer {
     [[nodiscard]] bool is_in_doubt(const repair_result& made) const {
         const bool is_complete = options_.join && options_.orient && options_.fill &&
                                  options_.resolve && !options_.sheet;
-        if (!is_complete || options_.inside) return false;
+        if (!is_complete || options_.fill_rule) return false;
         progress_callback progress;
         if (options_.progress) progress = [this](double) { return options_.progress(1.0); };
         const double most = is_hopeless_ ? 0.1 : 2.0;  // pairs of each face
@@ -284,7 +284,7 @@ class repairer {
     }
 
     [[nodiscard]] fill_rule rule() const {
-        if (options_.inside) return *options_.inside;
+        if (options_.fill_rule) return *options_.fill_rule;
         return closed_->is_outward() ? fill_rule::positive : fill_rule::nonzero;
     }
 
@@ -303,7 +303,7 @@ class repairer {
 
     [[nodiscard]] boolean_options how_to_resolve() {
         fillings_ = mesh_.fillings();
-        return {.inside = rule(),
+        return {.fill_rule = rule(),
                 .precision = options_.precision,
                 .max_displacement = options_.max_displacement,
                 .keep_cuts = options_.keep_cuts,
@@ -427,7 +427,7 @@ class repairer {
             // What was closed had a volume: a fin has area, but none of that.
             before = did_.volume_before;
             const boolean_result meant =
-                detail::boolean::resolve_by_union(mesh_.view(), {.inside = fill_rule::nonzero})
+                detail::boolean::resolve_by_union(mesh_.view(), {.fill_rule = fill_rule::nonzero})
                     .made;
             if (meant.certificate) before = signed_volume(meant.mesh);
             after = did_.volume_after;

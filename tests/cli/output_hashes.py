@@ -113,8 +113,8 @@ symmetric-difference/off pairs  symmetric-difference {a} {b} --matrix 2:{m} -o o
 split/ply              pairs   split {a} {b} --matrix 2:{m} -o out.ply --curves curves.ply
 expr=b-a/glb           pairs   --expr b-a {a} {b} --matrix 2:{m} -o out.glb --source s
 simplify/obj           pairs   union {a} {b} --matrix 2:{m} --simplify -o out.obj
-inside=odd             pairs   union {a} {b} --matrix 2:{m} --inside odd -o out.ply
-inside=positive        pairs   difference {a} {b} --matrix 2:{m} --inside positive -o out.ply \
+fill-rule=even-odd     pairs   union {a} {b} --matrix 2:{m} --fill-rule even-odd -o out.ply
+fill-rule=positive     pairs   difference {a} {b} --matrix 2:{m} --fill-rule positive -o out.ply \
                                --max-move 0
 check/pair             pairs   --check {a} {b} --matrix 2:{m}
 page                   pairs   union {a} {b} --matrix 2:{m} -n --html page.html --png p.png --png-size \
@@ -124,9 +124,9 @@ self/stl               all     union {f} -o out.stl
 self/ply               small   union {f} -o out.ply --precision double
 self/obj               small   union {f} -o out.obj --max-move 0
 self/check             all     --check {f}
-self/check=odd         small   --check {f} --inside odd
-self/odd               small   union {f} --inside odd -o out.ply
-self/positive          small   union {f} --inside positive -o out.ply
+self/check=even-odd    small   --check {f} --fill-rule even-odd
+self/even-odd          small   union {f} --fill-rule even-odd -o out.ply
+self/positive          small   union {f} --fill-rule positive -o out.ply
 self/simplify          all     union {f} --simplify -o out.ply
 self/split             small   split {f} -o out.ply
 self/open              small   intersection {f} made/box.obj --accept-open -o out.ply
@@ -358,7 +358,7 @@ tf-selfintersect models/clean/koala_100k.obj --timeout 0.000001
 tf-boolean | tf-boolean --help | tf-boolean unite made/box.obj | tf-boolean union
 tf-boolean --expr a-c made/box.obj made/box.obj -n | tf-boolean --expr a) made/box.obj -n
 tf-boolean union made/box.obj made/box.obj | tf-boolean union made/box.obj none.obj -n
-tf-boolean union made/box.obj --inside even -n | tf-boolean union made/box.obj --matrix m.txt -n
+tf-boolean union made/box.obj --fill-rule even -n | tf-boolean union made/box.obj --matrix m.txt -n
 tf-boolean union made/box.obj --matrix 2:m.txt -n
 tf-boolean union made/box.obj --matrix 1:none.txt -n
 tf-boolean union made/box.obj --matrix 1:made/flat.txt -n

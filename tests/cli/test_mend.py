@@ -44,8 +44,8 @@ class Mend(ToolTest):
         self.assertEqual(entry["repair"]["dropped_shells"], 1)
         text, = (w["text"] for w in entry["warnings"] if w["code"] == "dropped-shells")
         self.assertIn("1 shell within another was dropped", text)
-        self.assertIn("--inside odd makes a cavity of it", text)
-        run = self.run_tool(part, "--inside", "odd", "-o", "hollow.obj", status=0)
+        self.assertIn("--fill-rule even-odd makes a cavity of it", text)
+        run = self.run_tool(part, "--fill-rule", "even-odd", "-o", "hollow.obj", status=0)
         self.assertIn("volume 7000 ", run.text)
         self.assertEqual(run.err, "")
 
@@ -349,10 +349,10 @@ class Mend(ToolTest):
         part = write(self.path("part.obj"), CLEAN)
         for options in ([], ["--check", "-o", "out.stl"], ["--check", "--max-loss", "5%"],
                         ["--gap", "1", "--no-join", "-n"], ["--strays", "120%", "-n"],
-                        ["--max-loss", "-1", "-n"], ["--inside", "even", "-n"],
+                        ["--max-loss", "-1", "-n"], ["--fill-rule", "even", "-n"],
                         ["--holes", "3", "--sheet", "-n"], ["--source", "s", "-o", "out.stl"],
                         ["--curves", "out.stl", "-n"],
-                        ["--inside", "odd", "--no-resolve", "-n"], ["-o", "out.xyz"],
+                        ["--fill-rule", "even-odd", "--no-resolve", "-n"], ["-o", "out.xyz"],
                         ["--keep-cuts", "--no-resolve", "-n"], ["--keep-cuts", "--sheet", "-n"],
                         ["--keep-cuts", "--check"]):
             with self.subTest(options=options):

@@ -81,7 +81,7 @@ void check_wrapping(const command_line& line, const wrap_settings& settings) {
         return;
     }
     for (const char* name :
-         {"--check", "--gap", "--holes", "--strays", "--inside", "--sheet", "--keep-cuts",
+         {"--check", "--gap", "--holes", "--strays", "--fill-rule", "--sheet", "--keep-cuts",
           "--max-loss", "--accept-loss", "--max-move", "--source", "--curves", "--no-join",
           "--no-orient", "--no-fill", "--no-resolve", "--no-detach"})
         if (line.given(name)) refuse(std::string(name) + ": --wrap replaces all steps");

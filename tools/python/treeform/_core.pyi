@@ -226,7 +226,7 @@ class WriteOptions:
 class BooleanOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
-    def __init__(self, *, inside: str = ..., precision: str = ..., max_displacement: float = ...,
+    def __init__(self, *, fill_rule: str = ..., precision: str = ..., max_displacement: float = ...,
                  keep_cuts: bool = ..., simplify: bool = ..., volumes: bool = ...,
                  min_volume: float = ..., gap: float = ...) -> None: ...
 
@@ -239,7 +239,7 @@ class CutOptions:
 class ResolveOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
-    def __init__(self, *, inside: str = ..., precision: str = ..., max_displacement: float = ...,
+    def __init__(self, *, fill_rule: str = ..., precision: str = ..., max_displacement: float = ...,
                  keep_cuts: bool = ..., touching: bool = ..., max_loss: float = ...) -> None: ...
 
 class RepairOptions:
@@ -248,7 +248,7 @@ class RepairOptions:
     def __init__(self, *, join: bool = ..., orient: bool = ..., fill: bool = ...,
                  resolve: bool = ..., detach: bool = ..., gap: Optional[float] = ...,
                  largest_hole: Optional[int] = ..., strays: float = ...,
-                 inside: Optional[str] = ..., max_loss: float = ..., sheet: bool = ...,
+                 fill_rule: Optional[str] = ..., max_loss: float = ..., sheet: bool = ...,
                  precision: str = ..., max_displacement: float = ...,
                  keep_cuts: bool = ...) -> None: ...
 
