@@ -48,7 +48,7 @@ std::string identity_of(const cloud_inputs& inputs, const weld_stream_options& o
     }
     state.text(o.order_by);
     state.numbers(o.highest_first, o.relative, o.as_las, o.keep_seams);
-    for (const std::string& name : o.across) state.text(name);
+    for (const std::string& name : o.ignored_seams) state.text(name);
     for (const auto* grid : {&o.las_scale, &o.las_offset})
         for (const double x : grid->value_or(std::array<double, 3>{})) state.real(x);
     return state.bytes();

@@ -173,8 +173,8 @@ keep=last              small   {f} -t 0.5% --keep last -o out.ply
 keep=mean              small   {f} -t 0.5% --keep mean -o out.obj --map map.csv
 keep=mean/chain        small   {f} -t 0.5% --rule chain --keep mean -o out.ply
 keep=max:z             small   {f} -t 0.5% --keep max:z -o out.ply --removed gone.xyz
-across                 small   {f} -t 0.01% --across normal,uv,color -o out.ply
-across/obj             few     {f} -t 1% --across normal,uv -o out.obj
+ignore-seams           small   {f} -t 0.01% --ignore-seams normal,uv,color -o out.ply
+ignore-seams/obj       few     {f} -t 1% --ignore-seams normal,uv -o out.obj
 same                   small   {f} -t 1% --same z=0.001 -o out.ply
 borders                small   {f} -t 1% --borders -o out.ply
 keep-manifold          small   {f} -t 1% --keep-manifold -o out.ply
@@ -372,7 +372,7 @@ tf-boolean difference made/box.obj made/box.obj -o out.stl
 tf-weld | tf-weld --help | tf-weld made/box.obj | tf-weld made/box.obj -o out.docx
 tf-weld made/box.obj -t x -n | tf-weld made/box.obj --rule any -n
 tf-weld made/box.obj --keep some -n | tf-weld made/box.obj --keep min:mass -n
-tf-weld made/box.obj --same mass -n | tf-weld made/box.obj --same x --across x -n
+tf-weld made/box.obj --same mass -n | tf-weld made/box.obj --same x --ignore-seams x -n
 tf-weld made/box.obj --label g | tf-weld made/box.obj --label x -o out.ply
 tf-weld made/box.obj --check -o out.ply | tf-weld made/box.obj --borders -o out.xyz
 tf-weld made/points.ply -o out.stl | tf-weld made/points.ply -o out.obj

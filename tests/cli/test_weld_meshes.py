@@ -55,9 +55,10 @@ class Meshes(WeldTest):
 
     def test_seams_are_kept_unless_let_go(self):
         self.write("in.ply", FOLDED)
-        for options, kept in (([], 6), (["--across", "normal"], 4), (["--across", "nx,nz,ny"], 4),
-                              (["--across", "nx"], 6), (["--same", "normal=0.5"], 6),
-                              (["--same", "normal=1"], 4), (["--across", "uv,color"], 6)):
+        for options, kept in (([], 6), (["--ignore-seams", "normal"], 4),
+                              (["--ignore-seams", "nx,nz,ny"], 4),
+                              (["--ignore-seams", "nx"], 6), (["--same", "normal=0.5"], 6),
+                              (["--same", "normal=1"], 4), (["--ignore-seams", "uv,color"], 6)):
             entry = self.entry("in.ply", *options, status=0)
             self.assertEqual(entry["points"]["out"], kept, msg=options)
         entry = self.entry("in.ply", status=0)

@@ -29,7 +29,7 @@ _WELD = {
     "same": "vertex properties that must agree for points to be merged, each with the largest "
             "difference allowed.",
     "keep_seams": "merge only points with equal normals, texture coordinates and colors, except "
-                  "for those in `across`.",
+                  "for those in `ignored_seams`.",
     "chain": "merge all points that are connected by a chain of points, each within the tolerance"
              " of the next. By default, a point is dropped if it is within the tolerance of an "
              "earlier point that is kept.",
@@ -39,7 +39,7 @@ _WELD = {
     "order_by": "a vertex property: visit the points in ascending order of its values. Requires "
                 "`keep` 'first'. Empty: in the order of their numbers.",
     "highest_first": "visit the points in descending order of `order_by`.",
-    "across": "properties that `keep_seams` ignores."}
+    "ignored_seams": "properties that `keep_seams` ignores."}
 _WELD_STREAM = _WELD | {
     "files": "one or several files of points, read as one cloud; or one file of a "
              "mesh.",

@@ -48,7 +48,7 @@ tf::weld_stream_options library_options(job& work, const weld_request& request,
     options.order_by = asked.order_by;
     options.highest_first = asked.highest_first;
     options.keep_seams = asked.keep_seams;
-    options.across = asked.across;
+    options.ignored_seams = asked.ignored_seams;
     options.keep_degenerate = asked.keep_degenerate;
     const auto path = mesh_output(work.options, work.path);
     const std::string& format = work.options.output_format;

@@ -288,7 +288,7 @@ class WeldOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
     def __init__(self, *, tolerance: float = ..., chain: bool = ..., same: Same = ...,
-                 keep_seams: bool = ..., across: list[str] = ..., keep: str = ...,
+                 keep_seams: bool = ..., ignored_seams: list[str] = ..., keep: str = ...,
                  keep_by: str = ..., order_by: str = ..., highest_first: bool = ...,
                  only_borders: bool = ..., keep_manifold: bool = ...,
                  keep_degenerate: bool = ...) -> None: ...
@@ -298,7 +298,7 @@ class WeldStreamOptions:
     defaults: dict[str, Any]
     def __init__(self, *, tolerance: float = ..., relative: bool = ..., chain: bool = ...,
                  same: Same = ..., keep: str = ..., keep_by: str = ..., order_by: str = ...,
-                 highest_first: bool = ..., keep_seams: bool = ..., across: list[str] = ...,
+                 highest_first: bool = ..., keep_seams: bool = ..., ignored_seams: list[str] = ...,
                  keep_degenerate: bool = ..., as_las: bool = ..., memory: Optional[int] = ...,
                  folder: str = ..., points_per_tile: Optional[int] = ...) -> None: ...
 

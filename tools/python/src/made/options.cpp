@@ -124,7 +124,7 @@ void each_field(tf::weld_options& how, const Visit& visit) {
     visit("chain", how.chain);
     visit("same", how.same);
     visit("keep_seams", how.keep_seams);
-    visit("across", how.across);
+    visit("ignored_seams", how.ignored_seams);
     visit("keep", how.keep);
     visit("keep_by", how.keep_by);
     visit("order_by", how.order_by);
@@ -145,7 +145,7 @@ void each_field(tf::weld_stream_options& how, const Visit& visit) {
     visit("order_by", how.order_by);
     visit("highest_first", how.highest_first);
     visit("keep_seams", how.keep_seams);
-    visit("across", how.across);
+    visit("ignored_seams", how.ignored_seams);
     visit("keep_degenerate", how.keep_degenerate);
     visit("as_las", how.as_las);
     visit("memory", how.memory);
