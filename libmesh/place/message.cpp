@@ -93,7 +93,7 @@ std::string placement::message(std::span<const std::string> names) const {
         case placement_end::too_far:
             return too_far(*this);
         case placement_end::not_representable:
-            if (effort.cut > 0)
+            if (effort.skipped_candidates > 0)
                 return "no separating translation was found within " +
                        counted(effort.bound, "pair", "pairs") + " of faces";
             return std::string("no valid placement was found in ") +

@@ -142,7 +142,7 @@ std::string sentence(const placing& p) {
                               : drops                                ? "dropped by "
                               : p.settings.mode == place_mode::slide ? "slid by "
                                                                      : "moved by ";
-    return moved + brief(at.travel) + "; " + relation + cut_in_words(at.effort);
+    return moved + brief(at.travel) + "; " + relation + skipped_in_words(at.effort);
 }
 
 void say_place(job& work, const placing& p) {

@@ -83,8 +83,8 @@ class Placement(MeshResult):
     nearest: The relation, at the place, of the moving mesh (`a`) to the fixed mesh that it
         penetrates, else to one that it touches, else to the nearest. None if all are too far away.
     certificate: The outcome of checking the coordinates.
-    effort: For `separate`: the effort of its search. If `cut` is not 0, a shorter translation may
-        exist or, if no place was found, a place.
+    effort: For `separate`: the effort of its search. If `skipped_candidates` is not 0, a shorter
+        translation may exist or, if no place was found, a place.
     angle: For `turn` and `mate_features`: angle of the rotation, in degrees.
     tolerance: For `turn`: the gap, beyond the clearance, that counts as contact.
     offset: For `mate_features`: the distance of the moving feature's center from the fixed
@@ -121,13 +121,13 @@ class SearchEffort(NamedTuple):
 
     pairs: Pairs of faces tested; a pair in motion counts as two.
     bound: The limit of `pairs`.
-    cut: Number of candidates skipped because testing one would take more than 1/32 of the bound, or
-        more than the rest of it. If not 0, a better result may exist.
+    skipped_candidates: Number of candidates skipped because testing one would take more than 1/32
+        of the bound, or more than the rest of it. If not 0, a better result may exist.
     """
 
     pairs: int
     bound: int
-    cut: int
+    skipped_candidates: int
 
     def __repr__(self) -> str:
         return tuple_repr(self)
@@ -261,7 +261,7 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
     coordinates pass the check of `slide`. It need not be the globally nearest place, which is on
     the boundary of a set with O(n^2 m^2) faces. The search is limited by `effort`, and skips
     candidates that would take much of it, as in `penetration_depth`; `Placement.effort` has their
-    number (`cut`).
+    number (`skipped_candidates`).
 
     fixed: a fixed body, or a list of them.
     clearance: Gap to leave, a distance; 0: contact.
@@ -718,8 +718,8 @@ class Depth(NamedTuple):
     depth: The length of `move`, rounded.
     move: (3,) After adding this to every point of `a`, with each coordinate rounded, `measure` is
         not `penetrating`.
-    effort: The effort of the search. If `cut` is not 0, a shorter translation is more likely to
-        exist.
+    effort: The effort of the search. If `skipped_candidates` is not 0, a shorter translation is
+        more likely to exist.
     """
 
     depth: float

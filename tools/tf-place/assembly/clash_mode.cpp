@@ -64,7 +64,7 @@ std::string sentence(const named_assembly& all, const tf::part_clash& one) {
     if (one.b_inside_a) text += ", the second inside the first";
     if (one.depth) text += ", at most " + brief(*one.depth) + " deep";
     if (one.volume) text += ", common volume " + brief(*one.volume);
-    if (one.depth) text += cut_in_words(one.depth_effort);
+    if (one.depth) text += skipped_in_words(one.depth_effort);
     if (!one.regions.empty())
         text += "; " + counted(one.regions.size(), "region", "regions") + ", " +
                 counted(one.face_pairs, "pair", "pairs") + " of faces";

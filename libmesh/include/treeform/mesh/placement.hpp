@@ -84,8 +84,8 @@ struct placement {
     std::vector<placement_contact> contacts{};
     std::uint64_t contact_count = 0;     ///< number of all contacts, listed or not
     std::optional<double> max_travel{};  ///< the given limit
-    /// For `separate`: the effort of its search. If `cut` is not 0, a shorter translation may exist
-    /// or, if no place was found, a place.
+    /// For `separate`: the effort of its search. If `skipped_candidates` is not 0, a shorter
+    /// translation may exist or, if no place was found, a place.
     search_effort effort{};
     double angle = 0.0;      ///< for `turn` and `mate_features`: angle of the rotation, in degrees
     double tolerance = 0.0;  ///< for `turn`: the gap, beyond the clearance, that counts as contact

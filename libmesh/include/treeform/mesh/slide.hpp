@@ -103,7 +103,7 @@ struct placement_options {
 /// coordinates pass the check of `slide`. It need not be the globally nearest place, which is on
 /// the boundary of a set with O(n^2 m^2) faces. The search is limited by `effort`, and skips
 /// candidates that would take much of it, as in `penetration_depth`; `placement::effort` has their
-/// number (`cut`).
+/// number (`skipped_candidates`).
 ///
 /// \throws std::invalid_argument as `slide`
 /// \cost   for each direction up to about 12 `intersects` or `distance`, a tree over `moving` and a

@@ -69,7 +69,7 @@ py::object object(of_result, tf::search_effort&& from) {
     py::dict made;
     made["pairs"] = as_python(std::move(from.pairs));
     made["bound"] = as_python(std::move(from.bound));
-    made["cut"] = as_python(std::move(from.cut));
+    made["skipped_candidates"] = as_python(std::move(from.skipped_candidates));
     return object_of("treeform._placement", "SearchEffort", made);
 }
 

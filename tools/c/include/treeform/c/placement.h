@@ -99,8 +99,8 @@ typedef struct treeform_placement {
     /// feature's center at the place, along the direction of the fixed feature. For planes, their
     /// distance.
     double offset;
-    /// For `separate`: the effort of its search. If `treeform_cut` is not 0, a shorter translation
-    /// may exist or, if no place was found, a place.
+    /// For `separate`: the effort of its search. If `skipped_candidates` is not 0, a shorter
+    /// translation may exist or, if no place was found, a place.
     treeform_search_effort effort;
 } treeform_placement;
 
@@ -186,7 +186,7 @@ TREEFORM_C_API treeform_code treeform_mate(const treeform_mesh* moving,
 /// coordinates pass the check of `treeform_slide`. It need not be the globally nearest place,
 /// which is on the boundary of a set with O(n^2 m^2) faces. The search is limited by `effort`, and
 /// skips candidates that would take much of it, as in `treeform_penetration_depth`;
-/// `placement::effort` has their number (`treeform_cut`).
+/// `placement::effort` has their number (`skipped_candidates`).
 TREEFORM_C_API treeform_code treeform_separate(const treeform_mesh* moving,
                                                const treeform_mesh* const* fixed, size_t count,
                                                const treeform_place_options* options,
