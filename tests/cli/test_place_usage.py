@@ -6,6 +6,7 @@ NUMBER = (int, float)
 NULL = type(None)
 FILE = {"input": str, "error": NULL, "format": str, "sha256": str, "precision_in": str,
         "faces": int, "triangles": int, "box": dict, "mode": str, "fixed": list, "skipped": dict,
+        "work": dict,
         "clearance": dict, "max_travel": (str, NULL), "bed": (dict, NULL), "placed": (bool, NULL),
         "reason": (str, NULL), "status_at_start": str, "status": str, "inside": (str, NULL),
         "distance": (*NUMBER, NULL), "surface_distance": (*NUMBER, NULL), "closest": (dict, NULL),

@@ -15,8 +15,8 @@ constexpr const char* blank_report = R"({
     "format": null, "sha256": null, "precision_in": null, "faces": null, "triangles": null,
     "box": null, "mode": null, "fixed": [],
     "skipped": {"non_finite": null, "parts_not_loaded": 0, "parts_not_indexed": null,
-        "primitives_not_indexed": null, "pairs_culled_by_box": null,
-        "face_pairs_in_motion": null, "filter_calls": null, "exact_calls": null},
+        "primitives_not_indexed": null, "pairs_culled_by_box": null},
+    "work": {"face_pairs_in_motion": null, "predicates": null, "exact_predicates": null},
     "clearance": {"given": null, "used": null}, "max_travel": null, "bed": null, "placed": null,
     "reason": null, "status_at_start": null, "status": null, "inside": null, "distance": null,
     "surface_distance": null, "closest": null, "direction": null, "travel": null,
@@ -60,10 +60,10 @@ void enter_skipped(json& entry, const placing& p) {
     }
     entry["skipped"].update({{"parts_not_indexed", bodies},
                              {"primitives_not_indexed", faces},
-                             {"pairs_culled_by_box", p.at.statistics.fixed_culled},
-                             {"face_pairs_in_motion", p.at.statistics.pairs_tested},
-                             {"filter_calls", p.at.statistics.predicates.calls},
-                             {"exact_calls", p.at.statistics.predicates.undecided}});
+                             {"pairs_culled_by_box", p.at.statistics.fixed_culled}});
+    entry["work"] = {{"face_pairs_in_motion", p.at.statistics.pairs_tested},
+                     {"predicates", p.at.statistics.predicates.calls},
+                     {"exact_predicates", p.at.statistics.predicates.undecided}};
 }
 
 }  // namespace
