@@ -21,7 +21,7 @@ static void test_moves(void) {
     fixed[1] = other;
     OK(treeform_slide(moving, fixed, 2, down, NULL, &placement));
     CHECK(placement->end == TREEFORM_END_CONTACT && placement->travel == 4.0);
-    CHECK(placement->at_place == TREEFORM_MEETING && placement->points[2] == 1.0);
+    CHECK(placement->relation == TREEFORM_MEETING && placement->points[2] == 1.0);
     CHECK(placement->nearest_fixed == 0 && placement->nearest->distance == 0.0);
     CHECK(placement->contact_listed > 0 && placement->contacts[0].fixed == 0);
     CHECK(placement->matrix[11] == -4.0 && is(placement->message, ""));
@@ -39,7 +39,7 @@ static void test_moves(void) {
     options.clearance = 0.125;
     OK(treeform_mesh_set_create(fixed, 2, &set));
     OK(treeform_slide(moving, set->meshes, 2, down, &options, &placement));
-    CHECK(near(placement->travel, 3.875) && placement->at_place == TREEFORM_CLEAR);
+    CHECK(near(placement->travel, 3.875) && placement->relation == TREEFORM_CLEAR);
     treeform_free(placement);
     treeform_free(set);
     options.max_travel = 1.0;
@@ -79,7 +79,7 @@ static void test_other_moves(void) {
     treeform_free(placement);
     INVALID("", treeform_drop(moving, NULL, 0, up, NULL, &placement));
     OK(treeform_mate(moving, fixed, 1, NULL, &placement));
-    CHECK(near(placement->travel, 4.0) && placement->at_place == TREEFORM_MEETING);
+    CHECK(near(placement->travel, 4.0) && placement->relation == TREEFORM_MEETING);
     treeform_free(placement);
     treeform_place_options_init(&options, sizeof options);
     options.clearance = 0.5;
@@ -87,13 +87,13 @@ static void test_other_moves(void) {
     CHECK(placement->end == TREEFORM_END_MOVED_APART && placement->travel > 0.5);
     treeform_free(placement);
     OK(treeform_measure_among(inside, fixed, 1, NULL, &placement));
-    CHECK(placement->at_place == TREEFORM_PENETRATING && placement->contact_count > 0);
+    CHECK(placement->relation == TREEFORM_PENETRATING && placement->contact_count > 0);
     treeform_free(placement);
     OK(treeform_find_features(moving, TREEFORM_PLANE, NULL, &of_moving));
     OK(treeform_find_features(base, TREEFORM_PLANE, NULL, &of_fixed));
     OK(treeform_mate_features(moving, fixed, 1, of_moving->features, of_fixed->features, NULL,
                               &placement));
-    CHECK(placement->at_place == TREEFORM_MEETING && near(placement->offset, 0.0));
+    CHECK(placement->relation == TREEFORM_MEETING && near(placement->offset, 0.0));
     treeform_free(placement);
     INVALID("of_fixed is null",
             treeform_mate_features(moving, fixed, 1, of_moving->features, NULL, NULL, &placement));

@@ -68,7 +68,7 @@ def test_places_are_those_of_the_tool(folder, mode, moving, fixed, options, verb
             found["rms"], found["overlap"], found["iterations"], found["start"], found["scale"],
             found["inliers"])
     elif mode != "lay":
-        assert made.at_place.replace("_", "-") == report["status"]
+        assert made.relation.replace("_", "-") == report["status"]
         assert made.contact_count == report["contact_count"]
 
 

@@ -97,8 +97,8 @@ void enter_place(json& entry, const placing& p) {
                         {"used", *at.bed},
                         {"reached", at.end == tf::placement_end::bed}};
     entry["placed"] = static_cast<bool>(at);
-    entry["status_at_start"] = name_of(at.at_start);
-    entry["status"] = name_of(at.at_place);
+    entry["status_at_start"] = name_of(at.relation_at_start);
+    entry["status"] = name_of(at.relation);
     for (const tf::placement_contact& c : at.contacts)
         entry["contacts"].push_back(contact_entry(p.moving, p.fixed, c));
     entry["contact_count"] = at.contact_count;
@@ -124,7 +124,7 @@ std::string sentence(const placing& p) {
     std::string relation = at.relation_in_words(p.moving, p.fixed);
     if (!at) {
         std::string pairs;  // of faces, behind "penetrating other.stl"
-        if (at.at_place == tf::mesh_relation::penetrating && at.nearest) {
+        if (at.relation == tf::mesh_relation::penetrating && at.nearest) {
             const std::string seen = "penetrating " + p.fixed.label(at.nearest_fixed);
             pairs = relation.substr(std::min(seen.size(), relation.size()));
         }

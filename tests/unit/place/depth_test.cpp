@@ -188,7 +188,7 @@ TEST_CASE("separate: of crowds of long thin faces it ends by its effort, where i
         REQUIRE(apart);
         CHECK(apart.effort.pairs <= bound);
         CHECK(apart.effort.skipped_candidates > 0);
-        CHECK(apart.at_place != tf::mesh_relation::penetrating);
+        CHECK(apart.relation != tf::mesh_relation::penetrating);
         CHECK(tf::relation({apart.points, a.faces}, b).relation != tf::mesh_relation::penetrating);
     }
 }

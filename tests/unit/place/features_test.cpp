@@ -232,7 +232,7 @@ TEST_CASE("mate features: a shaft that goes through its bore stays in the middle
     check_features(shaft, bore, found);
     CHECK(found.end == tf::placement_end::unchanged);
     CHECK(std::abs(found.offset) < 1e-12);
-    CHECK(found.at_place == tf::mesh_relation::separate);
+    CHECK(found.relation == tf::mesh_relation::separate);
     // One that is too thick stops outside.
     const tf::mesh thick = test::moved(tube(10.2, 4, 30, 64), {50, 3, 2});
     const auto stopped =

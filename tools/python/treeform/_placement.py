@@ -75,8 +75,9 @@ class Placement(MeshResult):
     message: Why there is no place, as a clause; empty if there is a place.
     direction: (3,) unit direction of the travel; 0 if there is none.
     travel: Distance moved; for `too_far` the distance needed.
-    at_start: Exact: 'separate', 'touching', 'penetrating', 'closer_than_clearance' or 'clear'.
-    at_place: The same at the place: 'separate', 'touching', 'penetrating', 'closer_than_clearance'
+    relation_at_start: Exact: 'separate', 'touching', 'penetrating', 'closer_than_clearance' or
+        'clear'.
+    relation: The same at the place: 'separate', 'touching', 'penetrating', 'closer_than_clearance'
         or 'clear'.
     contacts: Pairs of faces that touch in the final position, or are at the clearance.
     contact_count: Number of all contacts, listed or not.
@@ -99,8 +100,8 @@ class Placement(MeshResult):
     message: str
     direction: Floats
     travel: float
-    at_start: str
-    at_place: str
+    relation_at_start: str
+    relation: str
     contacts: Contacts
     contact_count: int
     nearest: Measure | None
@@ -191,7 +192,7 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
     >>> seated = treeform.slide((cube.vertices + [0.25, 0, 5], cube.faces), cube, [0, 0, -1])
-    >>> bool(seated), seated.travel, seated.at_place
+    >>> bool(seated), seated.travel, seated.relation
     (True, 4.0, 'touching')
     """
     how = options(_core.PlacementOptions, locals())
@@ -279,7 +280,7 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
     >>> apart = treeform.separate((cube.vertices + [0.75, 0, 0], cube.faces), cube)
-    >>> apart.travel, apart.at_start, apart.at_place
+    >>> apart.travel, apart.relation_at_start, apart.relation
     (0.25, 'penetrating', 'touching')
     """
     how = options(_core.PlacementOptions, locals())
@@ -304,7 +305,7 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
 
     `travel` is 0, and `points` differ from `matrix` by a few units in the last place of the largest
     coordinate. `contacts` are the pairs of faces within the tolerance, beyond the clearance.
-    `at_place` is exact: separate, in general, by no more than the tolerance.
+    `measure` is exact: separate, in general, by no more than the tolerance.
 
     Points that no face uses turn along and are otherwise ignored.
 
@@ -366,7 +367,7 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
     >>> cube = treeform.read("data/cube.stl")
     >>> other = (cube.vertices + [0, 0, 5], cube.faces)
     >>> side, top = treeform.find_features(other)[0], treeform.find_features(cube)[0]
-    >>> treeform.mate_features(other, cube, side, top).at_place
+    >>> treeform.mate_features(other, cube, side, top).relation
     'touching'
     """
     how = options(_core.PlacementOptions, locals())

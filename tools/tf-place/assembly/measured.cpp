@@ -18,7 +18,7 @@ namespace {
 
 void enter_depth(job& work, const tf::body_set& moving, const tf::body_set& fixed,
                  const tf::placement& at) {
-    if (at.at_place != tf::mesh_relation::penetrating || !at.nearest) return;
+    if (at.relation != tf::mesh_relation::penetrating || !at.nearest) return;
     const std::size_t other = at.nearest_fixed;
     const auto timing = work.time("search");
     const auto found = tf::penetration_depth(moving.shapes[0], fixed.shapes[other],

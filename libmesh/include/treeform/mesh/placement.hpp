@@ -75,8 +75,8 @@ struct placement {
     double clearance = 0.0;       ///< the given clearance
     std::optional<double> bed{};  ///< least z allowed, rounded: the bed plus the clearance
     double below_bed = 0.0;       ///< how far the mesh was below `bed` at the start
-    mesh_relation at_start = mesh_relation::separate;  ///< exact
-    mesh_relation at_place = mesh_relation::separate;  ///< the same at the place
+    mesh_relation relation_at_start = mesh_relation::separate;  ///< exact
+    mesh_relation relation = mesh_relation::separate;           ///< the same at the place
     /// The relation, at the place, of the moving mesh (`a`) to the fixed mesh that it penetrates,
     /// else to one that it touches, else to the nearest. None if all are too far away.
     std::optional<mesh_measure> nearest{};

@@ -98,8 +98,8 @@ py::object object(of_result, tf::placement&& from, const held_mesh& moving) {
     made["matrix"] = as_python(std::move(from.matrix));
     made["direction"] = as_python(std::move(from.direction));
     made["travel"] = as_python(std::move(from.travel));
-    made["at_start"] = as_python(std::move(from.at_start));
-    made["at_place"] = as_python(std::move(from.at_place));
+    made["relation_at_start"] = as_python(std::move(from.relation_at_start));
+    made["relation"] = as_python(std::move(from.relation));
     made["nearest"] = as_python(std::move(from.nearest));
     made["nearest_fixed"] = as_python(std::move(from.nearest_fixed));
     made["contacts"] = as_python(std::move(from.contacts));
