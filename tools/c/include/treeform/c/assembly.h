@@ -53,7 +53,7 @@ TREEFORM_C_API treeform_code treeform_put_back(treeform_bodies* bodies, size_t b
 /// Options of `treeform_clash` and `treeform_check_poses`. Only `treeform_clash` uses `volumes`,
 /// `depths`, `effort` and `limit`.
 typedef struct treeform_clash_options {
-    size_t size;
+    size_t struct_size;
     double clearance;    ///< parts nearer than this are too close; not squared
     int32_t first_only;  ///< `treeform_check_poses`: only the first clash of each pose
     /// [ignored_count][2] pairs of parts to skip; any order; or null

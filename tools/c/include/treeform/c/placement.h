@@ -106,7 +106,7 @@ typedef struct treeform_placement {
 
 /// Options of the placement functions. Each function ignores those that do not concern it.
 typedef struct treeform_place_options {
-    size_t size;
+    size_t struct_size;
     double clearance;  ///< gap to leave, a distance; 0: contact
     /// largest distance to move; obstacles beyond are ignored; NaN: not given
     double max_travel;
@@ -281,7 +281,7 @@ typedef struct treeform_impact {
 
 /// Start positions of the meshes, and limits.
 typedef struct treeform_impact_options {
-    size_t size;
+    size_t struct_size;
     /// [12] Applied to each mesh before the motion. Moved corners are computed by
     /// `transform::operator()` and rounded; the result is exact for these coordinates. A prepared
     /// mesh is not changed; or null

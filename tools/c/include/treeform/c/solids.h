@@ -26,7 +26,7 @@ enum {
 
 /// How to combine solids.
 typedef struct treeform_boolean_options {
-    size_t size;
+    size_t struct_size;
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
     /// float64
     treeform_precision precision;
@@ -199,7 +199,7 @@ enum {
 
 /// How to resolve self-intersections.
 typedef struct treeform_resolve_options {
-    size_t size;
+    size_t struct_size;
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
     /// float64
     treeform_precision precision;
@@ -310,7 +310,7 @@ TREEFORM_C_API treeform_code treeform_resolve_self_intersections(
 
 /// How to repair. All steps are on by default.
 typedef struct treeform_repair_options {
-    size_t size;
+    size_t struct_size;
     /// drop degenerate and duplicate faces; close cracks and T-junctions; default 1
     int32_t join;
     /// orient faces consistently and shells outward; drop strays; default 1

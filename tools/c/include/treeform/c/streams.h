@@ -8,7 +8,7 @@
 //   weld_stream_options
 /// Options of `treeform_weld_stream` and `shared_weld`.
 typedef struct treeform_weld_stream_options {
-    size_t size;
+    size_t struct_size;
     double tolerance;  ///< as in `treeform_weld_options`
     /// whether `tolerance` is a fraction of the diagonal of the bounding box
     int32_t relative;

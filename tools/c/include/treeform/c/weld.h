@@ -35,7 +35,7 @@ typedef struct treeform_weld_condition {
 
 /// How to weld. Most callers only set `tolerance`.
 typedef struct treeform_weld_options {
-    size_t size;
+    size_t struct_size;
     double tolerance;  ///< Euclidean, inclusive; 0: equal coordinates (-0 equals +0)
     /// The rule that forms groups. By default, the rule `first`: visits points in order, and drops
     /// a point if an earlier kept point is within the tolerance. The dropped point joins the
