@@ -138,13 +138,13 @@ class repairer {
         if (is_manifold_) return;  // nothing to tally
         tally_ = detail::repair::tally_edges(mesh_);
         if (tally_.unbalanced > 0) keep_boundary_of_tetrahedra();
-        if (tally_.crowded > 0 || tally_.disagreeing > 0) {
+        if (tally_.nonmanifold > 0 || tally_.misoriented > 0) {
             did_.repeated = detail::repair::drop_copies(mesh_);
             tally_ = detail::repair::tally_edges(mesh_);
         }
         if (tally_.border == 0) return;
         close_cracks();
-        if (tally_.crowded == 0) return;
+        if (tally_.nonmanifold == 0) return;
         did_.repeated += detail::repair::drop_copies(mesh_);  // that were torn off
         tally_ = detail::repair::tally_edges(mesh_);
     }
@@ -192,18 +192,18 @@ class repairer {
 
     void orient() {
         if (!options_.orient) return;
-        if (tally_.disagreeing > 0 || tally_.crowded > 0)
+        if (tally_.misoriented > 0 || tally_.nonmanifold > 0)
             did_.flipped = detail::repair::make_faces_agree(mesh_);
-        if (tally_.border > 0 || tally_.crowded > 0) {
+        if (tally_.border > 0 || tally_.nonmanifold > 0) {
             detail::repair::dropped_strays dropped = detail::repair::drop_strays(
-                mesh_, options_.strays, options_.sheet, is_by_labels() ? walls::stay : walls::go);
+                mesh_, options_.strays, options_.sheet, is_by_labels() ? walls::keep : walls::drop);
             did_.strays = dropped.faces;
             dropped_walls_ = std::move(dropped.walls);
         }
         if (did_.strays > 0) did_.flipped += detail::repair::make_faces_agree(mesh_);
         if (did_.flipped + did_.strays > 0) tally_ = detail::repair::tally_edges(mesh_);
         is_hopeless_ = detail::repair::is_hopeless(tally_, mesh_.faces.size());
-        if (tally_.crowded == 0 || tally_.unbalanced == 0 || is_hopeless_) return;
+        if (tally_.nonmanifold == 0 || tally_.unbalanced == 0 || is_hopeless_) return;
         did_.flipped += detail::repair::balance_patches(mesh_);
         if (did_.flipped > 0) turned_as_one_ = detail::repair::turned_as_one::shell;
         tally_ = detail::repair::tally_edges(mesh_);
