@@ -198,7 +198,7 @@ near_result boolean_of(bundled_operands& operands, const boolean_expression& exp
         chosen = labels.choose(expression, options.fill_rule);
     }
     near_result made;
-    if (!made.goes_on(options.progress, 0.6)) return made;
+    if (!made.may_continue(options.progress, 0.6)) return made;
     made = surface_of(operands.all(), cut, std::move(chosen), options, true, is_left);
     made.result.volumes = volumes;
     if (operands.part() != nullptr)
@@ -302,7 +302,7 @@ near_result boolean_of_joined(std::span<const mesh_view> views,
     operand_edges edges = detail::boolean::find_operand_edges(joined.all, joined.operand_of_face());
     if (auto open = open_input(joined, edges)) return {open_result(std::move(*open)), false};
     near_result made;
-    if (!made.goes_on(options.progress, 0.1)) return made;
+    if (!made.may_continue(options.progress, 0.1)) return made;
     std::unique_ptr<const undecided_part> part;
     if (!options.volumes)  // which ask for more than the expression does
         part = undecided_part::find(joined, std::move(edges), expression, options.fill_rule);

@@ -315,7 +315,7 @@ class model_writer {
     }
 
     void drain() {
-        job_.out.go_on();
+        job_.out.check_cancelled();
         out_.flush();
         archive_.put(piece_);
         piece_.clear();

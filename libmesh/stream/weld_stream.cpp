@@ -187,8 +187,8 @@ struct shared_weld::state {
             as_read.welded = {whole,
                               {.precision = outputs.welded->second.precision, .keep_names = true}};
             weld_stream_result of_whole;
-            detail::stream::give_back(pace, task, as_read, steps, *welded, rows ? &*rows : nullptr,
-                                      nullptr, folder, of_whole);
+            detail::stream::write_outputs(pace, task, as_read, steps, *welded,
+                                          rows ? &*rows : nullptr, nullptr, folder, of_whole);
             input = {.paths = {whole}};
         }
         // What has been enough so far is so for fewer points, be their rows somewhat longer.
@@ -289,9 +289,9 @@ status shared_weld::weld() {
 status shared_weld::write(const weld_stream_outputs& outputs) {
     return state_->until_cancelled([&] {
         state& s = *state_;
-        detail::stream::give_back(s.pace, s.task, outputs, s.steps, *s.welded,
-                                  s.rows ? &*s.rows : nullptr, s.faces ? &*s.faces : nullptr,
-                                  s.folder, s.made);
+        detail::stream::write_outputs(s.pace, s.task, outputs, s.steps, *s.welded,
+                                      s.rows ? &*s.rows : nullptr, s.faces ? &*s.faces : nullptr,
+                                      s.folder, s.made);
         s.count_mergeable(outputs);
     });
 }

@@ -56,7 +56,7 @@ void add_options(command_line& line, boolean_settings& s) {
     tools::add_max_move(line, s.limits);
 }
 
-void add_what_to_give_back(command_line& line, boolean_settings& s, common_options& options) {
+void add_outputs(command_line& line, boolean_settings& s, common_options& options) {
     line.group("Output");
     line.output(options.output, {"-o, --output", "FILE", "the result"});
     line.option(s.source, {"--source", "P",
@@ -209,7 +209,7 @@ int main(int argc, char** argv) {
     line.group("OP");
     line.describe(tools::help_text);
     add_options(line, s);
-    add_what_to_give_back(line, s, options);
+    add_outputs(line, s, options);
     line.group("Common options");
     tools::add_common_options(
         line, options,

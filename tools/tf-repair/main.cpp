@@ -87,7 +87,7 @@ void add_options(command_line& line, repair_settings& s) {
     tools::add_max_move(line, s.limits);
 }
 
-void add_what_to_give_back(command_line& line, repair_settings& s, common_options& options) {
+void add_outputs(command_line& line, repair_settings& s, common_options& options) {
     line.group("Output");
     line.output(options.output, {"-o, --output", "FILE", "the solid"});
     line.output(s.curves, {"--curves", "FILE", "intersection curves of the input, as OBJ or PLY"});
@@ -219,7 +219,7 @@ int main(int argc, char** argv) {
     add_steps(line, r);
     add_options(line, r.settings);
     tools::add_wrapping(line, r.settings.wrap);
-    add_what_to_give_back(line, r.settings, options);
+    add_outputs(line, r.settings, options);
     line.group("Common options");
     tools::add_common_options(line, options,
                               {.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf"}});

@@ -65,7 +65,7 @@ void add_what_counts(command_line& line, tools::search_settings& s) {
                 [&s](std::string_view text) { s.box = parse_box(text); });
 }
 
-void add_what_to_give_back(command_line& line, request& r, common_options& options) {
+void add_outputs(command_line& line, request& r, common_options& options) {
     line.group("Output");
     line.flag(r.search.first, {"--first", "", "stop at the first pair found"});
     line.option(r.limit, {"--limit", "N",
@@ -194,7 +194,7 @@ int run(int argc, char** argv, tools::team_member& me) {
         options.table.push_back({kind, std::string("/pairs/") + kind});
     line.inputs(options.inputs, tools::mesh_inputs);
     add_what_counts(line, r.search);
-    add_what_to_give_back(line, r, options);
+    add_outputs(line, r, options);
     add_repair(line, r);
     tools::add_tile_options(
         line, r.tiles, "Files larger than --memory are searched in tiles on the disk (STL, PLY)",

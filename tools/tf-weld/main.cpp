@@ -62,7 +62,7 @@ void add_which_one_stays(command_line& line, tf::weld_options& options) {
     line.offer("--order", {"min:", "max:"});
 }
 
-void add_what_to_give_back(command_line& line, weld_outputs& outputs, common_options& options) {
+void add_outputs(command_line& line, weld_outputs& outputs, common_options& options) {
     line.group("Output");
     line.output(options.output, {"-o, --output", "FILE",
                                  "the welded points or mesh, with all their properties\n"
@@ -188,7 +188,7 @@ int run(int argc, char** argv, tools::team_member& me) {
     line.flag(options.joined, {"--join", "", "treat all INPUTs as one set", "each on its own"});
     add_what_is_merged(line, r.settings, exact);
     add_which_one_stays(line, r.settings.options);
-    add_what_to_give_back(line, r.outputs, options);
+    add_outputs(line, r.outputs, options);
     add_meshes(line, r.settings);
     add_columns(line, options, r.mixed);
     tools::add_tile_options(line, tiles,

@@ -251,8 +251,8 @@ TEST_CASE("features: what cannot be meant is refused, and nothing is found in no
     CHECK_THROWS_AS(static_cast<void>(tf::find_features(box, feature_kind::plane, {.arc = -1})),
                     std::invalid_argument);
     std::vector<double> told;
-    const auto go_on = [&](double done) { return told.push_back(done), true; };
-    CHECK(tf::find_features(box, feature_kind::plane, {.progress = go_on}).size() == 6);
+    const auto record = [&](double done) { return told.push_back(done), true; };
+    CHECK(tf::find_features(box, feature_kind::plane, {.progress = record}).size() == 6);
     CHECK(told == std::vector{0.0});
     CHECK(tf::find_features(box, feature_kind::plane, {.progress = [](double) { return false; }})
               .empty());
