@@ -61,6 +61,8 @@ class Usage(PlaceTest):
         self.refused("separate", "a.obj", *fixed, "-d", "1,0,0")
         self.refused("drop", "a.obj", "-d", "0,0,1")
         self.refused("drop", "a.obj", "--scene")
+        self.refused("lay", "a.obj", "--scene", "-o", "out.obj")
+        self.refused("pack", "a.obj", "--size", "9,9", "--scene", "-o", "out.obj")
         self.refused("drop", "a.obj", "--precision", "float")
         self.refused("measure", "a.obj", *fixed, "--matrix", "out.txt")
         self.refused("measure", "a.obj", *fixed, "--max-travel", "1")
