@@ -82,6 +82,16 @@ class Help(ToolTest):
                     self.assertLess(set(options_of(text)), set(whole))
                 self.assertNotRegex(text, r"(?m)^.{26}(\w+, )*(" + "|".join(modes) + "): ")
 
+    def test_a_mode_lists_only_exit_statuses_that_it_has(self):
+        for mode in MODES["cut"]:
+            text = self.help_of("cut", mode)
+            self.assertEqual(text.count("Exit status: "), 1)
+            self.assertEqual(" 1 the input" in text, mode not in ("info", "section", "isolines"),
+                             msg=mode)
+        for mode in MODES["place"]:
+            self.assertEqual("--scene" in options_of(self.help_of("place", mode)),
+                             mode not in ("lay", "pack", "clash", "check"), msg=mode)
+
     def test_a_mode_says_nothing_of_others_and_its_lines_are_full(self):
         output = {mode: " ".join(re.search(r"-o, --output FILE ((?s:.*?))\n +--",
                                            self.help_of("place", mode))
