@@ -355,6 +355,8 @@ class Cut(ToolTest):
                 (["pieces", part, "--bed", "1,1", "--at", "0,0,0", "-n"], "--bed chooses"),
                 (["parts", part, "--height", "1", "-n"], "--height is not for parts"),
                 (["parts", part, "--min-volume", "-1", "-n"], "--min-volume"),
+                (["parts", part, "--largest", "2", "-o", "p.stl"],
+                 "there may be several parts, but stl holds one: use -o p_%d.stl, or write 3mf"),
                 (["info", part, "-o", "a.stl"], "--output is not for info")]:
             run = self.run_tool(*arguments, status=2)
             self.assertIn(words, run.err, msg=arguments)

@@ -196,7 +196,8 @@ void check_request(const command_line& line, cut_settings& s, common_options& op
         if (!single) {
             if (!options.output_dir.empty() || options.in_place)
                 refuse("--output-dir and --in-place need --keep below or above");
-            check_pieces_path(options, s.parts.largest == 1 ? 1 : 2);
+            if (s.parts.largest != 1)
+                check_pieces_path(options, s.mode == cut_mode::parts ? "parts" : "pieces");
         }
         if (!s.caps.empty() && !options.output.empty()) {
             const std::string format = mesh_format(options, options.output);
