@@ -28,7 +28,7 @@ struct pose_check {
 };
 
 bool is_clash(const pose_clash& one, double clearance) {
-    return one.how != mesh_relation::touching || clearance > 0.0;
+    return one.relation != mesh_relation::touching || clearance > 0.0;
 }
 
 class pose_inspection {

@@ -21,7 +21,7 @@ __all__ = ["ClashResult", "NearestPoints", "PartClash", "PoseClashes", "RELATION
            "clash", "closest_points", "distance", "intersects"]
 # end
 
-#: The relations of two parts; numbers in `PoseClashes.how` are indexes of this list.
+#: The relations of two parts; numbers in `PoseClashes.relation` are indexes of this list.
 RELATIONS = tuple(_core.RELATIONS)
 
 
@@ -88,22 +88,22 @@ class PoseClashes(Result):
 
     pose: (n,) the number of the pose, ascending.
     parts: (n, 2) the two parts, the lower number first.
-    how: (n,) uint8: their relation, an index into `RELATIONS`.
     distance: (n,) of those that are closer than the clearance; else 0.
     clashing: Number of poses with a pair that penetrates or is too close.
+    relation: (n,) uint8: their relation, an index into `RELATIONS`.
     """
 
     pose: Ids
     parts: Ids
-    how: NDArray[np.uint8]
     distance: Floats
     clashing: int
+    relation: NDArray[np.uint8]
 # end
 
     def in_collision(self, poses: int) -> NDArray[np.bool_]:
         """(poses,) bool: whether any parts penetrate or are too close in each pose."""
         bad = np.zeros(poses, np.bool_)
-        bad[self.pose[np.isin(self.how, [RELATIONS.index("penetrating"),
+        bad[self.pose[np.isin(self.relation, [RELATIONS.index("penetrating"),
                                          RELATIONS.index("closer_than_clearance")])]] = True
         return bad
 
@@ -231,7 +231,6 @@ class PartClash(Result):
 
     a: The lower number.
     b: Number of the second part.
-    how: 'penetrating', 'touching' or 'closer_than_clearance'.
     a_inside_b: As in `measure`.
     b_inside_a: The same with `a` and `b` swapped.
     distance: Distance of the surfaces; 0 if they meet.
@@ -244,11 +243,11 @@ class PartClash(Result):
     depth_effort: Of `depth`, as in `penetration_depth_result`.
     regions: Regions where they meet: (box (2, 3), number of pairs of faces, faces of a, faces of
         b).
+    relation: 'penetrating', 'touching' or 'closer_than_clearance'.
     """
 
     a: int
     b: int
-    how: str
     a_inside_b: bool
     b_inside_a: bool
     distance: float
@@ -259,6 +258,7 @@ class PartClash(Result):
     move: Floats
     depth_effort: SearchEffort
     regions: list[tuple[Floats, int, Ids, Ids]]
+    relation: str
 
 
 @dataclass(frozen=True, repr=False)
@@ -310,7 +310,7 @@ def clash(parts: Iterable[Body], clearance: float = 0.0, *, volumes: bool = True
     >>> cube = treeform.read("data/cube.stl")
     >>> found = treeform.clash([cube, (cube.vertices + 0.5, cube.faces),
     ...                         (cube.vertices + [0, 0, 9], cube.faces)])
-    >>> [(one.a, one.b, one.how, one.volume) for one in found.pairs]
+    >>> [(one.a, one.b, one.relation, one.volume) for one in found.pairs]
     [(0, 1, 'penetrating', 0.125)]
     >>> import numpy as np
     >>> poses = np.stack([np.eye(4), np.eye(4)])
@@ -351,7 +351,7 @@ def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0,
     >>> poses = np.tile(np.eye(4), (3, 2, 1, 1))
     >>> poses[:, 1, 0, 3] = [0.5, 1.0, 1.5]
     >>> found = treeform.check_poses([cube, cube], poses)
-    >>> [(int(p), treeform.RELATIONS[h]) for p, h in zip(found.pose, found.how)]
+    >>> [(int(p), treeform.RELATIONS[h]) for p, h in zip(found.pose, found.relation)]
     [(0, 'penetrating'), (1, 'touching')]
     >>> found.in_collision(3)
     array([ True, False, False])

@@ -193,7 +193,7 @@ py::object object(of_result, tf::part_clash&& from) {
     py::dict made;
     made["a"] = as_python(std::move(from.a));
     made["b"] = as_python(std::move(from.b));
-    made["how"] = as_python(std::move(from.how));
+    made["relation"] = as_python(std::move(from.relation));
     made["a_inside_b"] = as_python(std::move(from.a_inside_b));
     made["b_inside_a"] = as_python(std::move(from.b_inside_a));
     made["distance"] = as_python(std::move(from.distance));
@@ -214,8 +214,8 @@ py::object object(of_result, tf::pose_result&& from) {
     made["parts"] = column_of_poses(from, [](std::uint32_t, const tf::pose_clash& one) {
         return std::array{one.a, one.b};
     });
-    made["how"] =
-        column_of_poses(from, [](std::uint32_t, const tf::pose_clash& one) { return one.how; });
+    made["relation"] = column_of_poses(
+        from, [](std::uint32_t, const tf::pose_clash& one) { return one.relation; });
     made["distance"] = column_of_poses(
         from, [](std::uint32_t, const tf::pose_clash& one) { return one.distance; });
     made["clashing"] = as_python(std::move(from.clashing));
