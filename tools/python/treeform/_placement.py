@@ -305,7 +305,7 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
 
     `travel` is 0, and `points` differ from `matrix` by a few units in the last place of the largest
     coordinate. `contacts` are the pairs of faces within the tolerance, beyond the clearance.
-    `measure` is exact: separate, in general, by no more than the tolerance.
+    `Placement.relation` is exact: separate, in general, by no more than the tolerance.
 
     Points that no face uses turn along and are otherwise ignored.
 

@@ -85,11 +85,12 @@ typedef struct treeform_contact_region {
 
 /// Two parts that are not clear of each other.
 typedef struct treeform_part_clash {
-    uint32_t a;           ///< the lower number
-    uint32_t b;           ///< number of the second part
-    int32_t a_inside_b;   ///< as in `treeform_measure`
-    int32_t b_inside_a;   ///< the same with `a` and `b` swapped
-    double distance;      ///< distance of the surfaces; 0 if they meet
+    uint32_t a;                       ///< the lower number
+    uint32_t b;                       ///< number of the second part
+    treeform_mesh_relation relation;  ///< or penetrating, closer_than_clearance
+    int32_t a_inside_b;               ///< as in `treeform_measure`
+    int32_t b_inside_a;               ///< the same with `a` and `b` swapped
+    double distance;                  ///< distance of the surfaces; 0 if they meet
     double on_a[3];       ///< for parts that are too close: the nearest point on a; else NaN
     double on_b[3];       ///< the same on b
     uint64_t face_pairs;  ///< pairs of faces that meet
@@ -104,7 +105,6 @@ typedef struct treeform_part_clash {
     double move[3];  ///< a short translation that separates `a` from `b`
     /// of `depth`, as in `penetration_depth_result`
     treeform_search_effort depth_effort;
-    treeform_mesh_relation relation;  ///< or penetrating, closer_than_clearance
 } treeform_part_clash;
 
 /// All pairs that are not clear of each other.
@@ -142,9 +142,9 @@ TREEFORM_C_API treeform_code treeform_pairs_named(const char* const* names, size
 typedef struct treeform_pose_clash {
     uint32_t a;  ///< the lower number
     uint32_t b;
-    double distance;  ///< for parts closer than the clearance; else 0
     /// or penetrating, closer_than_clearance (a `treeform_mesh_relation`)
     uint8_t relation;
+    double distance;  ///< for parts closer than the clearance; else 0
 } treeform_pose_clash;
 // end
 

@@ -67,8 +67,6 @@ typedef struct treeform_pairs {
 /// do not concern it.
 typedef struct treeform_intersection_options {
     size_t struct_size;
-    /// `treeform_self_intersections`: which corners count as shared.
-    treeform_vertices vertices;
     /// [12] `mesh_intersections`: applied to each mesh first. The answer is exact for the moved
     /// corners, which `transform::operator()` rounds to double. A prepared mesh is not changed; or
     /// null
@@ -76,13 +74,15 @@ typedef struct treeform_intersection_options {
     const double* move_b;  ///< [12]; or null
     int32_t first_only;    ///< only the first pair; the same on any number of threads
     uint32_t kinds;        ///< kinds to find; other pairs are neither counted nor listed
-    const uint32_t* component_of_face;  ///< [F] for `between` and `within`; or null
-    int32_t between;                    ///< only pairs of faces of different components
-    int32_t within;                     ///< only pairs of faces of one component
     /// list at most this many pairs, the lowest; all are counted; default all
     uint64_t limit;
     treeform_progress progress;
     void* progress_data;
+    /// `treeform_self_intersections`: which corners count as shared.
+    treeform_vertices vertices;
+    const uint32_t* component_of_face;  ///< [F] for `between` and `within`; or null
+    int32_t between;                    ///< only pairs of faces of different components
+    int32_t within;                     ///< only pairs of faces of one component
 } treeform_intersection_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_intersection_options_init(treeform_intersection_options* options,

@@ -141,6 +141,7 @@ enum {
 /// The relation and distance of two meshes.
 typedef struct treeform_relation {
     void* owner;
+    treeform_mesh_relation relation;
     /// Faces that prove the relation: two that cross, overlap with the inside on the same side, or
     /// touch. For a mesh that is or reaches inside the other, its lowest face there. Both are 0 if
     /// the meshes are separate.
@@ -160,7 +161,6 @@ typedef struct treeform_relation {
     double on_b[3];           ///< the nearest point on the surface of `b`
     double barycentric_a[3];  ///< barycentric coordinates of `on_a` in that face
     double barycentric_b[3];  ///< barycentric coordinates of `on_b` in that face
-    treeform_mesh_relation relation;
 } treeform_relation;
 
 /// Options of `treeform_relation`, `treeform_measure` and `treeform_penetration_depth`. Each

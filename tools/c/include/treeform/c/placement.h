@@ -72,11 +72,13 @@ typedef struct treeform_placement {
     /// rotation. `points` are moved by it and rounded once, except for points that are set on the
     /// bed.
     double matrix[12];
-    double direction[3];   ///< unit direction of the travel; 0 if there is none
-    double travel;         ///< distance moved; for `too_far` the distance needed
-    double clearance;      ///< the given clearance
-    double bed;            ///< least z allowed, rounded: the bed plus the clearance
-    double below_bed;      ///< how far the mesh was below `bed` at the start
+    double direction[3];  ///< unit direction of the travel; 0 if there is none
+    double travel;        ///< distance moved; for `too_far` the distance needed
+    double clearance;     ///< the given clearance
+    double bed;           ///< least z allowed, rounded: the bed plus the clearance
+    double below_bed;     ///< how far the mesh was below `bed` at the start
+    treeform_mesh_relation relation_at_start;  ///< exact
+    treeform_mesh_relation relation;           ///< the same at the place
     size_t nearest_fixed;  ///< number of that fixed mesh; the lowest if several qualify
     /// The relation, at the place, of the moving mesh (`a`) to the fixed mesh that it penetrates,
     /// else to one that it touches, else to the nearest. None if all are too far away.
@@ -100,8 +102,6 @@ typedef struct treeform_placement {
     /// For `separate`: the effort of its search. If `skipped_candidates` is not 0, a shorter
     /// translation may exist or, if no place was found, a place.
     treeform_search_effort effort;
-    treeform_mesh_relation relation_at_start;  ///< exact
-    treeform_mesh_relation relation;           ///< the same at the place
 } treeform_placement;
 
 /// Options of the placement functions. Each function ignores those that do not concern it.
@@ -206,7 +206,7 @@ TREEFORM_C_API treeform_code treeform_separate(const treeform_mesh* moving,
 ///
 /// `travel` is 0, and `points` differ from `matrix` by a few units in the last place of the
 /// largest coordinate. `contacts` are the pairs of faces within the tolerance, beyond the
-/// clearance. `treeform_relation` is exact: separate, in general, by no more than the tolerance.
+/// clearance. `placement::relation` is exact: separate, in general, by no more than the tolerance.
 ///
 /// Points that no face uses turn along and are otherwise ignored. Make point clouds with
 /// `treeform_cloud_create`.

@@ -27,6 +27,7 @@ enum {
 /// How to combine solids.
 typedef struct treeform_boolean_options {
     size_t struct_size;
+    treeform_fill_rule fill_rule;  ///< what is inside
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
     /// float64
     treeform_precision precision;
@@ -58,7 +59,6 @@ typedef struct treeform_boolean_options {
     /// wider, the filling tapers off. At an edge between faces that differ by less than 45
     /// degrees, the fillings of both meet midway, without a seam. Finite and not negative.
     double gap;
-    treeform_fill_rule fill_rule;  ///< what is inside
 } treeform_boolean_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_boolean_options_init(treeform_boolean_options* options, size_t size);
@@ -200,6 +200,7 @@ enum {
 /// How to resolve self-intersections.
 typedef struct treeform_resolve_options {
     size_t struct_size;
+    treeform_fill_rule fill_rule;  ///< for `outer`: the rule that defines the inside
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
     /// float64
     treeform_precision precision;
@@ -216,7 +217,6 @@ typedef struct treeform_resolve_options {
     void* progress_data;
     /// for `outer`: as in `treeform_boolean_options`; `split` keeps all cuts
     int32_t keep_cuts;
-    treeform_fill_rule fill_rule;  ///< for `outer`: the rule that defines the inside
 } treeform_resolve_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_resolve_options_init(treeform_resolve_options* options, size_t size);
@@ -328,6 +328,10 @@ typedef struct treeform_repair_options {
     /// larger component vanishes since it bounds no solid, the status is `excessive_loss`, unless
     /// `max_loss` is 1; default 0.001
     double strays;
+    /// The rule that defines the inside. By default `positive` if each shell is outward after
+    /// `orient`, else `nonzero` or the labels of cells (see `treeform_repair`); a
+    /// `treeform_fill_rule`, or -1
+    int32_t fill_rule;
     /// Losing more than this share of the volume gives the status `excessive_loss`; if there were
     /// holes, of the area. Faces that remain, or are inside the solid, do not count as lost. 1
     /// allows any loss; default 0.05
@@ -343,10 +347,6 @@ typedef struct treeform_repair_options {
     int32_t keep_cuts;
     /// for `treeform_repair_file`: all parts of a scene become one solid
     int32_t as_one;
-    /// The rule that defines the inside. By default `positive` if each shell is outward after
-    /// `orient`, else `nonzero` or the labels of cells (see `treeform_repair`); a
-    /// `treeform_fill_rule`, or -1
-    int32_t fill_rule;
 } treeform_repair_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_repair_options_init(treeform_repair_options* options, size_t size);

@@ -42,6 +42,7 @@ typedef struct treeform_weld_stream_options {
     const treeform_communicator* communicator;  ///< or null
     /// this and the next two: for a mesh, as in `treeform_weld_options`
     int32_t keep_seams;
+    const char* const* ignored_seams;  ///< [ignored_seam_count]
     int32_t keep_degenerate;
     /// [column_count] as in `treeform_read_options`
     const treeform_named_column* columns;
@@ -49,7 +50,6 @@ typedef struct treeform_weld_stream_options {
     /// join LAS files of different coordinate systems or time types; the output then has the
     /// system and type of the first
     int32_t mixed;
-    const char* const* ignored_seams;  ///< [ignored_seam_count]
     size_t ignored_seam_count;
 } treeform_weld_stream_options;
 /// Sets the defaults.

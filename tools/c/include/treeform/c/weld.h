@@ -57,6 +57,7 @@ typedef struct treeform_weld_options {
     /// For a mesh with faces: keep seams, that is, normals, texture coordinates and colors of
     /// points must agree, except for those named in `ignored_seams`.
     int32_t keep_seams;
+    const char* const* ignored_seams;  ///< [ignored_seam_count]
     treeform_weld_keep keep;
     /// for `lowest` and `highest`: a property as in `treeform_weld_condition`
     const char* keep_by;
@@ -72,7 +73,6 @@ typedef struct treeform_weld_options {
     int32_t keep_degenerate;  ///< keep faces that repeat a corner
     treeform_progress progress;
     void* progress_data;
-    const char* const* ignored_seams;  ///< [ignored_seam_count]
     size_t ignored_seam_count;
 } treeform_weld_options;
 /// Sets the defaults.
