@@ -136,8 +136,8 @@ class pair_inspection {
             enter_distance(a, b, found);
             return found;
         }
-        found.how = how.relation == mesh_relation::touching ? mesh_relation::touching
-                                                            : mesh_relation::penetrating;
+        found.relation = how.relation == mesh_relation::touching ? mesh_relation::touching
+                                                                 : mesh_relation::penetrating;
         intersection_options all;
         all.progress = asking_;
         const auto meeting =
@@ -146,7 +146,7 @@ class pair_inspection {
         found.regions =
             detail::assembly::regions_of(a.joined(), b.joined(), meeting.pairs, options_.limit);
         if (meeting.pairs.empty()) enter_surface_distance(a, b, found);
-        if (found.how == mesh_relation::penetrating) enter_extent(a, b, found);
+        if (found.relation == mesh_relation::penetrating) enter_extent(a, b, found);
         if (work_.cancelled()) return std::nullopt;
         return found;
     }
@@ -154,13 +154,13 @@ class pair_inspection {
   private:
     /// Of separate parts.
     void enter_distance(const shape& a, const shape& b, part_clash& found) const {
-        found.how = mesh_relation::separate;
+        found.relation = mesh_relation::separate;
         if (options_.clearance == 0.0) return;
-        found.how = mesh_relation::clear;
+        found.relation = mesh_relation::clear;
         const auto near = detail::nearness::closest_points(a.mesh(), a.faces(), b.mesh(), b.faces(),
                                                            options_.clearance);
         if (!near || !(near->distance < options_.clearance)) return;
-        found.how = mesh_relation::closer_than_clearance;
+        found.relation = mesh_relation::closer_than_clearance;
         found.distance = near->distance;
         found.nearest = {near->on_a, near->on_b};
     }
@@ -214,10 +214,10 @@ void check_parts(std::span<const prepared_mesh> parts, const clash_options& opti
 }
 
 void count(clash_result& result, const part_clash& one, double clearance) {
-    ++result.counts[static_cast<std::size_t>(one.how)];
-    const bool counts = one.how == mesh_relation::penetrating ||
-                        one.how == mesh_relation::closer_than_clearance ||
-                        (one.how == mesh_relation::touching && clearance > 0.0);
+    ++result.counts[static_cast<std::size_t>(one.relation)];
+    const bool counts = one.relation == mesh_relation::penetrating ||
+                        one.relation == mesh_relation::closer_than_clearance ||
+                        (one.relation == mesh_relation::touching && clearance > 0.0);
     if (counts) ++result.clashes;
 }
 
@@ -248,7 +248,7 @@ clash_result clash(const mesh_refs& given_parts, const clash_options& options) {
     }
     for (auto& one : found) {
         count(result, *one, options.clearance);
-        if (one->how != mesh_relation::separate && one->how != mesh_relation::clear)
+        if (one->relation != mesh_relation::separate && one->relation != mesh_relation::clear)
             result.pairs.push_back(std::move(*one));
     }
     const std::uint64_t n = parts.size();

@@ -22,13 +22,13 @@ using detail::assembly::resting_part;
 constexpr std::size_t positions_per_chunk = 8;
 
 /// Of one pose.
-struct looked_at {
+struct pose_check {
     std::vector<pose_clash> clashes;
     std::uint64_t boxes_apart = 0;
 };
 
 bool is_clash(const pose_clash& one, double clearance) {
-    return one.how != mesh_relation::touching || clearance > 0.0;
+    return one.relation != mesh_relation::touching || clearance > 0.0;
 }
 
 class pose_inspection {
@@ -40,8 +40,8 @@ class pose_inspection {
         for (const prepared_mesh& part : parts) parts_.emplace_back(part, options.vertices);
     }
 
-    [[nodiscard]] looked_at look_at(std::span<const transform<3>> pose) const {
-        looked_at found;
+    [[nodiscard]] pose_check check_pose(std::span<const transform<3>> pose) const {
+        pose_check found;
         std::vector<moved_part> moved;
         moved.reserve(parts_.size());
         for (std::size_t i = 0; i < parts_.size(); ++i) moved.emplace_back(parts_[i], pose[i]);
@@ -109,11 +109,11 @@ pose_result check_poses(const mesh_refs& given_parts, std::span<const transform<
     const std::size_t count = parts.empty() ? 0 : poses.size() / parts.size();
     const pose_inspection inspection(parts, options);
     detail::base::work_progress work(options.progress);
-    std::vector<looked_at> found(count);
+    std::vector<pose_check> found(count);
     std::atomic<std::size_t> done{0};
     for_chunks(count, positions_per_chunk, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t p = begin; p < end && !work.cancelled(); ++p) {
-            found[p] = inspection.look_at(poses.subspan(p * parts.size(), parts.size()));
+            found[p] = inspection.check_pose(poses.subspan(p * parts.size(), parts.size()));
             work.reach(static_cast<double>(++done) / static_cast<double>(count));
         }
     });
@@ -122,7 +122,7 @@ pose_result check_poses(const mesh_refs& given_parts, std::span<const transform<
         result.status = treeform::status::cancelled;
         return result;
     }
-    for (looked_at& one : found) {
+    for (pose_check& one : found) {
         result.in_collision.push_back(std::any_of(
             one.clashes.begin(), one.clashes.end(),
             [&](const pose_clash& clash) { return is_clash(clash, options.clearance); }));

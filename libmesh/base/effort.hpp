@@ -12,7 +12,7 @@
 namespace treeform::detail::base {
 
 /// The number of pairs of faces that a search may test: in total, and for each query. A query that
-/// exceeds its allowance is cut: its result is unknown, and the search continues with the next.
+/// exceeds its allowance is skipped: its result is unknown, and the search continues with the next.
 class effort {
   public:
     /// A pair in motion counts as this many pairs, since it takes that much longer.
@@ -36,21 +36,21 @@ class effort {
         const std::uint64_t allowed = allowance();
         used_ += std::min(pairs, allowed);
         if (pairs <= allowed) return true;
-        ++cut_;
+        ++skipped_;
         return false;
     }
 
-    /// Whether only the reserve is left, so that all queries with any pairs are cut.
+    /// Whether only the reserve is left, so that all queries with any pairs are skipped.
     [[nodiscard]] bool spent() const { return used_ + held_ >= bound_; }
     [[nodiscard]] search_effort so_far() const {
-        return {.pairs = used_, .bound = bound_, .cut = cut_};
+        return {.pairs = used_, .bound = bound_, .skipped_candidates = skipped_};
     }
 
   private:
     std::uint64_t bound_;
     std::uint64_t used_ = 0;
     std::uint64_t held_ = 0;
-    std::uint64_t cut_ = 0;
+    std::uint64_t skipped_ = 0;
 };
 
 }  // namespace treeform::detail::base

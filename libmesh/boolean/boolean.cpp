@@ -194,11 +194,11 @@ near_result boolean_of(bundled_operands& operands, const boolean_expression& exp
         const detail::boolean::near_labels labels(operands.all(), cut.near, cut.arranged.cut,
                                                   {std::move(*cut.far[0]), std::move(*cut.far[1])},
                                                   operands.part());
-        if (options.volumes) volumes = labels.volumes(options.inside);
-        chosen = labels.choose(expression, options.inside);
+        if (options.volumes) volumes = labels.volumes(options.fill_rule);
+        chosen = labels.choose(expression, options.fill_rule);
     }
     near_result made;
-    if (!made.goes_on(options.progress, 0.6)) return made;
+    if (!made.may_continue(options.progress, 0.6)) return made;
     made = surface_of(operands.all(), cut, std::move(chosen), options, true, is_left);
     made.result.volumes = volumes;
     if (operands.part() != nullptr)
@@ -283,7 +283,7 @@ near_result clip_of(std::span<const mesh_view> views, std::uint32_t sheet,
     if (cut.arranged.cancelled) return {stopped_result()};
     const detail::boolean::sheet_labels labels(operands.all(), cut.near, cut.arranged.cut,
                                                *cut.far[0]);
-    detail::boolean::chosen_surface chosen = labels.choose(expression, options.inside);
+    detail::boolean::chosen_surface chosen = labels.choose(expression, options.fill_rule);
     const std::uint64_t skipped =
         operands.all()[1].view().faces.size() - (cut.near.local.faces.size() - cut.near.first_of_b);
     boolean_options rest = options;
@@ -302,10 +302,10 @@ near_result boolean_of_joined(std::span<const mesh_view> views,
     operand_edges edges = detail::boolean::find_operand_edges(joined.all, joined.operand_of_face());
     if (auto open = open_input(joined, edges)) return {open_result(std::move(*open)), false};
     near_result made;
-    if (!made.goes_on(options.progress, 0.1)) return made;
+    if (!made.may_continue(options.progress, 0.1)) return made;
     std::unique_ptr<const undecided_part> part;
     if (!options.volumes)  // which ask for more than the expression does
-        part = undecided_part::find(joined, std::move(edges), expression, options.inside);
+        part = undecided_part::find(joined, std::move(edges), expression, options.fill_rule);
     bundled_operands bundled(std::move(joined), std::move(part));
     boolean_options rest = options;
     rest.progress = part_of(options.progress, 0.1, 1.0);

@@ -20,14 +20,15 @@ bundled_operands::bundled_operands(std::span<const mesh_ref> operands) {
         if (meshes[k] != nullptr) continue;
         own_[k] = prepared_mesh::borrow(k < operands.size() ? operands[k].view() : mesh_view{});
         meshes[k] = &own_[k];
-        once_ |= k < operands.size();
+        has_single_use_index_ |= k < operands.size();
     }
     for_chunks(2, 1, [&](std::size_t k, std::size_t, std::size_t) {
         take(k, cut_operand_of(*meshes[k]), *meshes[k]);
     });
 }
 
-bundled_operands::bundled_operands(std::span<const mesh_view> operands) : once_(true) {
+bundled_operands::bundled_operands(std::span<const mesh_view> operands)
+    : has_single_use_index_(true) {
     const bool join = operands.size() > 2;
     if (join) take_joined(0, join_operands(operands), true);
     for (std::size_t k = join ? 1 : 0; k < 2; ++k) {
@@ -37,7 +38,7 @@ bundled_operands::bundled_operands(std::span<const mesh_view> operands) : once_(
 }
 
 bundled_operands::bundled_operands(std::span<const mesh_view> operands, std::uint32_t sheet)
-    : once_(true) {
+    : has_single_use_index_(true) {
     own_[0] = prepared_mesh::borrow(operands[sheet]);
     take(0, cut_operand_of(own_[0]), own_[0]);
     all_[0].operand = sheet;
@@ -49,7 +50,7 @@ bundled_operands::bundled_operands(std::span<const mesh_view> operands, std::uin
 
 bundled_operands::bundled_operands(joined_operands&& joined,
                                    std::unique_ptr<const undecided_part> part)
-    : part_(std::move(part)), once_(true) {
+    : part_(std::move(part)), has_single_use_index_(true) {
     take_joined(0, part_ ? part_->faces() : std::move(joined), true);
     take(1, cut_operand_of(own_[1]), own_[1]);
 }
@@ -98,7 +99,8 @@ cut_faces cut_near(const bundled_operands& operands, cut_what what,
     cut_faces result;
     result.arranged.cancelled = true;
     if (stops(0.0)) return result;
-    result.near = find_interaction_zone(operands.all(), operands.once(), what == cut_what::all);
+    result.near = find_interaction_zone(operands.all(), operands.has_single_use_index(),
+                                        what == cut_what::all);
     if (stops(0.5)) return result;
     const auto find_far = [&](std::size_t k) {
         if (what == cut_what::near_beside_far)

@@ -38,7 +38,7 @@ class bundled_operands {
     /// Null if all of the operands matters.
     [[nodiscard]] const undecided_part* part() const { return part_.get(); }
     /// Whether the index of some operand, which the caller did not prepare, is used only once.
-    [[nodiscard]] bool once() const { return once_; }
+    [[nodiscard]] bool has_single_use_index() const { return has_single_use_index_; }
 
     /// Whether only few faces within each bundle meet.
     [[nodiscard]] bool have_few_pairs(const progress_callback& progress) const;
@@ -55,7 +55,7 @@ class bundled_operands {
     std::unique_ptr<const undecided_part> part_{};
     std::vector<face_pair> pairs_within_{};
     bundles all_{};
-    bool once_ = false;
+    bool has_single_use_index_ = false;
 };
 
 /// The faces of the interaction zone, cut along each other.

@@ -158,19 +158,19 @@ void find_own_pairs_of_second(interaction_zone& near) {
     std::sort(near.pairs.begin(), near.pairs.end());
 }
 
-std::vector<face_pair> pairs_across(const bundles& operands, bool once) {
+std::vector<face_pair> pairs_across(const bundles& operands, bool single_use) {
     const prepared_mesh &a = *operands[0].mesh, &b = *operands[1].mesh;
     if (a.view().faces.empty() || b.view().faces.empty()) return {};
-    if (!once) return treeform::mesh_intersections(a, b).pairs;
+    if (!single_use) return treeform::mesh_intersections(a, b).pairs;
     return intersect::mesh_intersections(a.view(), build_face_tree(a), b.view(), build_face_tree(b))
         .pairs;
 }
 
 }  // namespace
 
-interaction_zone find_interaction_zone(const bundles& operands, bool once, bool all) {
+interaction_zone find_interaction_zone(const bundles& operands, bool single_use, bool all) {
     interaction_zone result;
-    std::vector<face_pair> across = pairs_across(operands, once);
+    std::vector<face_pair> across = pairs_across(operands, single_use);
     if (all)
         for (std::size_t k = 0; k < 2; ++k)
             result.is_near[k].resize(operands[k].view().faces.size(), 1);

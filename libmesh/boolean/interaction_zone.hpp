@@ -74,12 +74,12 @@ struct interaction_zone {
 /// the box of a face that is not near, and at each point of a face that is not near, the faces are
 /// one closed fan and none of them is cut.
 ///
-/// `once`: skips indexes that pay off only across operations. `all`: every face counts as near,
-/// which is required for cells.
+/// `single_use`: skips indexes that pay off only across operations. `all`: every face counts as
+/// near, which is required for cells.
 ///
 /// \cost   that of finding the faces that meet, plus O(V + F / 8)
 /// \same   on any number of threads
-[[nodiscard]] interaction_zone find_interaction_zone(const bundles& operands, bool once,
+[[nodiscard]] interaction_zone find_interaction_zone(const bundles& operands, bool single_use,
                                                      bool all = false);
 
 /// [local faces] the number of each among the faces of all operands as they were given.

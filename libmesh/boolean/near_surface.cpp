@@ -471,7 +471,8 @@ near_result surface_of(const bundles& operands, interaction_zone& near,
     rounded_surface rounded = work.round();
     const ids& source = work.source;
     keep_counts(operands, arranged, rounded, result);
-    if (result.certificate.status == status::cancelled || !made.goes_on(options.progress, 0.95))
+    if (result.certificate.status == status::cancelled ||
+        !made.may_continue(options.progress, 0.95))
         return made;
     work.origins.for_sources_in(rounded.face_of, [&](std::uint32_t f) {
         (*is_left)[operands[0].face_source(f).index] = 1;
@@ -491,7 +492,7 @@ near_result surface_of(const bundles& operands, interaction_zone& near,
         result.mesh.faces.size() + (source.size() - face_of_piece.size());
     if (merges_faces(options))
         name_cut_vertices(operands, near, rounded, vertices, work.face_of_point, result);
-    static_cast<void>(made.goes_on(options.progress, 1.0));
+    static_cast<void>(made.may_continue(options.progress, 1.0));
     return made;
 }
 

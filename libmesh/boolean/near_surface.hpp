@@ -21,7 +21,7 @@ struct near_result {
     bool is_manifold = false;  ///< whether the faces at every vertex are known to be one closed fan
 
     /// Whether to continue. If `progress` returns false, sets the status of the result.
-    [[nodiscard]] bool goes_on(const progress_callback& progress, double done) {
+    [[nodiscard]] bool may_continue(const progress_callback& progress, double done) {
         if (!progress || progress(done)) return true;
         result.certificate.status = status::cancelled;
         return false;

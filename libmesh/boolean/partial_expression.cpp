@@ -5,7 +5,7 @@
 namespace treeform::detail::boolean {
 bool is_inside(fill_rule rule, std::int64_t winding) {
     switch (rule) {
-        case fill_rule::odd:
+        case fill_rule::even_odd:
             return winding % 2 != 0;
         case fill_rule::positive:
             return winding > 0;
@@ -100,7 +100,7 @@ partial_expression::truth partial_expression::truth_of(const winding_range& rang
         case fill_rule::positive:
             if (range.low > 0 || range.high <= 0) return either(range.low > 0);
             return truth::unknown;
-        case fill_rule::odd:
+        case fill_rule::even_odd:
             return range.low == range.high ? either(range.low % 2 != 0) : truth::unknown;
         default:
             if (range.low > 0 || range.high < 0) return truth::is_true;

@@ -148,7 +148,7 @@ class joiner {
         all_.las = detail::carry::join_las(files_, names_, mixed_);
         for (std::size_t i = 0; i < files_.size(); ++i)
             if (!all_.las && files_[i].las && !files_[i].las->records.empty())
-                warn("left-out", names_[i] + ": records of LAS left out");
+                warn("data-dropped", names_[i] + ": records of LAS left out");
         all_.stored_as = precision::float32;
         for (std::size_t i = 0; i < files_.size(); ++i) {
             const mesh_file& file = files_[i];
@@ -173,7 +173,7 @@ class joiner {
         for (std::size_t i = 0; i < files_.size(); ++i)
             for (const element& e : files_[i].attributes.elements)
                 if (e.name != "vertex" && e.name != "face")
-                    warn("left-out", names_[i] + ": element " + e.name + " left out");
+                    warn("data-dropped", names_[i] + ": element " + e.name + " left out");
     }
 
     /// Values of the files' elements `name` are used up.

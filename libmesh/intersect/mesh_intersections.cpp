@@ -49,9 +49,9 @@ void add(const detail::intersect::bad_faces& more, detail::intersect::bad_faces&
 
 /// Pairs that the chunks of a search have looked at, of which there may be too many: those up to
 /// the first chunk that found enough count, which is the same on any number of threads.
-class pairs_looked_at {
+class tested_pairs {
   public:
-    pairs_looked_at(std::size_t chunks, std::uint64_t most)
+    tested_pairs(std::size_t chunks, std::uint64_t most)
         : of_chunk_(most == unlimited ? 0 : chunks), most_(most) {}
 
     static constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
@@ -83,7 +83,7 @@ intersection_result classified(const pair_search<3>& search, const typename Sour
                                const intersection_options& options,
                                detail::base::effort* effort = nullptr) {
     const std::size_t chunks = search.chunks();
-    pairs_looked_at looked(chunks, effort ? effort->allowance() : pairs_looked_at::unlimited);
+    tested_pairs looked(chunks, effort ? effort->allowance() : tested_pairs::unlimited);
     std::vector<detail::intersect::narrow_phase_output> found(chunks);
     std::vector<detail::intersect::bad_faces> bad(chunks);
     detail::intersect::search_progress progress(options.progress, chunks);

@@ -211,10 +211,11 @@ std::vector<io_warning> left_out(const known_format& format, const mesh_file& fi
         say("materials", "materials");
     if (!holds.texture_files && !all.texture_files.empty())
         say("materials", "names of texture files");
-    say("left-out", rest_left_out(format, file, text));
+    say("data-dropped", rest_left_out(format, file, text));
     if (const std::size_t loose = format.extension == "stl" ? count_loose_points(file.mesh) : 0)
-        lost.push_back({"left-out", std::to_string(loose) + (loose == 1 ? " point" : " points") +
-                                        " without faces left out: STL holds faces only"});
+        lost.push_back({"data-dropped", std::to_string(loose) +
+                                            (loose == 1 ? " point" : " points") +
+                                            " without faces left out: STL holds faces only"});
     if (const std::string names = names_left_out(points);
         format.extension == "xyz" && !names.empty())
         lost.push_back({"columns", "XYZ has no column names; the columns are x y z" + names});

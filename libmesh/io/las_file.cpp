@@ -188,7 +188,7 @@ class las_opener {
                                      get<std::uint16_t>(at_item + 4)});
         }
         const std::uint16_t usual = laz::is_layered(packing.items) ? 3 : 2;
-        if (packing.items.size() != items || !laz::is_known(packing.items) ||
+        if (packing.items.size() != items || !laz::is_supported(packing.items) ||
             compressor != (packing.chunked ? usual : 1) ||
             (packing.chunked && packing.chunk_size == 0) || get<std::uint16_t>(d + 2) != 0)
             in_.fail(

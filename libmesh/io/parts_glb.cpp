@@ -127,7 +127,7 @@ layout_glb lay_out(const write_job& job) {
     const std::size_t unused = keeps_all ? 0 : count_loose_points(file.mesh);
     if (unused > 0)
         job.result.warnings.push_back(
-            {"left-out", std::to_string(unused) + " points without faces left out"});
+            {"data-dropped", std::to_string(unused) + " points without faces left out"});
     for (std::size_t s = 0; s < starts.size(); ++s) {
         const std::size_t end =
             s + 1 < starts.size() ? starts[s + 1].first : file.mesh.faces.size();

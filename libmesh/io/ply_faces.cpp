@@ -127,7 +127,7 @@ face_rows open_ply_faces(const source& in,
         rows_ahead += e.rows;
     }
     if (rows.stored_faces > most_numbers) in.fail("more faces than 32-bit numbers can name");
-    point_rows all = open_ply_points(in, part.first(rows.points), row_use::looked_at, known);
+    point_rows all = open_ply_points(in, part.first(rows.points), row_use::read, known);
     rows.head.format = all.head.format;
     rows.head.stored_as = precision::float32;
     rows.row_parts = all.row_parts;

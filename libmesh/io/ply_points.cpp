@@ -289,10 +289,10 @@ class ply_points {
 
 }  // namespace
 
-bool has_rows_to_look_at(const source& ply) {
+bool has_readable_rows(const source& ply) {
     ply_header header = read_ply_header(ply);
     try {
-        static_cast<void>(sort_elements(ply, header.elements, row_use::looked_at));
+        static_cast<void>(sort_elements(ply, header.elements, row_use::read));
         return true;
     } catch (const io_error& error) {
         if (error.why() != io_error::kind::blocks) throw;
@@ -339,7 +339,7 @@ bool has_listed_points(const source& ply) {
 listed_points scan_listed_points(const source& ply, const row_place& first, std::uint64_t end,
                                  std::size_t most) {
     ply_header header = read_ply_header(ply);
-    const elements_to_read elements = sort_elements(ply, header.elements, row_use::looked_at);
+    const elements_to_read elements = sort_elements(ply, header.elements, row_use::read);
     listed_points seen;
     with_reader(ply, header, [&](const char*, auto values) {
         ply_points<decltype(values)> points(ply, std::move(values), elements, nullptr);

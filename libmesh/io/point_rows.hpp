@@ -30,7 +30,7 @@ namespace treeform::detail::io {
 enum class row_use : std::uint8_t {
     none,    ///< a file with such rows is refused
     copied,  ///< rows after the points are read; refused if they could not be written the same way
-    looked_at  ///< rows after the points are read, rows before them are skipped
+    read     ///< rows after the points are read, rows before them are skipped
 };
 
 /// Fills `bytes` with the data from `at` on.
@@ -75,10 +75,10 @@ struct point_rows {
 [[nodiscard]] point_rows open_ply_points(const source& in, std::uint64_t first = 0,
                                          row_use use = row_use::none,
                                          const record_index* known = nullptr);
-/// Whether `row_use::looked_at` is possible: vertices precede faces, and there are no triangle
+/// Whether `row_use::read` is possible: vertices precede faces, and there are no triangle
 /// strips.
 /// \throws io_error
-[[nodiscard]] bool has_rows_to_look_at(const source& ply);
+[[nodiscard]] bool has_readable_rows(const source& ply);
 /// The corners of a binary STL, followed by its facets.
 [[nodiscard]] point_rows open_stl_points(const source& in, std::uint64_t first = 0);
 /// `unpacked` returns the points of a compressed file, if another process unpacked them.
@@ -169,7 +169,7 @@ inline constexpr std::size_t sample_size = std::size_t{1} << 17;
 /// outlive the result. For an STL, the faces of the part are read. For a PLY, the points of the
 /// part are put into the store that `make_store` returns for their number.
 ///
-/// \throws io_error; of `kind::blocks` for a PLY for which `has_rows_to_look_at` is false
+/// \throws io_error; of `kind::blocks` for a PLY for which `has_readable_rows` is false
 [[nodiscard]] face_rows open_stl_faces(const source& in, const file_part& part = {});
 [[nodiscard]] face_rows open_ply_faces(
     const source& in, const std::function<std::unique_ptr<point_store>(std::size_t)>& make_store,

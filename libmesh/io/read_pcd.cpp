@@ -85,7 +85,7 @@ void look_behind(bool more, warnings& said) {
     const bool good =
         lzf_unpack(packed.bytes, bytes->data(), packed.size, [&](std::size_t used, std::size_t) {
             in.release_before(packed.bytes.data() + used);
-            bytes->give_back();
+            bytes->release_memory();
         });
     if (!good) packed.fail_damaged(in);
     return bytes;
@@ -124,7 +124,7 @@ void look_behind(bool more, warnings& said) {
             places.push_back({field + p.in_field, p.field_size});
         }
         append_fixed_rows(vertices, points, rows, places, std::endian::little);
-        if (bytes) bytes->give_back();
+        if (bytes) bytes->release_memory();
         first += rows;
         return rows;
     };

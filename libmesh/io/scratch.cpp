@@ -61,7 +61,7 @@ scratch::~scratch() {
     if (data_ != nullptr) ::munmap(data_, size_);
 }
 
-void scratch::give_back() const {
+void scratch::release_memory() const {
     if (place_ == scratch_place::file && size_ > 0) ::madvise(data_, size_, MADV_DONTNEED);
 }
 

@@ -28,7 +28,7 @@ class scratch {
     [[nodiscard]] char* data() const { return data_; }
     [[nodiscard]] std::size_t size() const { return size_; }
     /// Releases the memory of bytes in a file; they can still be read.
-    void give_back() const;
+    void release_memory() const;
 
   private:
     char* data_ = nullptr;

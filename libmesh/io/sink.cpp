@@ -12,7 +12,7 @@
 namespace treeform::detail::io {
 
 void sink::flush() {
-    go_on();
+    check_cancelled();
     const char* at = buffer_.data();
     std::size_t left = used_;
     flushed_ += used_;

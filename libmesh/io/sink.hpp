@@ -16,17 +16,17 @@
 
 namespace treeform::detail::io {
 
-/// Thrown if `goes_on` returned false.
+/// Thrown if `may_continue` returned false.
 class writing_stopped {};
 
 /// A buffer for a file descriptor, or for a string.
 class sink {
   public:
     explicit sink(std::string& memory) : memory_(&memory) {}
-    /// `name` is the file in errors. If `goes_on` returns false, `writing_stopped` is thrown and
-    /// nothing more is written.
-    sink(int fd, std::string name, std::function<bool()> goes_on = {})
-        : fd_(fd), name_(std::move(name)), goes_on_(std::move(goes_on)) {}
+    /// `name` is the file in errors. If `may_continue` returns false, `writing_stopped` is thrown
+    /// and nothing more is written.
+    sink(int fd, std::string name, std::function<bool()> may_continue = {})
+        : fd_(fd), name_(std::move(name)), may_continue_(std::move(may_continue)) {}
     sink(const sink&) = delete;
     sink& operator=(const sink&) = delete;
     ~sink() = default;
@@ -65,8 +65,8 @@ class sink {
     void flush();
 
     /// Checks for cancellation during long work without output. \throws writing_stopped
-    void go_on() const {
-        if (goes_on_ && !goes_on_()) throw writing_stopped();
+    void check_cancelled() const {
+        if (may_continue_ && !may_continue_()) throw writing_stopped();
     }
 
     /// Skips this many bytes in the file. \pre it is a regular file \throws io_error
@@ -95,7 +95,7 @@ class sink {
     std::string* memory_ = nullptr;
     int fd_ = -1;
     std::string name_{};
-    std::function<bool()> goes_on_{};
+    std::function<bool()> may_continue_{};
 };
 
 /// An output file that appears at its path only when it is complete: it is written to a temporary

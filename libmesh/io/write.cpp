@@ -300,17 +300,19 @@ write_result write_file(const std::filesystem::path& path, const mesh_file& file
                         const write_options& options, bool may_round) {
     const dropped_corners less(file, options);
     writing job(path, less.file(), less.options(), may_round);
-    const auto goes_on = [&](double done) { return !options.progress || options.progress(done); };
-    if (!goes_on(0.0)) return {.status = status::cancelled};
+    const auto may_continue = [&](double done) {
+        return !options.progress || options.progress(done);
+    };
+    if (!may_continue(0.0)) return {.status = status::cancelled};
     output_file target(path);
-    sink out(target.descriptor(), target.name(), [&] { return goes_on(0.0); });
+    sink out(target.descriptor(), target.name(), [&] { return may_continue(0.0); });
     write_result result;
     try {
         result = job.run(out);
     } catch (const writing_stopped&) {
         return {.status = status::cancelled};
     }
-    if (!goes_on(1.0)) result.status = status::cancelled;
+    if (!may_continue(1.0)) result.status = status::cancelled;
     if (result.status != treeform::status::cancelled) target.commit();
     return result;
 }

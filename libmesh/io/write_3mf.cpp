@@ -213,7 +213,7 @@ class model_writer {
         };
         say(looks_.leaves_out_points, "colors-dropped",
             "colors of points left out, since their faces have colors or materials");
-        say(count_named(job_.file) > objects_.size(), "left-out",
+        say(count_named(job_.file) > objects_.size(), "data-dropped",
             "names of parts left out, since parts that share points are one object");
         say(looks_.rounds_colors, "colors", "colors are rounded to 8 bits");
         if (looks_.lacks_colors)
@@ -315,7 +315,7 @@ class model_writer {
     }
 
     void drain() {
-        job_.out.go_on();
+        job_.out.check_cancelled();
         out_.flush();
         archive_.put(piece_);
         piece_.clear();

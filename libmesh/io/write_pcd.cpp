@@ -92,8 +92,8 @@ class pcd_writer {
         const scratch packed(lzf_most_packed(all.size()), place(), "");
         const std::size_t size =
             lzf_pack({all.data(), all.size()}, packed.data(), [&](std::size_t, std::size_t) {
-                all.give_back();
-                packed.give_back();
+                all.release_memory();
+                packed.release_memory();
             });
         job_.out.put(lengths(size, all.size()));
         job_.out.put({packed.data(), size});
@@ -291,7 +291,7 @@ class pcd_writer {
             ahead += f.count * size;
         }
         kept_ += points.size();
-        if (blocks_) blocks_->give_back();
+        if (blocks_) blocks_->release_memory();
     }
     void store_value(char* to, const column& c, std::span<const point3> points,
                      const element* source, std::size_t row) const {

@@ -210,7 +210,7 @@ bool is_layered(std::span<const item> items) {
     return !items.empty() && items[0].type == item_type::point14;
 }
 
-bool is_known(std::span<const item> items) {
+bool is_supported(std::span<const item> items) {
     const std::size_t size = record_size(items);
     const auto is_read = [](const item& is, const item& written) {
         const bool first = is.version == 1 && is.type != item_type::bytes;

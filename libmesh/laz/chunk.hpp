@@ -42,14 +42,14 @@ struct item {
 
 /// Whether this library supports the items: their types, sizes and versions, in their order in
 /// records.
-[[nodiscard]] bool is_known(std::span<const item> items);
+[[nodiscard]] bool is_supported(std::span<const item> items);
 
 [[nodiscard]] std::size_t record_size(std::span<const item> items);
 
 /// Unpacks `count` >= 1 records of the chunk at the beginning of `packed` into `records`, which has
 /// room for them.
 ///
-/// \pre    `is_known(items)`
+/// \pre    `is_supported(items)`
 /// \throws damaged
 void unpack_chunk(std::span<const item> items, std::span<const std::uint8_t> packed,
                   std::uint32_t count, std::uint8_t* records);

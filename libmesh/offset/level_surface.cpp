@@ -44,7 +44,7 @@ class builder {
     }
 
   private:
-    [[nodiscard]] bool goes_on(double done) const { return !progress_ || progress_(done); }
+    [[nodiscard]] bool may_continue(double done) const { return !progress_ || progress_(done); }
 
     /// How much further than the distance corners of cells are. False when it is to stop.
     bool find_heights() {
@@ -57,7 +57,7 @@ class builder {
         std::vector<point3> places(corners_.size());
         for (std::size_t i = 0; i < places.size(); ++i) places[i] = grid_.point(corners_[i]);
         const auto found =
-            near_places(nearest_, places, [&](double done) { return goes_on(0.4 * done); });
+            near_places(nearest_, places, [&](double done) { return may_continue(0.4 * done); });
         heights_.reserve(places.size());
         for (const auto& near : found) heights_.push_back(near->distance - distance_);
         return found.size() == places.size();
@@ -148,8 +148,8 @@ class builder {
                 for (std::size_t i = first + begin; i < first + end; ++i)
                     result.points[i] = vertex_on(edges[i]);
             });
-            if (!goes_on(0.4 + 0.6 * static_cast<double>(first + count) /
-                                   static_cast<double>(edges.size())))
+            if (!may_continue(0.4 + 0.6 * static_cast<double>(first + count) /
+                                        static_cast<double>(edges.size())))
                 return {};
         }
         const auto number = [&](edge_key e) {

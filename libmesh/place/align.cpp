@@ -117,7 +117,7 @@ class alignment {
 
     /// With a part of the samples first, if they are many: that gets near the end.
     [[nodiscard]] search_result search_from(similarity start, double from, double to) {
-        const auto go_on = [&](unsigned i) { return work_.step(from, to, i, 20.0); };
+        const auto may_continue = [&](unsigned i) { return work_.step(from, to, i, 20.0); };
         search_task fine = task_;
         fine.least_scale = std::max(task_.least_scale, start.scale / growth);
         fine.most_scale = std::min(task_.most_scale, start.scale * growth);
@@ -128,15 +128,15 @@ class alignment {
             coarse.max_iterations /= 2;
             matching last;
             const search_result near =
-                search(coarse, some_of(samples_, coarse_samples), start, last, go_on);
+                search(coarse, some_of(samples_, coarse_samples), start, last, may_continue);
             start = near.map;
             before = near.iterations;
             fine.max_iterations -= before;
         }
         matching of_samples;
         matching& last = samples_.size() == all_.size() ? of_all_ : of_samples;
-        search_result end =
-            search(fine, samples_, start, last, [&](unsigned i) { return go_on(before + i); });
+        search_result end = search(fine, samples_, start, last,
+                                   [&](unsigned i) { return may_continue(before + i); });
         end.iterations += before;
         end.at_bound = task_.scale && task_.least_scale < task_.most_scale &&
                        (end.map.scale <= fine.least_scale * (1.0 + exact) ||
@@ -207,7 +207,7 @@ class alignment {
         if (task_.max_iterations == 0) return;
         static_cast<void>(quality_at(task_, all_, best_.map, best_.width, of_all_));
         const evidence found = evidence_here();
-        if (found.freedoms.empty() || (is_known(found) && is_noise(found.left))) return;
+        if (found.freedoms.empty() || (is_determined(found) && is_noise(found.left))) return;
         const Vector3d center = inertia_of(few_.points).center;
         similarity around = present_;
         around.scale = best_.map.scale;
@@ -252,7 +252,7 @@ class alignment {
 
     /// Whether the points tell where they belong. What slides on a mesh may do so; what slides on a
     /// cloud may be held by its points alone.
-    [[nodiscard]] bool is_known(const evidence& found) const {
+    [[nodiscard]] bool is_determined(const evidence& found) const {
         if (best_.at_bound) return false;
         if (!target_.is_cloud() || found.left.rms <= exact) return true;
         return std::max(found.uncertainty, found.move) <= bearable * frame_.diagonal &&
@@ -292,7 +292,7 @@ class alignment {
 
     [[nodiscard]] align_end end_of(const evidence& found) {
         if (!best_.converged) return align_end::out_of_iterations;
-        if (!is_known(found)) return align_end::doubtful;
+        if (!is_determined(found)) return align_end::doubtful;
         // What is noise where most points lie may be a part that fits in two places.
         if (is_noise(found.left))
             return leaves_out_many() && other_is_better(doubts / 2) ? align_end::doubtful

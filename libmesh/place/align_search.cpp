@@ -229,7 +229,7 @@ quality quality_at(const search_task& task, const moving_points& samples, const 
 }
 
 search_result search(const search_task& task, const moving_points& samples, const similarity& start,
-                     matching& last, function_ref<bool(unsigned)> go_on) {
+                     matching& last, function_ref<bool(unsigned)> may_continue) {
     search_result best{start};
     const Vector3d center = inertia_of(samples.points).center;
     similarity map = start;
@@ -260,10 +260,10 @@ search_result search(const search_task& task, const moving_points& samples, cons
             settled = false;
             map = best.map;
             cost_before = endless;
-            if (i == task.max_iterations || !go_on(i)) return best;
+            if (i == task.max_iterations || !may_continue(i)) return best;
             continue;
         }
-        if (i == task.max_iterations || !go_on(i)) return best;
+        if (i == task.max_iterations || !may_continue(i)) return best;
         if (reject) {
             faster.forget();
             map = *plain;
@@ -357,7 +357,7 @@ std::vector<similarity> starts_along(std::span<const freedom> motions, double mo
 
 std::vector<tried_start> try_starts(const search_task& task, const moving_points& few,
                                     std::span<const similarity> starts,
-                                    function_ref<bool(std::size_t)> go_on) {
+                                    function_ref<bool(std::size_t)> may_continue) {
     search_task quick = task;
     quick.max_iterations = std::min(task.max_iterations, steps_of_try);
     quick.tolerance = std::max(task.tolerance, 1e-3);
@@ -365,7 +365,7 @@ std::vector<tried_start> try_starts(const search_task& task, const moving_points
     quick.scale = false;
     if (task.welsch) quick.overlap = std::min(task.overlap, most_of_robust);
     std::vector<tried_start> tried;
-    for (std::size_t i = 1; i < starts.size() && go_on(i); ++i) {
+    for (std::size_t i = 1; i < starts.size() && may_continue(i); ++i) {
         matching last;
         tried.push_back({i, search(quick, few, starts[i], last, [](unsigned) { return true; })});
         search_result& end = tried.back().end;

@@ -42,11 +42,11 @@ struct search_result {
                                        const Vector3d& center);
 
 /// Iterates from `start` and returns the best transform found. `samples` are in a spatial order.
-/// `go_on` is called before each step; false stops the search. `last` is empty or has the partners
-/// of the same samples.
+/// `may_continue` is called before each step; false stops the search. `last` is empty or has the
+/// partners of the same samples.
 [[nodiscard]] search_result search(const search_task& task, const moving_points& samples,
                                    const similarity& start, matching& last,
-                                   function_ref<bool(unsigned)> go_on);
+                                   function_ref<bool(unsigned)> may_continue);
 
 /// Finds the partners of the samples at `map`, sets their weights, and returns the quality.
 [[nodiscard]] quality quality_at(const search_task& task, const moving_points& samples,
@@ -86,9 +86,9 @@ struct tried_start {
 };
 
 /// Tries all starts except the first with the samples `few`; returns them best first, ties by
-/// number. Stops early, with the results so far, when `go_on` returns false.
+/// number. Stops early, with the results so far, when `may_continue` returns false.
 [[nodiscard]] std::vector<tried_start> try_starts(const search_task& task, const moving_points& few,
                                                   std::span<const similarity> starts,
-                                                  function_ref<bool(std::size_t)> go_on);
+                                                  function_ref<bool(std::size_t)> may_continue);
 
 }  // namespace treeform::detail::place

@@ -75,7 +75,7 @@ class escape_search {
             const double n = static_cast<double>(i) + 0.5;
             const double z = 1.0 - 2.0 * n / static_cast<double>(directions);
             const double r = std::sqrt(1.0 - z * z), at = turn * n;
-            if (!go_on(0.4 + 0.2 * n / static_cast<double>(directions))) return;
+            if (!may_continue(0.4 + 0.2 * n / static_cast<double>(directions))) return;
             look({r * std::cos(at), r * std::sin(at), z});
         }
         refine();
@@ -105,7 +105,7 @@ class escape_search {
     }
 
   private:
-    [[nodiscard]] bool go_on(double done) { return work_.reach(done) && !effort_.spent(); }
+    [[nodiscard]] bool may_continue(double done) { return work_.reach(done) && !effort_.spent(); }
 
     [[nodiscard]] static bool any_inside(const std::vector<point3>& corners, const point3& by,
                                          const shape& solid, const box3& box) {
@@ -163,7 +163,7 @@ class escape_search {
     void refine() {
         int step = 0;
         for (double tilt = 0.5; tilt > 1e-6; tilt *= 0.6) {
-            if (!go_on(0.6 + 0.3 * static_cast<double>(++step) / 26.0)) return;
+            if (!may_continue(0.6 + 0.3 * static_cast<double>(++step) / 26.0)) return;
             for (int again = 0; again < 8 && look_around(tilt); ++again) continue;
         }
     }

@@ -90,7 +90,7 @@ class feature_mover {
             carried(seat, from_.origin, plus(to_.origin, scaled(out, pulled_out(seat, out))));
         placement result = slid(away, out);
         if (result.end == placement_end::nothing_met && !plane) result = seated(seat);
-        result.at_start = start.at_start;
+        result.relation_at_start = start.relation_at_start;
         result.travel = 0.0;
         result.direction = {};
         result.angle = angle * 180.0 / std::numbers::pi;
@@ -164,9 +164,9 @@ class feature_mover {
         const prepared_mesh shape(std::move(there));
         placement at = measured(shape, 0.8, 1.0);
         if (work_.cancelled()) return at;
-        const bool near = options_.clearance > 0.0 && at.at_place != mesh_relation::clear;
+        const bool near = options_.clearance > 0.0 && at.relation != mesh_relation::clear;
         at.certificate.precision = options_.precision;
-        if (at.at_place == mesh_relation::penetrating || near) {
+        if (at.relation == mesh_relation::penetrating || near) {
             at.end = near ? placement_end::starts_too_near : placement_end::starts_penetrating;
             at.certificate.status = status::no_placement;
             at.points.assign(moving_.view().points.begin(), moving_.view().points.end());

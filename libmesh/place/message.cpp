@@ -31,7 +31,7 @@ std::string too_far(const placement& p) {
 
 /// "touching bed.stl", and the first pair of faces that meet.
 std::string meeting_in_words(const placement& at, const body_set& moving, const body_set& fixed) {
-    std::string text = name_of(at.at_place) + (" " + fixed.label(at.nearest_fixed));
+    std::string text = name_of(at.relation) + (" " + fixed.label(at.nearest_fixed));
     const mesh_measure& how = *at.nearest;
     // Of a cloud it says only that some of the points are.
     if (how.a_inside_b) return text + (moving.file_of(0).cloud ? "" : ", inside it");
@@ -65,11 +65,11 @@ const char* name_of(mesh_relation how) {
 
 std::string placement::relation_in_words(const body_set& moving, const body_set& fixed) const {
     const placement& at = *this;
-    std::string how = name_of(at.at_place);
+    std::string how = name_of(at.relation);
     if (at.end == placement_end::bed)
-        return how + (at.at_place == mesh_relation::clear ? " of the bed" : " the bed");
+        return how + (at.relation == mesh_relation::clear ? " of the bed" : " the bed");
     if (!at.nearest) return how;
-    if (at.at_place == mesh_relation::touching || at.at_place == mesh_relation::penetrating)
+    if (at.relation == mesh_relation::touching || at.relation == mesh_relation::penetrating)
         return meeting_in_words(at, moving, fixed);
     return how + ", " + brief(at.nearest->distance) + " from " + fixed.label(at.nearest_fixed);
 }
@@ -93,7 +93,7 @@ std::string placement::message(std::span<const std::string> names) const {
         case placement_end::too_far:
             return too_far(*this);
         case placement_end::not_representable:
-            if (effort.cut > 0)
+            if (effort.skipped_candidates > 0)
                 return "no separating translation was found within " +
                        counted(effort.bound, "pair", "pairs") + " of faces";
             return std::string("no valid placement was found in ") +
@@ -140,7 +140,7 @@ placement laid_flat::as_placement() const {
                  .points = points,
                  .matrix = matrix,
                  .bed = bed,
-                 .at_place = mesh_relation::touching};
+                 .relation = mesh_relation::touching};
     if (contact) at.contacts = {*contact};
     at.contact_count = at.contacts.size();
     return at;

@@ -134,7 +134,7 @@ void placing::find_nearest(const shape& a, const box3& box, double radius, doubl
 void placing::look_at_start() {
     if (!among_.empty() && box_) find_nearest(moving_, *box_, radius(0.0), 0.0, 0.2);
     over();
-    result_.at_start = result_.at_place = relation_of(result_.nearest);
+    result_.relation_at_start = result_.relation = relation_of(result_.nearest);
 }
 
 /// How far to look for the nearest mesh. On the way along a direction only those matter that are
@@ -145,7 +145,7 @@ double placing::radius(double more) const {
 }
 
 bool placing::stuck_at_start() {
-    switch (result_.at_start) {
+    switch (result_.relation_at_start) {
         case mesh_relation::penetrating:
             result_.end = placement_end::starts_penetrating;
             return true;
@@ -236,8 +236,9 @@ void placing::slide(const point3& direction) {
 /// From below the bed, back along the direction up to it, where nothing can be in the way.
 void placing::lift(const point3& motion, double above) {
     const bool below = box_->min.z < *options_.bed;
-    result_.at_start = below ? mesh_relation::penetrating : mesh_relation::closer_than_clearance;
-    result_.at_place = result_.at_start;
+    result_.relation_at_start =
+        below ? mesh_relation::penetrating : mesh_relation::closer_than_clearance;
+    result_.relation = result_.relation_at_start;
     result_.below_bed = -above;
     if (!among_.empty()) {
         result_.end = placement_end::starts_below_bed;
@@ -279,8 +280,9 @@ void placing::mate() {
 }
 
 void placing::separate() {
-    const bool near = result_.at_start == mesh_relation::penetrating ||
-                      (options_.clearance > 0.0 && result_.at_start != mesh_relation::clear);
+    const bool near =
+        result_.relation_at_start == mesh_relation::penetrating ||
+        (options_.clearance > 0.0 && result_.relation_at_start != mesh_relation::clear);
     if (!near) return stay();
     // The way out of what is near, if nothing else is there; else out of more.
     double reach = options_.clearance;
@@ -347,12 +349,12 @@ void placing::look_at_place() {
             find_nearest(at, box, radius(box.diagonal() * 0x1p-10), 0.85, 1.0);
             over();
         }
-        result_.at_place = relation_of(result_.nearest);
+        result_.relation = relation_of(result_.nearest);
     }
     if (result_.end == placement_end::bed) on_bed_at_place(there);
     if (among_.empty() || !result_.contacts.empty()) return;
-    if (result_.at_place == mesh_relation::touching ||
-        result_.at_place == mesh_relation::penetrating)
+    if (result_.relation == mesh_relation::touching ||
+        result_.relation == mesh_relation::penetrating)
         result_.contacts = contacts_at(at, among_, options_.limit, result_.contact_count);
 }
 
@@ -361,7 +363,7 @@ void placing::on_bed_at_place(mesh_view there) {
         result_.contacts.push_back(*contact);
         ++result_.contact_count;
     }
-    if (result_.at_place == mesh_relation::separate) result_.at_place = mesh_relation::touching;
+    if (result_.relation == mesh_relation::separate) result_.relation = mesh_relation::touching;
 }
 
 }  // namespace treeform::detail::place

@@ -84,7 +84,7 @@ class clearing {
         separation best{{}, infinity};
         const auto look = [&](const std::optional<point3>& direction) {
             ++looked_;
-            if (!direction || !go_on()) return;
+            if (!direction || !may_continue()) return;
             const auto time = time_to_leave(*direction, lacking, best.time);
             if (!time) return;
             found.push_back({*direction, *time});
@@ -102,7 +102,7 @@ class clearing {
     }
 
     /// Asked of each place: the share is that of the directions, of which some fifty are looked at.
-    bool go_on() { return work_.step(0.0, 0.95, looked_, 25.0); }
+    bool may_continue() { return work_.step(0.0, 0.95, looked_, 25.0); }
 
     [[nodiscard]] static std::array<point3, 6> axes() {
         return {{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
@@ -165,7 +165,7 @@ class clearing {
         for (std::size_t i = 0; i < parts_.size(); ++i)
             if (boxes_within(i, offset)) close.push_back(i);
         if (close.empty()) return true;
-        if (!go_on()) return false;
+        if (!may_continue()) return false;
         if (options_.clearance > 0.0) {
             const auto pair = nearest(offset);
             if (pair && pair->distance < options_.clearance) return false;
@@ -320,7 +320,7 @@ class clearing {
     apart_options options_;
     base::work_progress work_;
     std::size_t looked_ = 0;  ///< directions
-    progress_callback asking_ = [this](double) { return go_on(); };
+    progress_callback asking_ = [this](double) { return may_continue(); };
     std::optional<box3> box_;
     std::vector<shape> parts_;
     std::vector<box3> boxes_;

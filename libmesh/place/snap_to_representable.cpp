@@ -99,11 +99,11 @@ class settling {
             const shape& part = parts_[i];
             if (!boxes_[i] || part.mesh().faces.empty()) continue;
             if (!within(*box, *boxes_[i], options_.clearance)) continue;
-            const auto go_on = [&](double) { return work_.step(0.0, 0.9, tries_, 4.0); };
-            if (!go_on(0.0)) return;
+            const auto may_continue = [&](double) { return work_.step(0.0, 0.9, tries_, 4.0); };
+            if (!may_continue(0.0)) return;
             if (!faces) faces = build_face_tree(there);
             const shape moved(prepared_, one.points, *faces, part.vertices());
-            const auto judged = relation_of(moved, part, go_on, options_.effort);
+            const auto judged = relation_of(moved, part, may_continue, options_.effort);
             if (judged.status == status::cancelled) {
                 one.good = false;
                 return;
@@ -175,8 +175,8 @@ snapped snap_to_representable(const prepared_mesh& a, std::span<const shape> par
     };
     double bad = time;
     double step = unit;
-    const auto may_go_on = [&] { return !options.effort || !options.effort->spent(); };
-    while (!best.good && best.backed_off < options.attempts && may_go_on()) {
+    const auto may_continue = [&] { return !options.effort || !options.effort->spent(); };
+    while (!best.good && best.backed_off < options.attempts && may_continue()) {
         const unsigned count = best.backed_off + 1;
         bad = best.time;
         best = place.at(back(step), false);

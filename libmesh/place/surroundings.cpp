@@ -117,13 +117,15 @@ std::optional<measured_part> surroundings::nearest(const shape& a, const box3& b
     base::work_progress work(progress);
     std::size_t looked_at = 0;
     // The nearest come first: of many meshes few are looked at.
-    const progress_callback go_on = [&](double) { return work.step(0.0, 0.95, looked_at, 2.0); };
+    const progress_callback may_continue = [&](double) {
+        return work.step(0.0, 0.95, looked_at, 2.0);
+    };
     const auto look = [&](std::uint32_t i) {
         const std::size_t number = number_[i];
         if (box_distance(box, *box_of_all_[number]) > radius) return radius * radius;
-        if (!go_on(0.0)) return 0.0;
+        if (!may_continue(0.0)) return 0.0;
         ++looked_at;
-        const auto how = measure_of(a, shape_of(number), radius, go_on);
+        const auto how = measure_of(a, shape_of(number), radius, may_continue);
         if (work.cancelled()) return 0.0;
         if (how) {
             const measured_part one{number, *how};

@@ -177,7 +177,7 @@ impact detail::place::approach_of(mesh_view a, const tree<3>& tree_a, mesh_view 
         return result;
     }
     if (!work.reach(0.4)) return {.status = status::cancelled};
-    const auto go_on = [&, usual = static_cast<double>(a.faces.size() + b.faces.size())] {
+    const auto may_continue = [&, usual = static_cast<double>(a.faces.size() + b.faces.size())] {
         return result.pairs_tested % 1024 != 0 || work.step(0.4, 0.9, result.pairs_tested, usual);
     };
     const std::uint64_t most = effort ? effort->allowance() / base::effort::in_motion
@@ -189,7 +189,7 @@ impact detail::place::approach_of(mesh_view a, const tree<3>& tree_a, mesh_view 
         wide, tree_b, {motion.x, motion.y, motion.z}, options.latest, most,
         [&](std::uint32_t i, std::uint32_t j) {
             ++result.pairs_tested;
-            if (!go_on() || result.pairs_tested > most) return -1.0;
+            if (!may_continue() || result.pairs_tested > most) return -1.0;
             const moving_pair pair{triangle_of(a, i), triangle_of(b, j), motion};
             const double below = std::max(0.0, distance - pair.slack(distance));
             const auto time = pair.time_within(distance, latest);
@@ -270,7 +270,7 @@ impact detail::place::impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
         return result;
     }
     if (!work.reach(0.4)) return {.status = status::cancelled};
-    const auto go_on = [&, usual = static_cast<double>(a.faces.size() + b.faces.size())] {
+    const auto may_continue = [&, usual = static_cast<double>(a.faces.size() + b.faces.size())] {
         return result.pairs_tested % 1024 != 0 || work.step(0.4, 0.9, result.pairs_tested, usual);
     };
     const std::uint64_t most = effort ? effort->allowance() / base::effort::in_motion
@@ -289,7 +289,7 @@ impact detail::place::impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
         moving, still, {motion.x, motion.y, motion.z}, options.latest, most,
         [&](std::uint32_t i, std::uint32_t j) {
             ++result.pairs_tested;
-            if (!go_on() || result.pairs_tested > most) return -1.0;
+            if (!may_continue() || result.pairs_tested > most) return -1.0;
             if (const auto one = first_contact(face_a(i), face_b(j), motion, &result.predicates))
                 found.offer(motion, i, j, *one, result.predicates);
             return found.first ? found.first->time * (1.0 + 0x1p-38) : options.latest;

@@ -55,7 +55,7 @@ class turning {
     [[nodiscard]] placement run() {
         result_ = measured(moving_, 0.0, 0.2);
         if (cancelled() || moving_.view().faces.empty()) return ended(placement_end::nothing_met);
-        const mesh_relation start = result_.at_place;
+        const mesh_relation start = result_.relation;
         if (start == mesh_relation::penetrating) return ended(placement_end::starts_penetrating);
         if (start == mesh_relation::closer_than_clearance)
             return ended(placement_end::starts_too_near);
@@ -109,9 +109,9 @@ class turning {
     }
 
     [[nodiscard]] bool good(const placement& there) const {
-        return there.at_place == mesh_relation::clear ||
-               (!(options_.clearance > 0.0) && there.at_place != mesh_relation::penetrating &&
-                there.at_place != mesh_relation::closer_than_clearance);
+        return there.relation == mesh_relation::clear ||
+               (!(options_.clearance > 0.0) && there.relation != mesh_relation::penetrating &&
+                there.relation != mesh_relation::closer_than_clearance);
     }
 
     /// At the angle, or the first before it that is good in coordinates to be written.
@@ -149,7 +149,7 @@ class turning {
 
     void accept(placement&& now, std::vector<point3>&& points, const transform<3>& there, double at,
                 placement_end end) {
-        now.at_start = result_.at_start;
+        now.relation_at_start = result_.relation_at_start;
         now.statistics = result_.statistics;
         now.end = end;
         now.matrix = there;

@@ -20,9 +20,9 @@ constexpr double share_of_single = 0.01;   // of the area
 struct patch {
     double area = 0.0;
     std::size_t faces = 0;
-    double free_length = 0.0;              ///< of edges that no other face has
-    double rim_length = 0.0;               ///< of these and of edges of more than two faces
-    std::vector<std::uint32_t> crowded{};  ///< edges of more than two faces, once for each face
+    double free_length = 0.0;                  ///< of edges that no other face has
+    double rim_length = 0.0;                   ///< of these and of edges of more than two faces
+    std::vector<std::uint32_t> nonmanifold{};  ///< edges of more than two faces, once for each face
 };
 
 double length(const point3& v) { return std::hypot(v.x, v.y, v.z); }
@@ -30,7 +30,7 @@ double length(const point3& v) { return std::hypot(v.x, v.y, v.z); }
 struct patch_map {
     std::vector<std::uint32_t> patch_of{};  ///< [F]
     std::vector<patch> patches{};
-    std::vector<std::uint32_t> count{};  ///< faces at each crowded edge
+    std::vector<std::uint32_t> count{};  ///< faces at each nonmanifold edge
     double area = 0.0;
     bool has_strays = false;  ///< single faces, so few that they are no mesh that is torn
 };
@@ -53,16 +53,16 @@ patch_map find_patches(const working_mesh& mesh) {
         map.area += area;
     }
     const weld::edge_uses edges(mesh.points.size(), mesh.faces, weld::repeated_corners::left_out);
-    struct crowded_edge {
+    struct nonmanifold_edge {
         double length;
         std::vector<std::uint32_t> faces;
     };
-    std::vector<std::vector<crowded_edge>> crowded(edges.chunks());
+    std::vector<std::vector<nonmanifold_edge>> nonmanifold(edges.chunks());
     std::vector<std::vector<std::array<std::uint32_t, 3>>> borders(edges.chunks());
     edges.for_each([&](const weld::used_edge& edge, std::size_t chunk) {
         if (edge.uses.size() == 1) borders[chunk].push_back({edge.low, edge.high, edge.face(0)});
         if (edge.uses.size() <= 2) return;
-        crowded_edge& found = crowded[chunk].emplace_back();
+        nonmanifold_edge& found = nonmanifold[chunk].emplace_back();
         found.length = length(base::minus(mesh.points[edge.high], mesh.points[edge.low]));
         for (std::size_t i = 0; i < edge.uses.size(); ++i) found.faces.push_back(edge.face(i));
     });
@@ -73,13 +73,13 @@ patch_map find_patches(const working_mesh& mesh) {
             owner.free_length += there;
             owner.rim_length += there;
         }
-    for (const auto& part : crowded)
+    for (const auto& part : nonmanifold)
         for (const auto& [there, faces] : part) {
             const auto edge = static_cast<std::uint32_t>(map.count.size());
             map.count.push_back(static_cast<std::uint32_t>(faces.size()));
             for (const std::uint32_t f : faces) {
                 patch& owner = map.patches[map.patch_of[f]];
-                owner.crowded.push_back(edge);
+                owner.nonmanifold.push_back(edge);
                 owner.rim_length += there;
             }
         }
@@ -89,7 +89,7 @@ patch_map find_patches(const working_mesh& mesh) {
 /// Whether the edges where it hangs on others have an odd number of faces, and an even one without
 /// it.
 bool is_surplus(const patch& part, const std::vector<std::uint32_t>& count) {
-    const std::vector<std::uint32_t>& edges = part.crowded;  // ascending
+    const std::vector<std::uint32_t>& edges = part.nonmanifold;  // ascending
     for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
         while (end < edges.size() && edges[end] == edges[begin]) ++end;
         const std::size_t all = count[edges[begin]], left = all - (end - begin);
@@ -100,7 +100,7 @@ bool is_surplus(const patch& part, const std::vector<std::uint32_t>& count) {
 
 /// Whether the edges where it hangs on others have two faces without it.
 bool is_flap(const patch& part, const std::vector<std::uint32_t>& count) {
-    const std::vector<std::uint32_t>& edges = part.crowded;  // ascending
+    const std::vector<std::uint32_t>& edges = part.nonmanifold;  // ascending
     for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
         while (end < edges.size() && edges[end] == edges[begin]) ++end;
         if (count[edges[begin]] - (end - begin) < 2) return false;
@@ -109,17 +109,17 @@ bool is_flap(const patch& part, const std::vector<std::uint32_t>& count) {
 }
 
 bool is_single(const patch& part, const patch_map& map) {
-    return part.faces <= single && part.crowded.empty() && part.free_length > 0.0 &&
+    return part.faces <= single && part.nonmanifold.empty() && part.free_length > 0.0 &&
            part.area < share_of_single * map.area;
 }
 
 bool is_stray(const patch& part, const patch_map& map, double share, bool is_sheet, walls inner) {
-    if (inner == walls::stay && !part.crowded.empty()) return false;
+    if (inner == walls::keep && !part.nonmanifold.empty()) return false;
     if (part.free_length == 0.0) return is_surplus(part, map.count);
     if (is_sheet) return false;
     const bool is_flat = part.rim_length * part.rim_length > flat * part.area;
     const bool is_small = part.area < share * map.area;
-    if (part.crowded.empty())
+    if (part.nonmanifold.empty())
         return is_flat && (is_small || (map.has_strays && is_single(part, map)));
     return (is_flat || is_small) && is_flap(part, map.count);
 }
@@ -138,7 +138,7 @@ dropped_strays drop_strays(working_mesh& mesh, double share, bool is_sheet, wall
     for (const std::uint32_t p : order) {
         if (!is_stray(map.patches[p], map, share, is_sheet, inner)) continue;
         dropped[p] = 1;
-        for (const std::uint32_t edge : map.patches[p].crowded) --map.count[edge];
+        for (const std::uint32_t edge : map.patches[p].nonmanifold) --map.count[edge];
     }
     dropped_strays done;
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {

@@ -14,8 +14,8 @@ struct dropped_strays {
     std::vector<std::uint32_t> walls{};  ///< sources of faces dropped as walls, ascending
 };
 
-/// Whether patches that end at other patches, or are attached to them, are dropped (`go`) or kept.
-enum class walls : std::uint8_t { go, stay };
+/// Whether patches that end at other patches, or are attached to them, are dropped or kept.
+enum class walls : std::uint8_t { drop, keep };
 
 /// Drops patches that bound nothing.
 ///
@@ -31,6 +31,6 @@ enum class walls : std::uint8_t { go, stay };
 ///
 /// \param is_sheet keep free borders, and drop only walls
 dropped_strays drop_strays(working_mesh& mesh, double share, bool is_sheet,
-                           walls inner = walls::go);
+                           walls inner = walls::drop);
 
 }  // namespace treeform::detail::repair

@@ -42,15 +42,15 @@ edge_tally tally_edges(const working_mesh& mesh) {
         const std::size_t along = count_along(mesh, edge);
         edge_tally& tally = found[chunk];
         tally.border += count == 1;
-        tally.disagreeing += count == 2 && along != 1;
-        tally.crowded += count > 2;
+        tally.misoriented += count == 2 && along != 1;
+        tally.nonmanifold += count > 2;
         tally.unbalanced += 2 * along != count;
     });
     edge_tally all;
     for (const edge_tally& part : found) {
         all.border += part.border;
-        all.disagreeing += part.disagreeing;
-        all.crowded += part.crowded;
+        all.misoriented += part.misoriented;
+        all.nonmanifold += part.nonmanifold;
         all.unbalanced += part.unbalanced;
     }
     return all;

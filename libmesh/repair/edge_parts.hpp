@@ -11,8 +11,8 @@ namespace treeform::detail::repair {
 
 struct edge_tally {
     std::uint64_t border = 0;       ///< edges of one face
-    std::uint64_t disagreeing = 0;  ///< edges of two inconsistently oriented faces
-    std::uint64_t crowded = 0;      ///< edges of more than two faces
+    std::uint64_t misoriented = 0;  ///< edges of two inconsistently oriented faces
+    std::uint64_t nonmanifold = 0;  ///< edges of more than two faces
     std::uint64_t unbalanced = 0;   ///< edges whose signed face count is not zero
 };
 

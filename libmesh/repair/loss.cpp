@@ -111,11 +111,11 @@ vanished_parts count_vanished(const working_mesh& mesh, std::span<const std::uin
     for (const border_edge& e : border_edges(mesh.points.size(), mesh.faces))
         is_whole[part[e.face]] = 0;
     vanished_parts found;
-    std::vector<std::uint8_t> is_known(part.size(), 0);
+    std::vector<std::uint8_t> is_visited(part.size(), 0);
     for (const std::uint32_t f : gone) {
         const std::uint32_t p = part[f];
-        if (is_known[p] != 0) continue;
-        is_known[p] = 1;
+        if (is_visited[p] != 0) continue;
+        is_visited[p] = 1;
         if (lost_of[p] > largest) ++found.lost;
         if (lost_of[p] == 0.0 && is_whole[p] != 0) ++found.within;
     }

@@ -87,7 +87,7 @@ class repairer {
     [[nodiscard]] bool is_in_doubt(const repair_result& made) const {
         const bool is_complete = options_.join && options_.orient && options_.fill &&
                                  options_.resolve && !options_.sheet;
-        if (!is_complete || options_.inside) return false;
+        if (!is_complete || options_.fill_rule) return false;
         progress_callback progress;
         if (options_.progress) progress = [this](double) { return options_.progress(1.0); };
         const double most = is_hopeless_ ? 0.1 : 2.0;  // pairs of each face
@@ -138,13 +138,13 @@ class repairer {
         if (is_manifold_) return;  // nothing to tally
         tally_ = detail::repair::tally_edges(mesh_);
         if (tally_.unbalanced > 0) keep_boundary_of_tetrahedra();
-        if (tally_.crowded > 0 || tally_.disagreeing > 0) {
+        if (tally_.nonmanifold > 0 || tally_.misoriented > 0) {
             did_.repeated = detail::repair::drop_copies(mesh_);
             tally_ = detail::repair::tally_edges(mesh_);
         }
         if (tally_.border == 0) return;
         close_cracks();
-        if (tally_.crowded == 0) return;
+        if (tally_.nonmanifold == 0) return;
         did_.repeated += detail::repair::drop_copies(mesh_);  // that were torn off
         tally_ = detail::repair::tally_edges(mesh_);
     }
@@ -192,18 +192,18 @@ class repairer {
 
     void orient() {
         if (!options_.orient) return;
-        if (tally_.disagreeing > 0 || tally_.crowded > 0)
+        if (tally_.misoriented > 0 || tally_.nonmanifold > 0)
             did_.flipped = detail::repair::make_faces_agree(mesh_);
-        if (tally_.border > 0 || tally_.crowded > 0) {
+        if (tally_.border > 0 || tally_.nonmanifold > 0) {
             detail::repair::dropped_strays dropped = detail::repair::drop_strays(
-                mesh_, options_.strays, options_.sheet, is_by_labels() ? walls::stay : walls::go);
+                mesh_, options_.strays, options_.sheet, is_by_labels() ? walls::keep : walls::drop);
             did_.strays = dropped.faces;
             dropped_walls_ = std::move(dropped.walls);
         }
         if (did_.strays > 0) did_.flipped += detail::repair::make_faces_agree(mesh_);
         if (did_.flipped + did_.strays > 0) tally_ = detail::repair::tally_edges(mesh_);
         is_hopeless_ = detail::repair::is_hopeless(tally_, mesh_.faces.size());
-        if (tally_.crowded == 0 || tally_.unbalanced == 0 || is_hopeless_) return;
+        if (tally_.nonmanifold == 0 || tally_.unbalanced == 0 || is_hopeless_) return;
         did_.flipped += detail::repair::balance_patches(mesh_);
         if (did_.flipped > 0) turned_as_one_ = detail::repair::turned_as_one::shell;
         tally_ = detail::repair::tally_edges(mesh_);
@@ -284,7 +284,7 @@ class repairer {
     }
 
     [[nodiscard]] fill_rule rule() const {
-        if (options_.inside) return *options_.inside;
+        if (options_.fill_rule) return *options_.fill_rule;
         return closed_->is_outward() ? fill_rule::positive : fill_rule::nonzero;
     }
 
@@ -303,7 +303,7 @@ class repairer {
 
     [[nodiscard]] boolean_options how_to_resolve() {
         fillings_ = mesh_.fillings();
-        return {.inside = rule(),
+        return {.fill_rule = rule(),
                 .precision = options_.precision,
                 .max_displacement = options_.max_displacement,
                 .keep_cuts = options_.keep_cuts,
@@ -427,7 +427,7 @@ class repairer {
             // What was closed had a volume: a fin has area, but none of that.
             before = did_.volume_before;
             const boolean_result meant =
-                detail::boolean::resolve_by_union(mesh_.view(), {.inside = fill_rule::nonzero})
+                detail::boolean::resolve_by_union(mesh_.view(), {.fill_rule = fill_rule::nonzero})
                     .made;
             if (meant.certificate) before = signed_volume(meant.mesh);
             after = did_.volume_after;

@@ -89,7 +89,7 @@ resolved_mesh by_mode(mesh_view mesh, resolve_mode mode, const resolve_options& 
         detail::base::check_finite_faces("resolve_self_intersections", mesh);
         return from(mesh, detail::repair::remove_faces(mesh, options));
     }
-    const boolean_options as_boolean{.inside = options.inside,
+    const boolean_options as_boolean{.fill_rule = options.fill_rule,
                                      .precision = options.precision,
                                      .max_displacement = options.max_displacement,
                                      .keep_cuts = options.keep_cuts,

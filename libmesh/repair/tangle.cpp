@@ -9,7 +9,7 @@ namespace treeform::detail::repair {
 
 bool is_hopeless(const edge_tally& tally, std::size_t face_count) {
     constexpr std::uint64_t most = 10;  // faces for each such edge
-    const std::uint64_t simple = std::min(tally.unbalanced, tally.border + tally.disagreeing);
+    const std::uint64_t simple = std::min(tally.unbalanced, tally.border + tally.misoriented);
     return most * (tally.unbalanced - simple) > face_count && face_count > 1000;
 }
 

@@ -108,12 +108,12 @@ class rounding {
         }
         const state start = now();
         cut_rounds(all, options_.solid);
-        if (options_.solid && goes_on_from(start)) flat_rounds(all);
-        if (options_.solid && goes_on_from(start)) cut_rounds(all, false);
+        if (options_.solid && may_retry_from(start)) flat_rounds(all);
+        if (options_.solid && may_retry_from(start)) cut_rounds(all, false);
     }
 
     /// Whether another attempt is made; then all is as it was.
-    bool goes_on_from(const state& start) {
+    bool may_retry_from(const state& start) {
         if (result_.certificate || is_cancelled()) return false;
         go_back(start);
         return true;

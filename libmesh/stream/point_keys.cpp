@@ -37,7 +37,7 @@ void refuse_lists(const mesh_file& header) {
 point_keys::point_keys(const mesh_file& header, const weld_stream_options& o) {
     const weld_options asked{.same = o.same,
                              .keep_seams = o.keep_seams,
-                             .across = o.across,
+                             .ignored_seams = o.ignored_seams,
                              .keep = o.keep,
                              .keep_by = o.keep_by,
                              .order_by = o.order_by,

@@ -17,12 +17,12 @@ void placed_points::put(points_view points) {
     std::memcpy(file_->data() + size_, points.data(), points.size_bytes());
     size_ += points.size_bytes();
     if ((held_ += points.size_bytes()) < held_at_most) return;
-    file_->give_back();
+    file_->release_memory();
     held_ = 0;
 }
 
 point3 placed_points::at(std::uint32_t point) {
-    if (budget_.is_spent()) file_->give_back();
+    if (budget_.is_spent()) file_->release_memory();
     point3 p;
     std::memcpy(&p, file_->data() + point * sizeof p, sizeof p);
     return p;

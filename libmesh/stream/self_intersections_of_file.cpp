@@ -53,9 +53,9 @@ shared_search& shared_search::operator=(shared_search&&) noexcept = default;
 status shared_search::scatter() {
     state& s = *state_;
     return state::until_cancelled([&] {
-        if (s.search.is_known()) return;
+        if (s.search.has_tiles()) return;
         const held_alone lock(s.folder, s.pace);
-        if (s.search.is_known()) return;  // another process was quicker
+        if (s.search.has_tiles()) return;  // another process was quicker
         if (s.search.has_plan()) s.folder.fail_with_other_tiles();
         s.search.scatter();
     });
@@ -63,7 +63,7 @@ status shared_search::scatter() {
 
 std::size_t shared_search::tiles() {
     state& s = *state_;
-    if (!s.search.is_known()) s.folder.fail_without_tiles();
+    if (!s.search.has_tiles()) s.folder.fail_without_tiles();
     return s.search.tiles();
 }
 
@@ -89,7 +89,7 @@ bool shared_search::accepts(const fs::path& input, std::string_view format) {
     const auto found = detail::io::detect(in, detail::io::plain_extension(format),
                                           detail::io::extension_of(input));
     return found.kind == detail::io::file_kind::stl_binary ||
-           (found.kind == detail::io::file_kind::ply && detail::io::has_rows_to_look_at(in));
+           (found.kind == detail::io::file_kind::ply && detail::io::has_readable_rows(in));
 }
 
 stream_search_result self_intersections_of_file(const fs::path& input,

@@ -54,7 +54,7 @@ class tile_faces {
     /// Collective: every rank must call this and `weld`.
     /// \throws io_error for the first error in the file; cancelled
     void take_survey(cloud_survey& survey);
-    /// Reads the points and the rows once, each rank its share. `rows` as for `give_back`.
+    /// Reads the points and the rows once, each rank its share. `rows` as for `write_outputs`.
     /// \throws io_error, cancelled
     void weld(tiles_welded& welded, kept_rows* rows, weld_stream_result& made);
     /// Sets the number of rows in `head` that `give` will write. With `all`, all faces are kept.
@@ -137,9 +137,9 @@ void remove_leftovers(const work_folder& folder);
 ///
 /// \throws io_error, also if the input changed meanwhile; cancelled; std::logic_error unless input
 ///         points = kept + removed points
-void give_back(cancellable_progress& pace, const tile_task& task,
-               const weld_stream_outputs& outputs, tile_steps& steps, tiles_welded& welded,
-               kept_rows* rows, tile_faces* faces, const work_folder& folder,
-               weld_stream_result& made);
+void write_outputs(cancellable_progress& pace, const tile_task& task,
+                   const weld_stream_outputs& outputs, tile_steps& steps, tiles_welded& welded,
+                   kept_rows* rows, tile_faces* faces, const work_folder& folder,
+                   weld_stream_result& made);
 
 }  // namespace treeform::detail::stream

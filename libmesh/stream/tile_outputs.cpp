@@ -426,10 +426,10 @@ void remove_leftovers(const work_folder& folder) {
     }
 }
 
-void give_back(cancellable_progress& pace, const tile_task& task,
-               const weld_stream_outputs& outputs, tile_steps& steps, tiles_welded& welded,
-               kept_rows* rows, tile_faces* faces, const work_folder& folder,
-               weld_stream_result& made) {
+void write_outputs(cancellable_progress& pace, const tile_task& task,
+                   const weld_stream_outputs& outputs, tile_steps& steps, tiles_welded& welded,
+                   kept_rows* rows, tile_faces* faces, const work_folder& folder,
+                   weld_stream_result& made) {
     state_writer state;
     state.number(outputs.unfinished.size());
     for (const fs::path& path : outputs.unfinished) state.text(fs::absolute(path).string());

@@ -161,7 +161,7 @@ std::size_t tile_search::tile_count(std::uint64_t faces) const {
 
 void tile_search::scatter() {
     const bool had_plan = has_plan();
-    if (all_.sum(is_known() ? 0 : 1) == 0) return;
+    if (all_.sum(has_tiles() ? 0 : 1) == 0) return;
     forget_tiles();
     if (all_.is_root()) folder_.clear();
     all_.barrier();
@@ -246,12 +246,10 @@ bool tile_search::share_rows(const io::face_rows& rows, bool in_turn,
     }
     in_turn = all_.sum(parts.empty() ? 1 : 0) > 0;
     if (in_turn)
-        parts = rows_in_turn(all_,
-                             {.path = input_,
-                              .format = options_.format,
-                              .use = io::row_use::looked_at,
-                              .known = known},
-                             [&](const io::row_block&) { pace_.check(); });
+        parts = rows_in_turn(
+            all_,
+            {.path = input_, .format = options_.format, .use = io::row_use::read, .known = known},
+            [&](const io::row_block&) { pace_.check(); });
     const std::size_t next = all_.rank() + 1;
     rows.go_to(parts[next - 1],
                next == all_.size() ? std::nullopt : std::optional(parts[next].row));

@@ -62,7 +62,7 @@ class tile_search {
     /// \throws io_error, cancelled
     void scatter();
     /// Whether `scatter` was completed, by this or another process.
-    [[nodiscard]] bool is_known() { return tiles() > 0 || take_over(); }
+    [[nodiscard]] bool has_tiles() { return tiles() > 0 || load_plan(); }
     /// Whether the folder has tiles, even of another input or other options.
     [[nodiscard]] bool has_plan() const;
     [[nodiscard]] std::size_t tiles() const { return faces_.size(); }
@@ -82,7 +82,7 @@ class tile_search {
 
     [[nodiscard]] std::string identity() const;
     void store_plan() const;
-    [[nodiscard]] bool take_over();
+    [[nodiscard]] bool load_plan();
     /// The stored result of a tile; none if it is not finished. With `check`, the checksums of its
     /// files are verified.
     [[nodiscard]] std::optional<tile_found> load(std::size_t tile, bool check) const;

@@ -99,7 +99,7 @@ void tile_search::store_plan() const {
 
 bool tile_search::has_plan() const { return folder_.load(search_name).has_value(); }
 
-bool tile_search::take_over() {
+bool tile_search::load_plan() {
     auto state = folder_.load(search_name);
     if (!state || state->text() != identity()) return false;
     stream_search_result survey = load_search(*state);

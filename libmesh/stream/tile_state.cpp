@@ -65,7 +65,7 @@ void tile_steps::take_survey() {
         return;
     }
     check_before_survey();
-    if (!task_.options.shared && take_over()) {
+    if (!task_.options.shared && resume_tiles()) {
         unpack();
     } else {
         const bool anew = has_plan();
@@ -154,7 +154,7 @@ bool tile_steps::find_tile(std::size_t t, bool check) {
     return true;
 }
 
-bool tile_steps::know() {
+bool tile_steps::find_plan() {
     scattered_ = load_plan();
     return scattered_;
 }
@@ -174,7 +174,7 @@ bool tile_steps::finds_tiles() {
 }
 
 /// Of several ranks, each looks at some tiles.
-bool tile_steps::take_over() {
+bool tile_steps::resume_tiles() {
     bool whole = load_plan();
     const std::size_t all = whole ? tiles_.size() : 0;
     state_writer mine;

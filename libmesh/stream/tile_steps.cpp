@@ -445,10 +445,10 @@ void tile_steps::weld_crowded(std::size_t t, tile_files& files) {
     const auto each = [&](const auto& take) {
         each_point_of(t, files, [&](std::span<const tile_point> points, numbers) { take(points); });
     };
-    each([&](auto points) { weld.look(points); });
-    each([&](auto points) { weld.link(points); });
+    each([&](auto points) { weld.find_cubes(points); });
+    each([&](auto points) { weld.link_cubes(points); });
     each([&](auto points) {
-        weld.settle(points, files.result);
+        weld.append_result(points, files.result);
         files.write();
     });
 }

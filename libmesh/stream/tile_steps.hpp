@@ -140,7 +140,7 @@ class tile_steps {
     [[nodiscard]] cloud_survey& survey() { return survey_.cloud; }
     /// Whether the points of tiles were written, by this or another process. Does not check the
     /// files.
-    [[nodiscard]] bool has_tiles() { return scattered_ || know(); }
+    [[nodiscard]] bool has_tiles() { return scattered_ || find_plan(); }
     /// Whether the folder has tiles, even of another cloud or other options.
     [[nodiscard]] bool has_plan() const;
     /// Reads the cloud again, and writes the points of each tile.
@@ -247,12 +247,12 @@ class tile_steps {
     void say_plan();
 
     void share_cuts();
-    [[nodiscard]] bool know();
+    [[nodiscard]] bool find_plan();
     void survey_tiles();
     [[nodiscard]] bool load_plan();
     /// Whether the folder has tiles to resume from, judged by file sizes.
     [[nodiscard]] bool finds_tiles();
-    [[nodiscard]] bool take_over();
+    [[nodiscard]] bool resume_tiles();
     [[nodiscard]] bool find_tile(std::size_t t, bool check);
     void count_finished();
     /// With `check`, the checksums of its files are verified.

@@ -48,7 +48,7 @@ std::string identity_of(const cloud_inputs& inputs, const weld_stream_options& o
     }
     state.text(o.order_by);
     state.numbers(o.highest_first, o.relative, o.as_las, o.keep_seams);
-    for (const std::string& name : o.across) state.text(name);
+    for (const std::string& name : o.ignored_seams) state.text(name);
     for (const auto* grid : {&o.las_scale, &o.las_offset})
         for (const double x : grid->value_or(std::array<double, 3>{})) state.real(x);
     return state.bytes();
@@ -187,8 +187,8 @@ struct shared_weld::state {
             as_read.welded = {whole,
                               {.precision = outputs.welded->second.precision, .keep_names = true}};
             weld_stream_result of_whole;
-            detail::stream::give_back(pace, task, as_read, steps, *welded, rows ? &*rows : nullptr,
-                                      nullptr, folder, of_whole);
+            detail::stream::write_outputs(pace, task, as_read, steps, *welded,
+                                          rows ? &*rows : nullptr, nullptr, folder, of_whole);
             input = {.paths = {whole}};
         }
         // What has been enough so far is so for fewer points, be their rows somewhat longer.
@@ -289,9 +289,9 @@ status shared_weld::weld() {
 status shared_weld::write(const weld_stream_outputs& outputs) {
     return state_->until_cancelled([&] {
         state& s = *state_;
-        detail::stream::give_back(s.pace, s.task, outputs, s.steps, *s.welded,
-                                  s.rows ? &*s.rows : nullptr, s.faces ? &*s.faces : nullptr,
-                                  s.folder, s.made);
+        detail::stream::write_outputs(s.pace, s.task, outputs, s.steps, *s.welded,
+                                      s.rows ? &*s.rows : nullptr, s.faces ? &*s.faces : nullptr,
+                                      s.folder, s.made);
         s.count_mergeable(outputs);
     });
 }

@@ -68,7 +68,7 @@ struct crowded_chain::state {
         return lowest;
     }
 
-    void look(const tile_point& p) {
+    void find_cubes(const tile_point& p) {
         const cube at = cube_of(p.at);
         std::uint32_t c = find(p.at, at);
         if (c == no_crowd) {
@@ -131,7 +131,7 @@ struct crowded_chain::state {
         }
     }
 
-    void link(const tile_point& p) {
+    void link_cubes(const tile_point& p) {
         const std::uint32_t b = find(p.at, cube_of(p.at));
         bool matters = false;
         for (std::size_t k = open_of[b]; k < open_of[b + 1]; ++k) {
@@ -169,9 +169,9 @@ struct crowded_chain::state {
     }
 
     /// Crowds come by ascending numbers of their firsts, so the lowest of a set has the lowest.
-    void settle(const tile_point& p, tile_result& out) {
+    void append_result(const tile_point& p, tile_result& out) {
         const crowd& lowest = crowds[sets->root(find(p.at, cube_of(p.at)))];
-        settle_in_chain(p, {lowest.id, lowest.first, lowest.elsewhere}, out);
+        append_chain_point(p, {lowest.id, lowest.first, lowest.elsewhere}, out);
     }
 
     reach within;
@@ -197,21 +197,21 @@ crowded_chain::~crowded_chain() = default;
 crowded_chain::crowded_chain(crowded_chain&&) noexcept = default;
 crowded_chain& crowded_chain::operator=(crowded_chain&&) noexcept = default;
 
-void crowded_chain::look(std::span<const tile_point> points) {
-    for (const tile_point& p : points) state_->look(p);
+void crowded_chain::find_cubes(std::span<const tile_point> points) {
+    for (const tile_point& p : points) state_->find_cubes(p);
 }
 
-void crowded_chain::link(std::span<const tile_point> points) {
+void crowded_chain::link_cubes(std::span<const tile_point> points) {
     if (!state_->sets) state_->join_firsts();
-    for (const tile_point& p : points) state_->link(p);
+    for (const tile_point& p : points) state_->link_cubes(p);
 }
 
-void crowded_chain::settle(std::span<const tile_point> points, tile_result& out) {
+void crowded_chain::append_result(std::span<const tile_point> points, tile_result& out) {
     if (!state_->joined) {
         state_->join_kept();
         state_->joined = true;
     }
-    for (const tile_point& p : points) state_->settle(p, out);
+    for (const tile_point& p : points) state_->append_result(p, out);
 }
 
 }  // namespace treeform::detail::weld

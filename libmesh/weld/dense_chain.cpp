@@ -131,11 +131,11 @@ class chain_finder {
 
     std::vector<std::uint32_t> run() {
         sort();
-        if (!go_on(0)) return {};
+        if (!may_continue(0)) return {};
         find_cells();
         base::union_find sets(blocks_.size());
         for (std::size_t first = 0; first < cells(); first += cells_a_call) {
-            if (!go_on(first)) return {};
+            if (!may_continue(first)) return {};
             const std::size_t count = std::min(cells_a_call, cells() - first);
             for_chunks(count, 4, [&](std::size_t begin, std::size_t end, std::size_t) {
                 scratch space;
@@ -162,7 +162,7 @@ class chain_finder {
         std::vector<std::uint32_t> of_other{};
     };
 
-    [[nodiscard]] bool go_on(std::size_t cells_done) const {
+    [[nodiscard]] bool may_continue(std::size_t cells_done) const {
         return !options_->progress || options_->progress(static_cast<double>(cells_done) /
                                                          static_cast<double>(cells_.size() + 1));
     }

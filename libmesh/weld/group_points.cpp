@@ -111,12 +111,14 @@ point_groups detail::weld::find_groups(const char* called, points_view points,
             stopped = stopped || !given.progress(furthest);
             return !stopped;
         };
-    const auto go_on = [&](double done) { return !options.progress || options.progress(done); };
+    const auto may_continue = [&](double done) {
+        return !options.progress || options.progress(done);
+    };
 
     point_groups result;
     numbers& first_of = result.group_of_point;
     const bool by_first = !options.chain;
-    if (!go_on(0.0)) return {{}, {}, status::cancelled};
+    if (!may_continue(0.0)) return {{}, {}, status::cancelled};
     if (options.tolerance == 0.0) {
         first_of = by_equality(points, options);
     } else {
@@ -131,9 +133,9 @@ point_groups detail::weld::find_groups(const char* called, points_view points,
             first_of = by_first ? detail::weld::dense_leaders(points, options)
                                 : detail::weld::dense_chains(points, options);
     }
-    if (stopped || !go_on(0.95)) return {{}, {}, status::cancelled};
+    if (stopped || !may_continue(0.95)) return {{}, {}, status::cancelled};
     result.first_of_group = detail::weld::number_groups(first_of);
-    if (!go_on(1.0)) return {{}, {}, status::cancelled};
+    if (!may_continue(1.0)) return {{}, {}, status::cancelled};
     return result;
 }
 

@@ -65,12 +65,12 @@ std::vector<weld_condition> seam_conditions(const attributes& properties) {
 }
 
 std::vector<weld_condition> kept_seams(const attributes& properties,
-                                       const std::vector<std::string>& across) {
+                                       const std::vector<std::string>& ignored_seams) {
     std::vector<weld_condition> seams = seam_conditions(properties);
-    for (const std::string& name : across) {
+    for (const std::string& name : ignored_seams) {
         const auto let_go = detail::attribute::use_called(name)
                                 ? columns_of(properties, name)
-                                : required(properties, "across", name);
+                                : required(properties, "ignored_seams", name);
         std::erase_if(seams, [&](const weld_condition& c) {
             return std::find(let_go.begin(), let_go.end(), c.property) != let_go.end();
         });
@@ -96,7 +96,7 @@ std::vector<weld_condition> weld_options::conditions(const attributes& propertie
             conditions.push_back({std::move(column), asked.tolerance});
     if (!keep_seams) return conditions;
     const auto asked = static_cast<std::ptrdiff_t>(conditions.size());
-    std::vector<weld_condition> seams = kept_seams(properties, across);
+    std::vector<weld_condition> seams = kept_seams(properties, ignored_seams);
     if (!has_faces) return conditions;
     for (weld_condition& seam : seams)
         if (std::none_of(conditions.begin(), conditions.begin() + asked,

@@ -42,8 +42,8 @@ class chain_in_tile {
         for (; next_ < end; ++next_) {
             const std::uint32_t group = groups_.group_of_point[next_];
             const std::uint32_t lowest = groups_.first_of_group[group];
-            settle_in_chain({tags_[next_], points_[next_]},
-                            {tags_[lowest] >> 2, points_[lowest], elsewhere_[group]}, out);
+            append_chain_point({tags_[next_], points_[next_]},
+                               {tags_[lowest] >> 2, points_[lowest], elsewhere_[group]}, out);
         }
         return next_ < tags_.size();
     }

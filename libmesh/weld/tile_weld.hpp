@@ -324,7 +324,7 @@ struct chain_component {
     bool elsewhere;        ///< some of its points are also in other tiles
 };
 
-inline void settle_in_chain(const tile_point& p, const chain_component& c, tile_result& out) {
+inline void append_chain_point(const tile_point& p, const chain_component& c, tile_result& out) {
     if (p.role() != tile_role::halo) {
         if (p.id() != c.lowest) out.dropped.push_back({p.id(), c.lowest});
         if (c.elsewhere)

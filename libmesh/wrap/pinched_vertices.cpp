@@ -76,17 +76,17 @@ class filling {
 
     std::vector<piece> pieces_of(std::uint32_t v) const {
         std::vector<piece> pieces;
-        std::vector<std::uint8_t> is_known(around_.size(), 0);
+        std::vector<std::uint8_t> is_visited(around_.size(), 0);
         for (std::uint32_t first = 0; first < around_.size(); ++first) {
-            if (is_known[first] != 0) continue;
+            if (is_visited[first] != 0) continue;
             const std::uint8_t kind = space_.is_outside[around_[first]];
             piece found{kind != 0, 0.0, {first}};
-            is_known[first] = 1;
+            is_visited[first] = 1;
             for (std::size_t k = 0; k < found.of.size(); ++k) {
                 found.volume += volume(around_[found.of[k]]);
                 for_neighbors(v, found.of[k], [&](std::uint32_t next) {
-                    if (is_known[next] != 0 || space_.is_outside[around_[next]] != kind) return;
-                    is_known[next] = 1;
+                    if (is_visited[next] != 0 || space_.is_outside[around_[next]] != kind) return;
+                    is_visited[next] = 1;
                     found.of.push_back(next);
                 });
             }

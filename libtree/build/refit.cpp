@@ -135,7 +135,7 @@ double relative_extent(const tree<D>& tree) {
 }
 
 template <std::size_t D>
-std::vector<std::uint32_t> places_of(const tree<D>& tree) {
+std::vector<std::uint32_t> places_in_leaf_order(const tree<D>& tree) {
     std::vector<std::uint32_t> places(tree.size());
     for_chunks(tree.size(), std::size_t{1} << 14,
                [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -147,7 +147,7 @@ std::vector<std::uint32_t> places_of(const tree<D>& tree) {
 
 template double relative_extent(const tree<2>&);
 template double relative_extent(const tree<3>&);
-template std::vector<std::uint32_t> places_of(const tree<2>&);
-template std::vector<std::uint32_t> places_of(const tree<3>&);
+template std::vector<std::uint32_t> places_in_leaf_order(const tree<2>&);
+template std::vector<std::uint32_t> places_in_leaf_order(const tree<3>&);
 
 }  // namespace treeform

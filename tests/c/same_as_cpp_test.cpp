@@ -23,11 +23,11 @@
 
 namespace {
 
-struct give_back {
+struct handle_deleter {
     void operator()(void* what) const { treeform_free(what); }
 };
 template <class T>
-using handle = std::unique_ptr<T, give_back>;
+using handle = std::unique_ptr<T, handle_deleter>;
 
 /// The result of a call that ends with `code`.
 template <class T, class Call>

@@ -19,10 +19,12 @@ static void test_clashes(void) {
     options.clearance = 0.5;
     OK(treeform_clash(parts, 3, &options, &clashes));
     CHECK(clashes->count == 2 && clashes->clashes == 2 && clashes->counts[2] == 1);
-    CHECK(clashes->pairs[0].how == TREEFORM_PENETRATING && near(clashes->pairs[0].volume, 0.25));
+    CHECK(clashes->pairs[0].relation == TREEFORM_RELATION_PENETRATING &&
+          near(clashes->pairs[0].volume, 0.25));
     CHECK(near(clashes->pairs[0].depth, 0.25) && clashes->pairs[0].region_count > 0);
     CHECK(clashes->pairs[0].regions[0].face_count_a > 0 && isnan(clashes->pairs[0].on_a[0]));
-    CHECK(clashes->pairs[1].how == TREEFORM_TOO_CLOSE && clashes->pairs[1].distance == 0.25);
+    CHECK(clashes->pairs[1].relation == TREEFORM_RELATION_CLOSER_THAN_CLEARANCE &&
+          clashes->pairs[1].distance == 0.25);
     CHECK(clashes->pairs[1].on_b[0] == 2.0 && isnan(clashes->pairs[1].volume));
     treeform_free(clashes);
     options.ignored = ignored;
@@ -68,7 +70,8 @@ static void test_poses(void) {
     CHECK(result->pose_count == 2 && result->clashing == 1);
     CHECK(result->in_collision[0] == 0 && result->in_collision[1] == 1);
     CHECK(result->begin[0] == 0 && result->begin[1] == 0 && result->begin[2] == 1);
-    CHECK(result->clashes[0].a == 0 && result->clashes[0].how == TREEFORM_PENETRATING);
+    CHECK(result->clashes[0].a == 0 &&
+          result->clashes[0].relation == TREEFORM_RELATION_PENETRATING);
     treeform_free(result);
     poses[12] = (double)NAN;
     INVALID("pose 0", treeform_check_poses(parts, 2, poses, 2, &options, &result));
@@ -104,7 +107,7 @@ static void test_bodies(void) {
     CHECK(is(bodies->bodies[0].label, "stack.obj: low") && bodies->bodies[1].face_count == 12);
     CHECK(bodies->bodies[1].face_in_file[0] == 12 && bodies->meshes[1] == bodies->bodies[1].mesh);
     OK(treeform_clash(bodies->meshes, bodies->count, NULL, &clashes));
-    CHECK(clashes->count == 1 && clashes->pairs[0].how == TREEFORM_MEETING);
+    CHECK(clashes->count == 1 && clashes->pairs[0].relation == TREEFORM_RELATION_TOUCHING);
     treeform_free(clashes);
     treeform_free(bodies);
     OK(treeform_bodies_of(inputs, label, 1, TREEFORM_BODY_FILE, &bodies));

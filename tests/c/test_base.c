@@ -5,26 +5,26 @@
 
 static void test_options_of_other_sizes(void) {
     treeform_mesh* const mesh = cube(0, 0, 0, 1);
-    treeform_intersections_options options;
+    treeform_intersection_options options;
     treeform_pairs* pairs = NULL;
     /* One that ends before `kinds`, as an older program has it: all kinds are looked for. */
     memset(&options, 0, sizeof options);
-    treeform_intersections_options_init(&options, 2 * sizeof(size_t));
-    CHECK(options.size == 2 * sizeof(size_t) && options.kinds == 0);
+    treeform_intersection_options_init(&options, 2 * sizeof(size_t));
+    CHECK(options.struct_size == 2 * sizeof(size_t) && options.kinds == 0);
     OK(treeform_self_intersections(mesh, &options, &pairs));
     treeform_free(pairs);
     /* Never initialized, or from a later version. */
-    options.size = 0;
+    options.struct_size = 0;
     INVALID("options of 0 bytes", treeform_self_intersections(mesh, &options, &pairs));
-    options.size = sizeof options + 8;
+    options.struct_size = sizeof options + 8;
     INVALID("init", treeform_self_intersections(mesh, &options, &pairs));
     CHECK(pairs == NULL);
     /* Init writes no more than it is told, and takes a null pointer. */
     memset(&options, 0x55, sizeof options);
-    treeform_intersections_options_init(&options, 2 * sizeof(size_t));
+    treeform_intersection_options_init(&options, 2 * sizeof(size_t));
     CHECK(options.limit == 0x5555555555555555u);
-    treeform_intersections_options_init(&options, 1);
-    treeform_intersections_options_init(NULL, sizeof options);
+    treeform_intersection_options_init(&options, 1);
+    treeform_intersection_options_init(NULL, sizeof options);
     treeform_free(mesh);
 }
 

@@ -6,7 +6,7 @@
 
 static void test_of_one(void) {
     treeform_mesh* mesh = model("data/two_spheres.stl");
-    treeform_intersections_options options;
+    treeform_intersection_options options;
     treeform_pairs* pairs = NULL;
     treeform_regions* regions = NULL;
     treeform_segments* segments = NULL;
@@ -38,7 +38,7 @@ static void test_of_one(void) {
     INVALID("kind is 7", treeform_intersection_curves(mesh, &wrong, 1, &segments));
     treeform_free(paths);
     treeform_free(pairs);
-    treeform_intersections_options_init(&options, sizeof options);
+    treeform_intersection_options_init(&options, sizeof options);
     options.limit = 3;
     OK(treeform_self_intersections(mesh, &options, &pairs));
     CHECK(pairs->count == 3 && pairs->counts[TREEFORM_CROSSING] == 78);
@@ -53,7 +53,7 @@ static void test_of_one(void) {
     options.within = 1;
     options.between = 1;
     INVALID("", treeform_self_intersections(mesh, &options, &pairs));
-    treeform_intersections_options_init(&options, sizeof options);
+    treeform_intersection_options_init(&options, sizeof options);
     options.progress = stop;
     options.progress_data = &calls;
     ENDS(TREEFORM_CANCELLED, "cancelled", treeform_self_intersections(mesh, &options, &pairs));
@@ -65,7 +65,7 @@ static void test_of_two(void) {
     treeform_mesh* a = cube(0, 0, 0, 1);
     treeform_mesh* b = cube(0.5, 0.5, 0.5, 1);
     double moves[24] = {1, 0, 0, 9, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-    treeform_intersections_options options;
+    treeform_intersection_options options;
     treeform_pairs* pairs = NULL;
     treeform_indices* faces = NULL;
     treeform_box box = {{-1, -1, 0.5}, {2, 2, 0.6}};
@@ -74,7 +74,7 @@ static void test_of_two(void) {
     OK(treeform_intersections(a, b, NULL, &pairs));
     CHECK(pairs->count > 0 && pairs->count == pairs->counts[0] + pairs->counts[5]);
     treeform_free(pairs);
-    treeform_intersections_options_init(&options, sizeof options);
+    treeform_intersection_options_init(&options, sizeof options);
     options.move_b = moves;
     OK(treeform_intersections(a, b, &options, &pairs));
     CHECK(pairs->count == 0);

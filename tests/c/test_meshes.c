@@ -98,7 +98,7 @@ static void test_clouds_and_sets(void) {
     OK(treeform_mesh_is_cloud(set->meshes[1], &is_cloud));
     CHECK(is_cloud == 1);
     OK(treeform_measure(set->meshes[0], set->meshes[1], NULL, &how));
-    CHECK(how->how == TREEFORM_MEETING && how->distance == 0.0);
+    CHECK(how->relation == TREEFORM_RELATION_TOUCHING && how->distance == 0.0);
     treeform_free(how);
     treeform_free(set);
     meshes[1] = NULL;

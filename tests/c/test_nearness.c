@@ -108,7 +108,7 @@ static void test_relations(void) {
     treeform_search_effort effort;
     int calls = 0;
     OK(treeform_measure(a, apart, NULL, &relation));
-    CHECK(relation->how == TREEFORM_SEPARATE && relation->distance == 2.0);
+    CHECK(relation->relation == TREEFORM_RELATION_SEPARATE && relation->distance == 2.0);
     CHECK(relation->on_a[0] == 1.0 &&
           near(relation->barycentric_a[0] + relation->barycentric_a[1] + relation->barycentric_a[2],
                1.0));
@@ -121,11 +121,11 @@ static void test_relations(void) {
     options.progress_data = &calls;
     ENDS(TREEFORM_CANCELLED, "", treeform_measure(a, b, &options, &relation));
     OK(treeform_relate(a, b, TREEFORM_BY_COORDINATES, &how));
-    CHECK(how == TREEFORM_PENETRATING);
+    CHECK(how == TREEFORM_RELATION_PENETRATING);
     INVALID("vertices", treeform_relate(a, b, 2, &how));
     treeform_measure_options_init(&options, sizeof options);
     OK(treeform_penetration_depth(a, b, &options, &depth, move, &effort));
-    CHECK(effort.pairs > 0 && effort.pairs < effort.bound && effort.cut == 0);
+    CHECK(effort.pairs > 0 && effort.pairs < effort.bound && effort.skipped_candidates == 0);
     CHECK(near(depth, 0.25) && near(move[0], -0.25));
     OK(treeform_penetration_depth(a, apart, NULL, &depth, move, NULL));
     CHECK(depth == 0.0 && move[0] == 0.0);

@@ -21,16 +21,16 @@ static void test_moves(void) {
     fixed[1] = other;
     OK(treeform_slide(moving, fixed, 2, down, NULL, &placement));
     CHECK(placement->end == TREEFORM_END_CONTACT && placement->travel == 4.0);
-    CHECK(placement->at_place == TREEFORM_MEETING && placement->points[2] == 1.0);
+    CHECK(placement->relation == TREEFORM_RELATION_TOUCHING && placement->points[2] == 1.0);
     CHECK(placement->nearest_fixed == 0 && placement->nearest->distance == 0.0);
     CHECK(placement->contact_listed > 0 && placement->contacts[0].fixed == 0);
     CHECK(placement->matrix[11] == -4.0 && is(placement->message, ""));
     CHECK(placement->point_count == 8 && isnan(placement->bed));
     OK(treeform_find_face_relations(moving, fixed, 2, placement, &faces));
-    CHECK(faces->moving_count == 12 && faces->moving[0] == TREEFORM_MEETING &&
-          faces->moving[2] == TREEFORM_SEPARATE);
+    CHECK(faces->moving_count == 12 && faces->moving[0] == TREEFORM_RELATION_TOUCHING &&
+          faces->moving[2] == TREEFORM_RELATION_SEPARATE);
     CHECK(faces->fixed_count == 2 && faces->fixed[1] == NULL &&
-          faces->fixed[0][2] == TREEFORM_MEETING);
+          faces->fixed[0][2] == TREEFORM_RELATION_TOUCHING);
     treeform_free(faces);
     INVALID("not of these meshes",
             treeform_find_face_relations(moving, fixed, 0, placement, &faces));
@@ -39,7 +39,7 @@ static void test_moves(void) {
     options.clearance = 0.125;
     OK(treeform_mesh_set_create(fixed, 2, &set));
     OK(treeform_slide(moving, set->meshes, 2, down, &options, &placement));
-    CHECK(near(placement->travel, 3.875) && placement->at_place == TREEFORM_CLEAR);
+    CHECK(near(placement->travel, 3.875) && placement->relation == TREEFORM_RELATION_CLEAR);
     treeform_free(placement);
     treeform_free(set);
     options.max_travel = 1.0;
@@ -79,7 +79,7 @@ static void test_other_moves(void) {
     treeform_free(placement);
     INVALID("", treeform_drop(moving, NULL, 0, up, NULL, &placement));
     OK(treeform_mate(moving, fixed, 1, NULL, &placement));
-    CHECK(near(placement->travel, 4.0) && placement->at_place == TREEFORM_MEETING);
+    CHECK(near(placement->travel, 4.0) && placement->relation == TREEFORM_RELATION_TOUCHING);
     treeform_free(placement);
     treeform_place_options_init(&options, sizeof options);
     options.clearance = 0.5;
@@ -87,13 +87,13 @@ static void test_other_moves(void) {
     CHECK(placement->end == TREEFORM_END_MOVED_APART && placement->travel > 0.5);
     treeform_free(placement);
     OK(treeform_measure_among(inside, fixed, 1, NULL, &placement));
-    CHECK(placement->at_place == TREEFORM_PENETRATING && placement->contact_count > 0);
+    CHECK(placement->relation == TREEFORM_RELATION_PENETRATING && placement->contact_count > 0);
     treeform_free(placement);
     OK(treeform_find_features(moving, TREEFORM_PLANE, NULL, &of_moving));
     OK(treeform_find_features(base, TREEFORM_PLANE, NULL, &of_fixed));
     OK(treeform_mate_features(moving, fixed, 1, of_moving->features, of_fixed->features, NULL,
                               &placement));
-    CHECK(placement->at_place == TREEFORM_MEETING && near(placement->offset, 0.0));
+    CHECK(placement->relation == TREEFORM_RELATION_TOUCHING && near(placement->offset, 0.0));
     treeform_free(placement);
     INVALID("of_fixed is null",
             treeform_mate_features(moving, fixed, 1, of_moving->features, NULL, NULL, &placement));
@@ -196,15 +196,15 @@ static void test_pack(void) {
     parts[0] = a;
     parts[1] = b;
     treeform_pack_options_init(&options, sizeof options);
-    options.plate[0] = 4.0;
-    options.plate[1] = 4.0;
+    options.size[0] = 4.0;
+    options.size[1] = 4.0;
     options.spacing = 0.5;
     OK(treeform_pack(parts, 2, &options, &packing));
     CHECK(packing->part_count == 2 && packing->plates_used == 1 && packing->not_placed_count == 0);
     CHECK(packing->parts[1].placed == 1 && packing->parts[1].point_count == 8);
     treeform_free(packing);
-    options.plate[0] = 1.5;
-    options.plate[1] = 1.5;
+    options.size[0] = 1.5;
+    options.size[1] = 1.5;
     options.tries = 1;
     ENDS(TREEFORM_NO_PLACE, "1 of 2", treeform_pack(parts, 2, &options, &packing));
     CHECK(packing && packing->not_placed_count == 1);

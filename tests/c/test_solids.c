@@ -109,8 +109,8 @@ static void test_booleans(void) {
     options.face_groups = cube_faces;
     options.face_group_count = 5;
     INVALID("face groups", treeform_unite(a, b, &options, &result));
-    options.inside = 3;
-    INVALID("inside is 3", treeform_unite(a, b, &options, &result));
+    options.fill_rule = 3;
+    INVALID("fill_rule is 3", treeform_unite(a, b, &options, &result));
     treeform_boolean_options_init(&options, sizeof options);
     options.progress = stop;
     options.progress_data = &calls;
@@ -223,8 +223,8 @@ static void test_repair(void) {
     options.gap = -1.0;
     INVALID("", treeform_repair(mesh, &options, &result));
     treeform_repair_options_init(&options, sizeof options);
-    options.inside = 3;
-    INVALID("inside is 3", treeform_repair(mesh, &options, &result));
+    options.fill_rule = 3;
+    INVALID("fill_rule is 3", treeform_repair(mesh, &options, &result));
     treeform_repair_options_init(&options, sizeof options);
     options.fill = 0;
     ENDS(TREEFORM_NOT_CERTIFIED, "", treeform_repair(mesh, &options, &result));

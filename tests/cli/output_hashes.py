@@ -113,8 +113,8 @@ symmetric-difference/off pairs  symmetric-difference {a} {b} --matrix 2:{m} -o o
 split/ply              pairs   split {a} {b} --matrix 2:{m} -o out.ply --curves curves.ply
 expr=b-a/glb           pairs   --expr b-a {a} {b} --matrix 2:{m} -o out.glb --source s
 simplify/obj           pairs   union {a} {b} --matrix 2:{m} --simplify -o out.obj
-inside=odd             pairs   union {a} {b} --matrix 2:{m} --inside odd -o out.ply
-inside=positive        pairs   difference {a} {b} --matrix 2:{m} --inside positive -o out.ply \
+fill-rule=even-odd     pairs   union {a} {b} --matrix 2:{m} --fill-rule even-odd -o out.ply
+fill-rule=positive     pairs   difference {a} {b} --matrix 2:{m} --fill-rule positive -o out.ply \
                                --max-move 0
 check/pair             pairs   --check {a} {b} --matrix 2:{m}
 page                   pairs   union {a} {b} --matrix 2:{m} -n --html page.html --png p.png --png-size \
@@ -124,9 +124,9 @@ self/stl               all     union {f} -o out.stl
 self/ply               small   union {f} -o out.ply --precision double
 self/obj               small   union {f} -o out.obj --max-move 0
 self/check             all     --check {f}
-self/check=odd         small   --check {f} --inside odd
-self/odd               small   union {f} --inside odd -o out.ply
-self/positive          small   union {f} --inside positive -o out.ply
+self/check=even-odd    small   --check {f} --fill-rule even-odd
+self/even-odd          small   union {f} --fill-rule even-odd -o out.ply
+self/positive          small   union {f} --fill-rule positive -o out.ply
 self/simplify          all     union {f} --simplify -o out.ply
 self/split             small   split {f} -o out.ply
 self/open              small   intersection {f} made/box.obj --accept-open -o out.ply
@@ -173,8 +173,8 @@ keep=last              small   {f} -t 0.5% --keep last -o out.ply
 keep=mean              small   {f} -t 0.5% --keep mean -o out.obj --map map.csv
 keep=mean/chain        small   {f} -t 0.5% --rule chain --keep mean -o out.ply
 keep=max:z             small   {f} -t 0.5% --keep max:z -o out.ply --removed gone.xyz
-across                 small   {f} -t 0.01% --across normal,uv,color -o out.ply
-across/obj             few     {f} -t 1% --across normal,uv -o out.obj
+ignore-seams           small   {f} -t 0.01% --ignore-seams normal,uv,color -o out.ply
+ignore-seams/obj       few     {f} -t 1% --ignore-seams normal,uv -o out.obj
 same                   small   {f} -t 1% --same z=0.001 -o out.ply
 borders                small   {f} -t 1% --borders -o out.ply
 keep-manifold          small   {f} -t 1% --keep-manifold -o out.ply
@@ -358,7 +358,7 @@ tf-selfintersect models/clean/koala_100k.obj --timeout 0.000001
 tf-boolean | tf-boolean --help | tf-boolean unite made/box.obj | tf-boolean union
 tf-boolean --expr a-c made/box.obj made/box.obj -n | tf-boolean --expr a) made/box.obj -n
 tf-boolean union made/box.obj made/box.obj | tf-boolean union made/box.obj none.obj -n
-tf-boolean union made/box.obj --inside even -n | tf-boolean union made/box.obj --matrix m.txt -n
+tf-boolean union made/box.obj --fill-rule even -n | tf-boolean union made/box.obj --matrix m.txt -n
 tf-boolean union made/box.obj --matrix 2:m.txt -n
 tf-boolean union made/box.obj --matrix 1:none.txt -n
 tf-boolean union made/box.obj --matrix 1:made/flat.txt -n
@@ -372,7 +372,7 @@ tf-boolean difference made/box.obj made/box.obj -o out.stl
 tf-weld | tf-weld --help | tf-weld made/box.obj | tf-weld made/box.obj -o out.docx
 tf-weld made/box.obj -t x -n | tf-weld made/box.obj --rule any -n
 tf-weld made/box.obj --keep some -n | tf-weld made/box.obj --keep min:mass -n
-tf-weld made/box.obj --same mass -n | tf-weld made/box.obj --same x --across x -n
+tf-weld made/box.obj --same mass -n | tf-weld made/box.obj --same x --ignore-seams x -n
 tf-weld made/box.obj --label g | tf-weld made/box.obj --label x -o out.ply
 tf-weld made/box.obj --check -o out.ply | tf-weld made/box.obj --borders -o out.xyz
 tf-weld made/points.ply -o out.stl | tf-weld made/points.ply -o out.obj

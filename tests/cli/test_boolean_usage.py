@@ -7,7 +7,7 @@ import hashlib
 NUMBER = (int, float)
 NULL = type(None)
 FILE = {"input": (str, NULL), "error": NULL, "warnings": list, "operation": (str, NULL),
-        "inside": str, "check": bool, "inputs": list, "pairs": (int, NULL),
+        "fill_rule": str, "check": bool, "inputs": list, "pairs": (int, NULL),
         "cut_faces": (int, NULL), "volumes": (dict, NULL),
         "separated_points": (int, NULL), "skipped": dict,
         "min_volume": dict, "gap": dict, "max_move": dict,
@@ -38,7 +38,7 @@ class Usage(BooleanTest):
         self.assertEqual([line for line in run.text.splitlines() if len(line) > 80], [])
         self.assertNotIn("--in-place", run.text)
         for word in ("union", "intersection", "difference", "symmetric-difference", "split",
-                     "--expr", "--matrix", "--inside", "--check", "--accept-open", "--simplify",
+                     "--expr", "--matrix", "--fill-rule", "--check", "--accept-open", "--simplify",
                      "--max-move",
                      "--source", "--no-attributes", "--curves", "--min-volume", "--gap",
                      "Common options:", "Examples:", "Exit status:"):
@@ -51,7 +51,7 @@ class Usage(BooleanTest):
         both = ("a.obj", "b.obj")
         self.assertIn("position 3", self.refused("--expr", "a-c", *both))
         self.assertIn("position 2", self.refused("--expr", "a)", *both))
-        for options in (["--inside", "even"], ["--max-move", "-1"], ["--matrix", "m.txt"],
+        for options in (["--fill-rule", "even"], ["--max-move", "-1"], ["--matrix", "m.txt"],
                         ["--min-volume", "-1"], ["--min-volume", "1%"], ["--gap", "-1"],
                         ["--matrix", "3:m.txt"], ["--matrix", "0:m.txt"], ["--matrix", "1:"],
                         ["--matrix", "1:m.txt", "--matrix", "1:n.txt"]):
@@ -81,7 +81,7 @@ class Usage(BooleanTest):
                                                    "out.obj", "--gap", "1"))
         self.refused("--check", "a.obj", "--accept-open")
         self.refused("--check", "a.obj", "--curves", "out.obj")
-        self.refused("split", "a.obj", "--inside", "odd")
+        self.refused("split", "a.obj", "--fill-rule", "even-odd")
         self.refused("split", "a.obj", "--simplify")
         self.refused("union", "a.obj", "--curves", "out.stl")
         self.refused("union", "a.obj", "--ascii")

@@ -45,6 +45,8 @@ class Cut(ToolTest):
         run = self.run_tool("half", "two.obj", "--height", "1", "-n", status=0)
         self.assertIn("2 pieces", run.text)
         self.assertIn("overlapping parts are merged", run.err)
+        entry = self.report("half", "two.obj", "--height", "1", "-n", status=0)["files"][0]
+        self.assertEqual([w["code"] for w in entry["warnings"]], ["self-intersections"])
         write(self.path("apart.obj"),
               together(box((0, 0, 0), (2, 2, 2)), box((3, 3, 0), (4, 4, 2))))
         self.assertEqual(self.run_tool("half", "apart.obj", "--height", "1", "-n", status=0).err,
@@ -207,6 +209,8 @@ class Cut(ToolTest):
                                                           if i != upright[0]] + [(a, c, b)]))
         run = self.run_tool("section", turned, "--height", "0.5", "-n", status=0)
         self.assertIn("1 polyline runs along inconsistently oriented faces", run.err)
+        entry = self.report("section", turned, "--height", "0.5", "-n", status=0)["files"][0]
+        self.assertIn("unoriented-loops", [w["code"] for w in entry["warnings"]])
         run = self.run_tool("half", part, "--height", "0.5", "-o", "h%d.stl", status=1)
         self.assertIn("not cut: its surface ends at 3 edges", run.text)
         self.assertIn("--open cuts it as a surface", run.err)
@@ -351,6 +355,8 @@ class Cut(ToolTest):
                 (["pieces", part, "--bed", "1,1", "--at", "0,0,0", "-n"], "--bed chooses"),
                 (["parts", part, "--height", "1", "-n"], "--height is not for parts"),
                 (["parts", part, "--min-volume", "-1", "-n"], "--min-volume"),
+                (["parts", part, "--largest", "2", "-o", "p.stl"],
+                 "there may be several parts, but stl holds one: use -o p_%d.stl, or write 3mf"),
                 (["info", part, "-o", "a.stl"], "--output is not for info")]:
             run = self.run_tool(*arguments, status=2)
             self.assertIn(words, run.err, msg=arguments)

@@ -24,7 +24,7 @@ NEEDED = {"half": ["--height", "1"], "isolines": ["--levels", "1"], "section": [
 FIXED = ("slide", "mate", "turn", "separate", "align", "measure")
 VALUES = {"X,Y,Z": "0,0,-1", "X,Y[,Z]": "9,9", "DIST": "1", "SEC": "1", "DEG": "45", "N": "1",
           "F": "0.5", "LO,HI": "0,1", "Z": "0", "FILE": "f.ply", "FILE:N": "a.obj:1", "U": "mm",
-          "SIZE": "none", "DIR": "dir", "TEXT": "text", "A:B": "a:b", "RULE": "odd", "P": "p",
+          "SIZE": "none", "DIR": "dir", "TEXT": "text", "A:B": "a:b", "RULE": "even-odd", "P": "p",
           "FACE|X,Y,Z": "1", "KIND": "plane", "EXT": "ply", "SET": "90", "EXPR": "a+b",
           "N:FILE": "1:m", "SHARE": "1%", "WHEN": "never", "V,...": "iso,top", "WxH": "90x60",
           "V": "1", "H,...": "1", "T": "1", "HALF": "below", "D": "1", "W": "1", "R": "0.1",
@@ -81,6 +81,16 @@ class Help(ToolTest):
                 if mode not in ("clash", "check"):
                     self.assertLess(set(options_of(text)), set(whole))
                 self.assertNotRegex(text, r"(?m)^.{26}(\w+, )*(" + "|".join(modes) + "): ")
+
+    def test_a_mode_lists_only_exit_statuses_that_it_has(self):
+        for mode in MODES["cut"]:
+            text = self.help_of("cut", mode)
+            self.assertEqual(text.count("Exit status: "), 1)
+            self.assertEqual(" 1 the input" in text, mode not in ("info", "section", "isolines"),
+                             msg=mode)
+        for mode in MODES["place"]:
+            self.assertEqual("--scene" in options_of(self.help_of("place", mode)),
+                             mode not in ("lay", "pack", "clash", "check"), msg=mode)
 
     def test_a_mode_says_nothing_of_others_and_its_lines_are_full(self):
         output = {mode: " ".join(re.search(r"-o, --output FILE ((?s:.*?))\n +--",

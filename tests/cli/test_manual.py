@@ -172,7 +172,7 @@ class Bash(Manual):
                          ["max:", "mean", "min:"])
         self.assertEqual(self.complete("tf-weld", "--rule", ""), ["chain", "first"])
         self.assertEqual(self.complete("tf-weld", "--units", "c"), ["cm"])
-        self.assertEqual(self.complete("tf-repair", "--inside", "n"), ["nonzero"])
+        self.assertEqual(self.complete("tf-repair", "--fill-rule", "n"), ["nonzero"])
         self.assertEqual(self.complete("tf-place", "align", "--weights", ""), ["equal", "welsch"])
         self.assertEqual(self.complete("tf-place", "pack", "--rotate", ""),
                          ["45", "90", "any", "none"])

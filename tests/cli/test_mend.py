@@ -44,8 +44,8 @@ class Mend(ToolTest):
         self.assertEqual(entry["repair"]["dropped_shells"], 1)
         text, = (w["text"] for w in entry["warnings"] if w["code"] == "dropped-shells")
         self.assertIn("1 shell within another was dropped", text)
-        self.assertIn("--inside odd makes a cavity of it", text)
-        run = self.run_tool(part, "--inside", "odd", "-o", "hollow.obj", status=0)
+        self.assertIn("--fill-rule even-odd makes a cavity of it", text)
+        run = self.run_tool(part, "--fill-rule", "even-odd", "-o", "hollow.obj", status=0)
         self.assertIn("volume 7000 ", run.text)
         self.assertEqual(run.err, "")
 
@@ -150,7 +150,7 @@ class Mend(ToolTest):
         run = self.run_tool(part, "--wrap", "1.5", "-o", "out.stl", status=0)
         self.assertRegex(run.text,
                          r"part.obj: wrap, [\d,]+ faces, volume .* \(was .*\), 0.05 from the faces")
-        self.assertNotIn("skin", run.err)
+        self.assertNotIn("covers both sides", run.err)
         self.run_tool("out.stl", "--check", status=0)
         entry = self.mended(part, "--wrap", "20%", "--offset", "0.1", "-o", "out.ply")
         self.assertIsNone(entry["repair"])
@@ -160,9 +160,11 @@ class Mend(ToolTest):
         self.assertEqual(wrap["faces"], 2 * wrap["vertices"] - 4)
         self.assertEqual(entry["output"]["precision_out"], "double")
         self.run_tool("out.ply", "--check", status=0)
-        run = self.run_tool(write(self.path("open.obj"), (cube()[0], faces)), "--wrap", "0.1", "-n",
-                            status=0)
+        opened = write(self.path("open.obj"), (cube()[0], faces))
+        run = self.run_tool(opened, "--wrap", "0.1", "-n", status=0)
         self.assertIn("covers both sides", run.err)
+        warnings = self.mended(opened, "--wrap", "0.1", "-n")["warnings"]
+        self.assertEqual([w["code"] for w in warnings], ["double-walled"])
 
     def test_a_wrap_takes_no_steps_and_a_size_that_makes_sense(self):
         part = write(self.path("part.obj"), CLEAN)
@@ -347,10 +349,10 @@ class Mend(ToolTest):
         part = write(self.path("part.obj"), CLEAN)
         for options in ([], ["--check", "-o", "out.stl"], ["--check", "--max-loss", "5%"],
                         ["--gap", "1", "--no-join", "-n"], ["--strays", "120%", "-n"],
-                        ["--max-loss", "-1", "-n"], ["--inside", "even", "-n"],
+                        ["--max-loss", "-1", "-n"], ["--fill-rule", "even", "-n"],
                         ["--holes", "3", "--sheet", "-n"], ["--source", "s", "-o", "out.stl"],
                         ["--curves", "out.stl", "-n"],
-                        ["--inside", "odd", "--no-resolve", "-n"], ["-o", "out.xyz"],
+                        ["--fill-rule", "even-odd", "--no-resolve", "-n"], ["-o", "out.xyz"],
                         ["--keep-cuts", "--no-resolve", "-n"], ["--keep-cuts", "--sheet", "-n"],
                         ["--keep-cuts", "--check"]):
             with self.subTest(options=options):

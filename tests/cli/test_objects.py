@@ -181,7 +181,7 @@ class Objects(BooleanTest):
         self.assertEqual(done.stderr, "")
         self.assertEqual(self.volume_of("union", name="mirrored.3mf"), 1.5)
         self.put("mirror.txt", "-1 0 0 2\n0 1 0 0\n0 0 1 0\n0 0 0 1\n")
-        self.entry("--expr", "a", "a.obj", "b.obj", "--matrix", "1:mirror.txt", "--inside",
+        self.entry("--expr", "a", "a.obj", "b.obj", "--matrix", "1:mirror.txt", "--fill-rule",
                    "positive", "-o", "x.obj", "-f", status=0)
         self.assertEqual(volume(*obj_mesh(self.read("x.obj"))), 8)
         done = subprocess.run([PLACE, "drop", "a.obj", "--start", "mirror.txt", "-o",

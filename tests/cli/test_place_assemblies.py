@@ -193,7 +193,7 @@ class Assemblies(PlaceTest):
         entry = self.entry("measure", "part.obj", "--fixed", "floor.obj", status=0)
         effort = entry["depth"].pop("effort")
         self.assertEqual(entry["depth"], {"bound": 0.25, "move": [0, 0, 0.25]})
-        self.assertTrue(0 < effort["pairs"] < effort["bound"] and effort["cut"] == 0)
+        self.assertTrue(0 < effort["pairs"] < effort["bound"] and effort["skipped_candidates"] == 0)
         self.assertIsNone(self.entry("measure", "near.obj", "--fixed", "floor.obj")["depth"])
 
     def test_measure_finds_no_depth_when_told(self):
@@ -220,7 +220,7 @@ class Assemblies(PlaceTest):
         entry = self.entry("measure", "needles.obj", "--fixed", "others.obj", status=0)
         effort = entry["depth"]["effort"]
         self.assertLessEqual(effort["pairs"], effort["bound"])
-        self.assertGreater(effort["cut"], 0)
+        self.assertGreater(effort["skipped_candidates"], 0)
         run = self.run_tool("separate", "needles.obj", "--fixed", "others.obj", "-o", "out.obj",
                             status=0)
         self.assertIn("; the search ended after ", run.text)

@@ -119,7 +119,7 @@ class Moves(PlaceTest):
         self.mesh("post.obj", box((3e8, 3e8, 0), (3e8 + 1000, 3e8 + 1000, 1)))
         self.mesh("fine.stl", ball_of_lines())
         entry = self.placed("mate", "fine.stl", "--fixed", "post.obj", "-o", "far.stl")
-        self.assertEqual([w["code"] for w in entry["warnings"]], ["rounded", "folded"])
+        self.assertEqual([w["code"] for w in entry["warnings"]], ["rounded", "rounding-defects"])
         self.assertGreater(entry["rounding"]["collapsed_faces"], 0)
         self.assertIn("lost all area", entry["warnings"][1]["text"])
         self.assertEqual(self.placed("mate", "fine.stl", "--fixed", "post.obj", "-o", "far.obj",

@@ -41,8 +41,9 @@ class Scenes(PlaceTest):
         skipped = entry["skipped"]
         self.assertEqual((skipped["parts_not_indexed"], skipped["pairs_culled_by_box"],
                           skipped["primitives_not_indexed"]), (50, 50, 600))
-        self.assertGreater(skipped["filter_calls"], 0)
-        self.assertLessEqual(skipped["exact_calls"], skipped["filter_calls"])
+        work = entry["work"]
+        self.assertGreater(work["predicates"], 0)
+        self.assertLessEqual(work["exact_predicates"], work["predicates"])
         for contact in entry["contacts"]:
             self.assertEqual((contact["part"], contact["name"]), (0, "floor"))
             self.assertIn(contact["fixed"], (12 * 20 + 2, 12 * 20 + 3))  # numbers in the file

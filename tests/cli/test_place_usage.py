@@ -6,6 +6,7 @@ NUMBER = (int, float)
 NULL = type(None)
 FILE = {"input": str, "error": NULL, "format": str, "sha256": str, "precision_in": str,
         "faces": int, "triangles": int, "box": dict, "mode": str, "fixed": list, "skipped": dict,
+        "work": dict,
         "clearance": dict, "max_travel": (str, NULL), "bed": (dict, NULL), "placed": (bool, NULL),
         "reason": (str, NULL), "status_at_start": str, "status": str, "inside": (str, NULL),
         "distance": (*NUMBER, NULL), "surface_distance": (*NUMBER, NULL), "closest": (dict, NULL),
@@ -60,6 +61,8 @@ class Usage(PlaceTest):
         self.refused("separate", "a.obj", *fixed, "-d", "1,0,0")
         self.refused("drop", "a.obj", "-d", "0,0,1")
         self.refused("drop", "a.obj", "--scene")
+        self.refused("lay", "a.obj", "--scene", "-o", "out.obj")
+        self.refused("pack", "a.obj", "--size", "9,9", "--scene", "-o", "out.obj")
         self.refused("drop", "a.obj", "--precision", "float")
         self.refused("measure", "a.obj", *fixed, "--matrix", "out.txt")
         self.refused("measure", "a.obj", *fixed, "--max-travel", "1")

@@ -231,17 +231,17 @@ class Repair(ToolTest):
 
     def test_what_is_inside_can_be_told(self):
         part = write(self.path("part.obj"), TWO_CUBES)
-        entry = self.repaired(part, "--repair", "--inside", "odd", "-n")
+        entry = self.repaired(part, "--repair", "--fill-rule", "even-odd", "-n")
         self.assertEqual(entry["repair"]["volume"]["after"], 1.75)
-        entry = self.repaired(part, "--repair", "--inside", "positive", "-n")
+        entry = self.repaired(part, "--repair", "--fill-rule", "positive", "-n")
         self.assertEqual(entry["repair"]["volume"]["after"], 1.875)
 
     def test_what_makes_no_sense_is_refused(self):
         part = write(self.path("part.obj"), TWO_CUBES)
         for options in (["--repair=all"], ["--max-move", "1"], ["--keep-components"],
-                        ["--inside", "odd"], ["--max-loss", "5%"], ["--accept-loss"],
+                        ["--fill-rule", "even-odd"], ["--max-loss", "5%"], ["--accept-loss"],
                         ["--keep-cuts"], ["--repair=split", "--keep-cuts", "-n"],
-                        ["--repair=split", "--inside", "odd", "-n"],
+                        ["--repair=split", "--fill-rule", "even-odd", "-n"],
                         ["--repair", "--first"], ["--repair", "--within"],
                         ["-o", "out.stl"], ["--repair", "-o", "out.xyz"]):
             self.run_tool(part, *options, status=2)

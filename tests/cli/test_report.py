@@ -11,7 +11,8 @@ HEAD = {"schema": str, "tool": str, "version": str, "command": list, "exit": int
         "files": list, "seconds": dict, "threads": int, "peak_rss": int}
 FILE = {"input": str, "exit": int, "error": type(None), "format": str, "sha256": str,
         "precision_in": str, "tiles": type(None), "vertices": dict, "faces": int,
-        "triangles": int, "searched": int, "box": dict, "skipped": dict, "tolerance": dict,
+        "triangles": int, "searched": int, "box": dict, "skipped": dict, "work": dict,
+        "tolerance": dict,
         "pairs": dict, "complete": bool,
         "faces_hit": int, "regions": list, "listed": int, "truncated": bool, "list": list,
         "repair": type(None), "output": (dict, type(None)), "warnings": list}
@@ -41,8 +42,8 @@ class Report(ToolTest):
         self.assert_keys(entry, FILE)
         self.assert_keys(entry["pairs"], PAIRS)
         self.assert_keys(entry["vertices"], {"stored": int, "distinct": int})
-        self.assert_keys(entry["skipped"], {"non_finite": int, "degenerate": int,
-                                            "filter_calls": int, "exact_calls": int})
+        self.assert_keys(entry["skipped"], {"non_finite": int, "degenerate": int})
+        self.assert_keys(entry["work"], {"box_pairs": int, "exact_pairs": int})
         self.assert_keys(entry["tolerance"], {"given": str, "used": NUMBER, "joined": int})
         for region in entry["regions"]:
             self.assert_keys(region, REGION)

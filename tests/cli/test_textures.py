@@ -72,7 +72,7 @@ class TextureTest(BooleanTest):
         """Its warnings without those of names of parts, which PLY does not hold."""
         self.tool = tool
         report = self.report(*arguments, "--output-format", "ply", "--ascii", "-f", status=0)
-        return [w["code"] for w in report["files"][0]["warnings"] if w["code"] != "left-out"]
+        return [w["code"] for w in report["files"][0]["warnings"] if w["code"] != "data-dropped"]
 
     def check(self, name):
         """Every face has the texture that its coordinates are of; which ones there are."""

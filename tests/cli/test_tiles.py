@@ -8,7 +8,7 @@ import re
 import signal
 
 # What is told of the way to the answer, not of the answer.
-WAY = ("skipped", "seconds", "warnings", "tiles")
+WAY = ("work", "seconds", "warnings", "tiles")
 
 
 def heap(count, seed=1):

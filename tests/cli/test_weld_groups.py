@@ -94,9 +94,10 @@ class Groups(WeldTest):
         self.cloud("in.xyz", [(0, 0, 0, 1)])
         for options in (["--same", "intensity"], ["--keep", "min:intensity"],
                         ["--order", "intensity"], ["--order", "max:intensity"],
-                        ["--across", "intensity"], ["--same", "normal"]):
+                        ["--ignore-seams", "intensity"], ["--same", "normal"]):
             run = self.run_tool("in.xyz", *options, "-o", "out.xyz", status=3)
             self.assertIn("the points have column_4", run.err)
+            self.assertIn(f"{options[0]} ", run.err)
             self.assertNotIn("out.xyz", self.listing())
 
     def test_points_that_are_nowhere_stay_and_are_counted(self):

@@ -30,7 +30,8 @@ class Meshes(WeldTest):
     def test_what_rounding_to_floats_folds_is_said(self):
         write(self.path("odd.obj"), cube((1e9, 1e9, 0)))
         warnings = self.report("odd.obj", "-o", "odd.stl", status=0)["files"][0]["warnings"]
-        self.assertEqual([w["code"] for w in warnings], ["rounded", "precision", "folded"])
+        self.assertEqual([w["code"] for w in warnings],
+                         ["rounded", "precision", "rounding-defects"])
         self.assertIn("12 faces lost all area", warnings[2]["text"])
         self.assertEqual(self.report("odd.obj", "-o", "odd.ply", status=0)["files"][0]["warnings"],
                          [])
@@ -54,9 +55,10 @@ class Meshes(WeldTest):
 
     def test_seams_are_kept_unless_let_go(self):
         self.write("in.ply", FOLDED)
-        for options, kept in (([], 6), (["--across", "normal"], 4), (["--across", "nx,nz,ny"], 4),
-                              (["--across", "nx"], 6), (["--same", "normal=0.5"], 6),
-                              (["--same", "normal=1"], 4), (["--across", "uv,color"], 6)):
+        for options, kept in (([], 6), (["--ignore-seams", "normal"], 4),
+                              (["--ignore-seams", "nx,nz,ny"], 4),
+                              (["--ignore-seams", "nx"], 6), (["--same", "normal=0.5"], 6),
+                              (["--same", "normal=1"], 4), (["--ignore-seams", "uv,color"], 6)):
             entry = self.entry("in.ply", *options, status=0)
             self.assertEqual(entry["points"]["out"], kept, msg=options)
         entry = self.entry("in.ply", status=0)

@@ -263,7 +263,7 @@ class Tiles(WeldTest):
     def test_what_is_wrong_with_a_property_is_said_as_in_memory(self):
         self.write("in.ply", ply([(0.0, 0.0, float(i)) for i in range(40)], self.rng))
         for option, value in (("--same", "none"), ("--order", "none"), ("--keep", "min:none"),
-                              ("--across", "none")):
+                              ("--ignore-seams", "none")):
             said = [self.run_tool("in.ply", option, value, "-o", "out.ply", *tiled, status=3).err
                     for tiled in ([], ["--tile-points", 10])]
             self.assertEqual(*said)

@@ -107,12 +107,12 @@ def stl(points, faces, bits=0):
     return 80 * b" " + struct.pack("<I", len(faces)) + rows
 
 
-OPTIONS = ([], ["--across", "normal,color"], ["--across", "normal", "--same", "kind"],
-           ["--rule", "chain", "--across", "color,normal"], ["--keep", "last"],
-           ["--keep", "mean", "--across", "normal,color"],
-           ["--keep", "max:range", "--across", "color"],
-           ["--order", "range", "--across", "normal,color"],
-           ["--keep-degenerate", "--across", "normal,color"],
+OPTIONS = ([], ["--ignore-seams", "normal,color"], ["--ignore-seams", "normal", "--same", "kind"],
+           ["--rule", "chain", "--ignore-seams", "color,normal"], ["--keep", "last"],
+           ["--keep", "mean", "--ignore-seams", "normal,color"],
+           ["--keep", "max:range", "--ignore-seams", "color"],
+           ["--order", "range", "--ignore-seams", "normal,color"],
+           ["--keep-degenerate", "--ignore-seams", "normal,color"],
            ["--same", "z=0.01", "--rule", "chain"])
 
 
@@ -158,7 +158,7 @@ class TilesOfMeshes(WeldTest):
 
     def test_outputs_of_other_encodings_and_labels_are_those_of_memory(self):
         points, faces = soup(*grid(7, self.rng), self.rng)
-        across = ["--across", "normal,color"]
+        across = ["--ignore-seams", "normal,color"]
         for encoding in ORDERS:
             self.write("in.ply", mesh(self.rng, encoding, points, faces))
             self.check("in.ply", "-t", "0.01", *across, "--order", "max:range", out="out.obj",
@@ -205,7 +205,7 @@ class TilesOfMeshes(WeldTest):
         points, faces = soup(*grid(6, self.rng), self.rng)
         self.write("in.ply", mesh(self.rng, "ascii", points, faces, edges=False))
         for tolerance, status in (("0", 1), ("0.2", 1)):
-            command = ["in.ply", "-t", tolerance, "--across", "normal,color", "--check"]
+            command = ["in.ply", "-t", tolerance, "--ignore-seams", "normal,color", "--check"]
             said = [self.run_tool(*command, *tiled, status=status).out
                     for tiled in ([], ["--tile-points", 20])]
             self.assertEqual(*said)
@@ -278,7 +278,7 @@ class TilesOfMeshes(WeldTest):
     def test_processes_that_share_tiles_give_what_one_gives(self):
         points, faces = soup(*grid(8, self.rng), self.rng, 0.005)
         self.write("in.ply", mesh(self.rng, "binary_little_endian", points, faces))
-        options = ["-t", "0.02", "--across", "normal,color", "--work", "tiles"]
+        options = ["-t", "0.02", "--ignore-seams", "normal,color", "--work", "tiles"]
         self.run_tool("in.ply", *options, "--plan", "--tile-points", 60, status=0)
         for tile in range(99):
             if self.run_tool("in.ply", *options, "--tile", tile).status != 0:
@@ -293,7 +293,7 @@ class TilesOfMeshes(WeldTest):
         points, faces = soup(*grid(14, self.rng), self.rng, 0.002)
         self.write("in.ply", mesh(self.rng, "binary_little_endian", points, faces))
         for which in ([], ["--keep", "mean"], ["--order", "range"]):
-            options = ["in.ply", "-t", "0.02", "--across", "normal,color", *which]
+            options = ["in.ply", "-t", "0.02", "--ignore-seams", "normal,color", *which]
             self.run_tool(*options, "-o", "memory.ply", "-f", status=0)
             command = [*options, "--tile-points", 200, "-o", "out.ply", "-j1"]
             for step in range(1, 200):
@@ -329,7 +329,8 @@ class TilesOfMeshes(WeldTest):
         self.write("ends.ply", self.read_bytes("alike.ply") + b"more")
         self.write("in.stl", stl(*soup(points[:99], [f[:3] for f in faces if max(f) < 99] +
                                        [(7, 7, 8), (8, 9, 8)], self.rng)))
-        across, gone = ["--across", "normal,color"], ["--removed", "gone.ply", "--map", "map.csv"]
+        across = ["--ignore-seams", "normal,color"]
+        gone = ["--removed", "gone.ply", "--map", "map.csv"]
         inputs = self.listing()
         for sizes, name, options, out in (
                 ((2, 3, 7), small, ["-t", "0.02", *across, *gone], "out.ply"),
@@ -415,7 +416,7 @@ class TilesOfMeshes(WeldTest):
         self.write("in.ply", mesh(self.rng, "binary_little_endian", points, faces))
         self.write("alike.ply", triangles("binary_little_endian", points, [f[:3] for f in faces],
                                           []))
-        for size, which, each in ((2, ["in.ply", "--across", "normal,color"], 1),
+        for size, which, each in ((2, ["in.ply", "--ignore-seams", "normal,color"], 1),
                                   (3, ["in.ply", "--keep", "mean"], 1), (4, ["alike.ply"], 4)):
             command = ["-t", "0.02", *which, "--tile-points", 150, "-o", "out.ply",
                        "--removed", "gone.ply", "--work", "tiles"]

@@ -21,8 +21,8 @@ class Usage(WeldTest):
         self.assertEqual([line for line in run.text.splitlines() if len(line) > 80], [])
         for word in ("What is merged:", "Which point of a group is kept:", "Output:", "Meshes:",
                      "Common options:", "Examples:", "Exit status:", "--join", "--tolerance",
-                     "--rule", "--same", "--across", "--borders", "--keep", "--order", "--map",
-                     "--removed", "--label", "--withhold", "--check", "--keep-degenerate",
+                     "--rule", "--same", "--ignore-seams", "--borders", "--keep", "--order",
+                     "--map", "--removed", "--label", "--withhold", "--check", "--keep-degenerate",
                      "--keep-manifold", "--in-place"):
             self.assertIn(word, run.text)
         self.assertIn("--html FILE", run.text)
@@ -40,7 +40,7 @@ class Usage(WeldTest):
                         ["--rule", "nearest"], ["--keep", "best"], ["--keep", "min:"],
                         ["--order", "min:"], ["--order", ""], ["--order", "x", "--keep", "last"],
                         ["--keep", "min"], ["--same", ""], ["--same", "a,,b"], ["--same", "a=x"],
-                        ["--same", "a=-1"], ["--same", "=1"], ["--across", ",a"],
+                        ["--same", "a=-1"], ["--same", "=1"], ["--ignore-seams", ",a"],
                         ["--label", "x"], ["--label", "a b"], ["-j", "0"]):
             self.refused("in.xyz", "-o", "out.ply", *options)
 
@@ -48,7 +48,7 @@ class Usage(WeldTest):
         self.refused("in.xyz", "--check", "-o", "out.xyz")
         self.refused("in.xyz", "--check", "--removed", "out.xyz")
         self.refused("in.xyz", "--check", "--in-place")
-        self.refused("in.xyz", "--same", "normal", "--across", "normal", "--check")
+        self.refused("in.xyz", "--same", "normal", "--ignore-seams", "normal", "--check")
         self.refused("in.xyz", "--label", "g")
         self.refused("in.xyz", "--label", "g", "-o", "out.ply", "--removed", "out.xyz")
         self.refused("in.xyz", "--label", "g", "-o", "out.ply", "--keep", "last")

@@ -131,7 +131,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         } catch (const tf::io_error&) {
         }
     };
-    for (const io::row_use use : {io::row_use::none, io::row_use::copied, io::row_use::looked_at})
+    for (const io::row_use use : {io::row_use::none, io::row_use::copied, io::row_use::read})
         refused([&] { read_ply(in, use); });
     refused([&] {
         const opener open = [&](std::uint64_t first, const io::record_index* known) {

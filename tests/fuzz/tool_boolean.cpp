@@ -10,12 +10,12 @@ std::span<const tf::fuzz::tool_command> tf::fuzz::tool_commands() {
         {"difference @in @other -o @out.off --simplify", kept_promise::solid},
         {"difference @other @in -o @out.stl --precision float -r @report.json",
          kept_promise::solid},
-        {"symmetric-difference @in @other -o @out.ply --inside odd --no-attributes",
+        {"symmetric-difference @in @other -o @out.ply --fill-rule even-odd --no-attributes",
          kept_promise::solid},
         {"split @in @other -o @out.glb --html @page.html --png @p.png --png-size 64x48",
          kept_promise::clean},
         {"intersection @in @other --accept-open -o @out.ply -r @report.json"},
-        {"union @in -o @out.ply --inside positive --precision float", kept_promise::solid},
+        {"union @in -o @out.ply --fill-rule positive --precision float", kept_promise::solid},
     }};
     return all;
 }

@@ -12,7 +12,7 @@ std::span<const tf::fuzz::tool_command> tf::fuzz::tool_commands() {
         {"@in -t 0.1% --borders --keep-manifold -o @out.off"},
         {"@in @other --join -t 0.01 --keep last -o @out.stl -r @report.json"},
         {"@in -t 0.1% --tile-points 64 --work @tiles -o @out.ply --map @map.bin"},
-        {"@in -t 0 --across normal,uv -o @out.glb --precision float"},
+        {"@in -t 0 --ignore-seams normal,uv -o @out.glb --precision float"},
     }};
     return all;
 }

@@ -34,7 +34,7 @@ bool is_sound(const tf::mesh& mesh) {
     if (!test::is_clean_solid(mesh)) return false;
     const tf::boolean_result alone =
         tf::boolean(std::vector<tf::mesh_view>{mesh}, tf::boolean_expression::union_of(1),
-                    {.inside = tf::fill_rule::positive});
+                    {.fill_rule = tf::fill_rule::positive});
     return alone.mesh.faces == mesh.faces && alone.mesh.points == mesh.points;
 }
 

@@ -144,7 +144,7 @@ TEST_CASE("clash: of all pairs of a kitchen's parts, those meet that do by CGAL"
             CAPTURE(j);
             std::optional<tf::mesh_relation> how;
             if (next < found.pairs.size() && found.pairs[next].a == i && found.pairs[next].b == j)
-                how = found.pairs[next++].how;
+                how = found.pairs[next++].relation;
             compare(*theirs[i], *theirs[j], how, sum);
         }
     CHECK(next == found.pairs.size());
@@ -193,7 +193,7 @@ TEST_CASE("check_poses: of a Franka arm in 100 poses, those links meet that do b
                 std::optional<tf::mesh_relation> how;
                 const auto& all = found.poses[p];
                 if (next < all.size() && all[next].a == i && all[next].b == j)
-                    how = all[next++].how;
+                    how = all[next++].relation;
                 compare(*theirs[i], *theirs[j], how, sum);
             }
         CHECK(next == found.poses[p].size());

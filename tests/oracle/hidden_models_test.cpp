@@ -115,7 +115,7 @@ void check_chain(const std::vector<tf::mesh>& chain, test::random& source, chain
     const tf::boolean_expression expression(formula, chain.size());
     const auto rule = static_cast<tf::fill_rule>(source.below(3));
     const std::vector<tf::mesh_view> views(chain.begin(), chain.end());
-    const tf::boolean_result result = tf::boolean(views, expression, {.inside = rule});
+    const tf::boolean_result result = tf::boolean(views, expression, {.fill_rule = rule});
     ++sums.chains;
     if (result.certificate.status == tf::status::open_input) {
         ++sums.open;
@@ -124,12 +124,12 @@ void check_chain(const std::vector<tf::mesh>& chain, test::random& source, chain
     sums.shortened += result.statistics.skipped_faces > 0 ? 1 : 0;
     for (const unsigned threads : {1U, 5U}) {
         const tf::thread_scope some(threads);
-        check_same_bytes(result, tf::boolean(views, expression, {.inside = rule}));
+        check_same_bytes(result, tf::boolean(views, expression, {.fill_rule = rule}));
     }
     std::vector<tf::prepared_mesh> prepared;
     for (const tf::mesh& mesh : chain) prepared.push_back(tf::prepared_mesh::borrow(mesh));
     const std::vector<tf::mesh_ref> operands(prepared.begin(), prepared.end());
-    check_same_bytes(result, tf::boolean(operands, expression, {.inside = rule}));
+    check_same_bytes(result, tf::boolean(operands, expression, {.fill_rule = rule}));
 
     test::exact_numbers numbers;
     const test::exact_chain all = test::surface_of_all(chain, expression, rule, numbers);

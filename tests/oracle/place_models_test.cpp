@@ -91,7 +91,7 @@ TEST_CASE("models: what is dropped on another stops outside of it, and not an ul
             CHECK(there.points == dropped(a, found.travel, to_single).points);
             const auto now = tf::relation(tf::prepared_mesh::borrow(there), fixed).relation;
             CHECK((now == tf::mesh_relation::touching) ==
-                  (found.at_place == tf::mesh_relation::touching));
+                  (found.relation == tf::mesh_relation::touching));
             CHECK(now != tf::mesh_relation::penetrating);
             ++placed;
             touching += now == tf::mesh_relation::touching;

@@ -81,7 +81,7 @@ KINDS = {"mesh": "mesh", "moving": "mesh", "onto": "mesh", "fixed": "mesh", "a":
          "origin": "vector", "motion": "vector",
          "move_a": "matrix", "matrix": "matrix", "meshes": "several", "move_b": "matrix",
          "start": "matrix", "parts": "several",
-         "ignored": "several", "kinds": "several", "steps": "several", "across": "several",
+         "ignored": "several", "kinds": "several", "steps": "several", "ignored_seams": "several",
          "same": "several", "communicator": "several", "found": "found", "of_moving": "feature",
          "of_fixed": "feature"}
 NOTHING = {"onto", "fixed"}  # may be None

@@ -251,7 +251,8 @@ V, F = CUBE.vertices, CUBE.faces
     (lambda: tf.deviation(CUBE, CUBE, band=3), "band: expected a pair of numbers, not 3"),
     (lambda: tf.raycast(CUBE, V + 3, V * 0 - 5e-324), "directions: that of ray 0 is too short"),
     (lambda: tf.raycast_all(CUBE, V + 3, V * 0 - 5e-324), "directions: that of ray 0 is too short"),
-    (lambda: tf.boolean("a-inside", a=CUBE, inside=CUBE), "inside: expected a string, not Mesh"),
+    (lambda: tf.boolean("a-fill_rule", a=CUBE, fill_rule=CUBE),
+     "fill_rule: expected a string, not Mesh"),
     (lambda: tf.PointTree(V).query_ball_point(V, [1, 2]), "broadcast")])
 def test_options_that_make_no_sense_are_named(verb, message):
     with pytest.raises(ValueError, match=message):

@@ -27,8 +27,9 @@ def test_two_bodies():
     assert tf.measure(CUBE, away, radius=1) is None
     assert tf.measure(np.array([[0.5, 0.5, 0.5]]), CUBE).relation == "penetrating"
     depth, move, effort = tf.penetration_depth(CUBE, moved(CUBE, 0.75, 0, 0))
-    assert 0 < effort.pairs < effort.bound and effort.cut == 0
-    assert tf.penetration_depth(CUBE, moved(CUBE, 0.75, 0, 0), effort=64).effort.cut > 0
+    assert 0 < effort.pairs < effort.bound and effort.skipped_candidates == 0
+    bounded = tf.penetration_depth(CUBE, moved(CUBE, 0.75, 0, 0), effort=64)
+    assert bounded.effort.skipped_candidates > 0
     assert depth == 0.25 and move.tolist() == [-0.25, 0, 0]
     assert tf.penetration_depth(CUBE, away) is None
 
@@ -60,14 +61,14 @@ def test_parts_of_an_assembly():
     parts = [CUBE, moved(CUBE, 0.5, 0.5, 0.5), moved(CUBE, 1, 0, 0), moved(CUBE, 5, 0, 0),
              box([5.25, 0.25, 0.25], [5.75, 0.75, 0.75])]
     found = tf.clash(parts)
-    assert {(one.a, one.b): one.how for one in found.pairs} == {
+    assert {(one.a, one.b): one.relation for one in found.pairs} == {
         (0, 1): "penetrating", (0, 2): "touching", (1, 2): "penetrating", (3, 4): "penetrating"}
     first = found.pairs[0]
     assert first.volume == 0.125 and first.depth == 0.5 and len(first.regions) == 1
     assert found.pairs[-1].b_inside_a and found.clashes == 3
     assert found.counts["penetrating"] == 3 and found.counts["touching"] == 1
     near = tf.clash([CUBE, moved(CUBE, 1.5, 0, 0)], 1.0)
-    assert near.pairs[0].how == "closer_than_clearance" and near.pairs[0].distance == 0.5
+    assert near.pairs[0].relation == "closer_than_clearance" and near.pairs[0].distance == 0.5
     assert near.pairs[0].nearest.shape == (2, 3)
     assert [(one.a, one.b) for one in tf.clash(parts, ignored=[(1, 0), (3, 4)]).pairs] == [
         (0, 2), (1, 2)]
@@ -82,7 +83,7 @@ def test_what_is_inside_out_is_the_same_solid():
     assert (tf.count_inside_out(turned), tf.count_inside_out(CUBE)) == (1, 0)
     assert tf.count_inside_out(tf.Mesh(CUBE.vertices, CUBE.faces[1:, ::-1])) == 0
     one, = tf.clash([CUBE, turned]).pairs
-    assert one.how == "penetrating" and one.volume == 0.5
+    assert one.relation == "penetrating" and one.volume == 0.5
     assert tf.measure(CUBE, turned).relation == "penetrating"
     assert tf.contains(turned, [[1, 0.5, 0.5], [0.25, 0.5, 0.5]]).tolist() == [True, False]
     poses = matrices([[0, 0, 0], [0.5, 0, 0], [0, 0, 0], [1, 0, 0]]).reshape(2, 2, 4, 4)
@@ -103,13 +104,13 @@ def test_poses_are_as_one_by_one():
     poses = matrices(rng.random((120, 3)) * 3).reshape(40, 3, 4, 4)
     found = tf.check_poses(parts, poses, 0.1)
     there = {(p, a, b): tf.RELATIONS[h] for p, (a, b), h
-             in zip(found.pose.tolist(), found.parts.tolist(), found.how)}
+             in zip(found.pose.tolist(), found.parts.tolist(), found.relation)}
     bad = np.zeros(40, bool)
     for p in range(0, 40):
         placed = [tf.Mesh(part.vertices + m[:3, 3], part.faces) for part, m in zip(parts, poses[p])]
         for one in tf.clash(placed, 0.1).pairs:
-            assert there.pop((p, one.a, one.b)) == one.how
-            bad[p] |= one.how != "touching"
+            assert there.pop((p, one.a, one.b)) == one.relation
+            bad[p] |= one.relation != "touching"
     assert not there
     assert np.array_equal(found.in_collision, bad) and found.clashing == bad.sum()
     first = tf.check_poses(parts, poses, 0.1, first_only=True)
@@ -133,17 +134,17 @@ def test_parts_clash_where_their_poses_put_them():
     poses = matrices([[0, 0, 0], [0.5, 0, 0], [0, 0, 9]])
     found = tf.clash([CUBE, CUBE, CUBE], poses=poses)
     there = tf.clash([moved(CUBE, *pose[:3, 3]) for pose in poses])
-    assert [(one.a, one.b, one.how, one.volume, one.depth) for one in found.pairs] == [
+    assert [(one.a, one.b, one.relation, one.volume, one.depth) for one in found.pairs] == [
         (0, 1, "penetrating", 0.5, 0.5)]
     assert str(found) == str(there) and str(found.pairs) == str(there.pairs)
     assert len(tf.check_poses([CUBE] * 3, poses[None]).pose) == 1
     turned = np.eye(4)
     turned[:3, :3] = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
-    assert tf.clash([CUBE, CUBE], poses=[np.eye(4), turned]).pairs[0].how == "touching"
+    assert tf.clash([CUBE, CUBE], poses=[np.eye(4), turned]).pairs[0].relation == "touching"
     mirror = np.diag([-1.0, 1, 1, 1])
     mirror[0, 3] = 1.5
     one, = tf.clash([CUBE, CUBE], poses=[np.eye(4), mirror]).pairs
-    assert one.how == "penetrating" and one.volume == 0.5
+    assert one.relation == "penetrating" and one.volume == 0.5
     assert tf.clash([CUBE, [[0.5, 0.5, 5.0]]],
                     poses=[np.eye(4), matrices([[0, 0, -4.5]])[0]]).clashes
     for wrong in (np.eye(4), poses[:2], poses[:, :3], np.full((3, 4, 4), np.nan), "x"):

@@ -122,7 +122,7 @@ def test_options():
     twice = tf.Mesh(np.vstack([CUBE.vertices, CUBE.vertices + 0.5]),
                     np.vstack([CUBE.faces, CUBE.faces + 8]))
     assert tf.union(twice).mesh.volume == 1.875
-    assert tf.union(twice, inside="odd").mesh.volume == 1.75
+    assert tf.union(twice, fill_rule="even_odd").mesh.volume == 1.75
     assert tf.union([CUBE, b, moved(CUBE, 1, 0, 0)]).mesh.volume == 2
     assert tf.symmetric_difference(CUBE, b).mesh.volume == 1
     assert tf.boolean("(body - hole) + 'pin'", body=CUBE, hole=b, pin=moved(CUBE, 3, 0, 0)) \

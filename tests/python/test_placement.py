@@ -31,14 +31,14 @@ def test_coordinates_are_those_of_the_tool(tmp_path):
 def test_slide():
     ball = moved(sphere(3), 0.5, 0.5, 9)
     made = tf.slide(ball, CUBE, [0, 0, -5])
-    assert made and made.end == "contact" and made.at_place == "touching"
+    assert made and made.end == "contact" and made.relation == "touching"
     assert made.direction.tolist() == [0, 0, -1] and made.travel == pytest.approx(7)
     assert tf.measure(made, CUBE).relation == "touching"
     assert np.allclose(made.vertices, ball.vertices + made.matrix[:3, 3])
     assert made.contacts.point.shape == (made.contact_count, 3)
     assert made.nearest_fixed == 0 and made.nearest.distance == 0
     gap = tf.slide(ball, CUBE, [0, 0, -1], 0.25)
-    assert gap.at_place == "clear" and tf.distance(gap, CUBE) == pytest.approx(0.25)
+    assert gap.relation == "clear" and tf.distance(gap, CUBE) == pytest.approx(0.25)
     none = tf.slide(ball, CUBE, [0, 0, 1])
     assert not none and none.end == "nothing_met" and none.message
     assert np.array_equal(none.vertices, ball.vertices)
@@ -67,13 +67,13 @@ def test_clouds_are_moved_too():
 def test_mate_separate_turn():
     other = moved(CUBE, 0.2, 3, 0.1)
     assert tf.mate(other, CUBE).travel == 2
-    assert tf.mate(other, CUBE, clearance=0.5).at_place == "clear"
+    assert tf.mate(other, CUBE, clearance=0.5).relation == "clear"
     inside = moved(CUBE, 0.9, 0.1, 0)
     apart = tf.separate(inside, CUBE)
     assert apart.end == "moved_apart" and apart.travel == pytest.approx(0.1)
     assert tf.measure(apart, CUBE).relation != "penetrating"
     door = tf.turn(box([0, 0, 0], [4, 0.25, 1]), box([-5, 2, 0], [5, 3, 1]), [0, 0, 1])
-    assert door and 20 < door.angle < 40 and door.at_place in ("separate", "touching")
+    assert door and 20 < door.angle < 40 and door.relation in ("separate", "touching")
     assert tf.distance(door, box([-5, 2, 0], [5, 3, 1])) <= 2 * door.tolerance
     free = tf.turn(CUBE, moved(CUBE, 9, 9, 9), [0, 0, 1])
     assert not free and free.end == "nothing_met"
@@ -84,7 +84,7 @@ def test_features():
     assert len(sides) == 6 and all(side.area == 1 and len(side.faces) == 2 for side in sides)
     other = moved(CUBE, 5, 0, 0)
     made = tf.mate_features(other, CUBE, tf.find_features(other)[0], sides[0])
-    assert made and made.at_place == "touching" and made.angle in (0, 90, 180)
+    assert made and made.relation == "touching" and made.angle in (0, 90, 180)
     angles = np.linspace(0, 2 * np.pi, 33)[:-1]
     ring = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     tube = np.vstack([np.column_stack([ring, np.zeros(32)]), np.column_stack([ring, np.ones(32)])])

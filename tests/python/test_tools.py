@@ -68,7 +68,7 @@ def test_places_are_those_of_the_tool(folder, mode, moving, fixed, options, verb
             found["rms"], found["overlap"], found["iterations"], found["start"], found["scale"],
             found["inliers"])
     elif mode != "lay":
-        assert made.at_place.replace("_", "-") == report["status"]
+        assert made.relation.replace("_", "-") == report["status"]
         assert made.contact_count == report["contact_count"]
 
 
@@ -129,7 +129,7 @@ def test_clashes_are_those_of_the_tool(folder, clearance):
     assert {key.replace("_", "-"): n for key, n in made.counts.items()} == report["counts"]
     for mine, theirs in zip(made.pairs, report["pairs"], strict=True):
         assert [names[mine.a], names[mine.b]] == [theirs["a"], theirs["b"]]
-        assert mine.how.replace("_", "-") == theirs["status"]
+        assert mine.relation.replace("_", "-") == theirs["status"]
         assert (mine.distance, mine.face_pairs, mine.volume, mine.depth) == (
             theirs["distance"], theirs["face_pairs"], theirs["volume"], theirs["depth"])
         for (_, pairs, a, b), region in zip(mine.regions, theirs["regions"], strict=True):
@@ -154,7 +154,7 @@ def test_poses_are_those_of_the_tool(folder, clearance):
               for row in map(json.loads, done.stdout.splitlines()) for pair in row["pairs"]]
     made = tf.check_poses([PARTS[n] for n in names], poses, clearance)
     own = [(int(pose), names[a], names[b], tf.RELATIONS[how].replace("_", "-"), far)
-           for pose, (a, b), how, far in zip(made.pose, made.parts, made.how, made.distance)]
+           for pose, (a, b), how, far in zip(made.pose, made.parts, made.relation, made.distance)]
     assert own == theirs and 0 < made.clashing < 40
 
 

@@ -118,7 +118,7 @@ def test_a_mesh_in_tiles_is_that_of_the_whole(tmp_path):
     extra.set_vertex("s", np.float32(ball.vertices[:, 0] > 0))
     extra.set_vertex("t", np.zeros(len(ball.vertices), np.float32))
     tf.write(tmp_path / "ball.ply", tf.Mesh(ball.vertices, ball.faces, extra))
-    for options in (dict(keep_seams=True), dict(keep_seams=True, across=["s", "t"]),
+    for options in (dict(keep_seams=True), dict(keep_seams=True, ignored_seams=["s", "t"]),
                     dict(keep_degenerate=True)):
         done = tf.weld_stream(tmp_path / "ball.ply", tmp_path / "thin.ply", 0.2,
                               points_per_tile=500, **options)

@@ -100,7 +100,7 @@ std::uint64_t check_random(test::random& source, shape of) {
                                             operands.size());
     const auto rule = static_cast<tf::fill_rule>(source.below(3));
     const std::vector<tf::mesh_view> views(operands.begin(), operands.end());
-    const tf::boolean_result result = tf::boolean(views, expression, {.inside = rule});
+    const tf::boolean_result result = tf::boolean(views, expression, {.fill_rule = rule});
     const test::exact_arrangement arranged(operands, rule);
     CHECK(arranged.closed() == (result.certificate.status != tf::status::open_input));
     if (!arranged.closed() || !result.certificate) return 0;

@@ -167,7 +167,7 @@ question random_question(test::random& source, solid_shape of) {
     }
     constexpr std::array<const char*, 5> kinds = {"+", "-", "++-", "+-*", "+-*^"};
     result.formula = formula_of(source, kinds[source.below(kinds.size())], 0, operands);
-    result.options.inside = static_cast<tf::fill_rule>(source.below(3));
+    result.options.fill_rule = static_cast<tf::fill_rule>(source.below(3));
     result.options.simplify = source.below(2) == 0;
     return result;
 }
@@ -202,7 +202,7 @@ void check_again(const question& asked, const tf::boolean_result& result) {
 
 void check_same(const question& asked, test::random& source, counts& sums) {
     const tf::boolean_expression expression = asked.expression();
-    const tf::fill_rule rule = asked.options.inside;
+    const tf::fill_rule rule = asked.options.fill_rule;
     test::exact_numbers numbers;
     const test::exact_chain all = test::surface_of_all(asked.operands, expression, rule, numbers);
     // Boxes of all sizes, and at times those of `boolean`.

@@ -114,9 +114,9 @@ inline tile_result weld_crowded(const std::vector<tile_point>& points, double to
                                 test::random& random) {
     tf::detail::weld::crowded_chain tile(tolerance);
     tile_result result;
-    in_blocks(points, random, [&](auto block) { tile.look(block); });
-    in_blocks(points, random, [&](auto block) { tile.link(block); });
-    in_blocks(points, random, [&](auto block) { tile.settle(block, result); });
+    in_blocks(points, random, [&](auto block) { tile.find_cubes(block); });
+    in_blocks(points, random, [&](auto block) { tile.link_cubes(block); });
+    in_blocks(points, random, [&](auto block) { tile.append_result(block, result); });
     return result;
 }
 

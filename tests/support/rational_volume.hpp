@@ -113,7 +113,7 @@ class exact_arrangement {
     [[nodiscard]] bool inside(std::uint32_t cell, const tf::boolean_expression& expression) const {
         const auto windings = cells_.winding_of(cell);
         for (std::size_t k = 0; k < count_; ++k)
-            in_[k] = rule_ == tf::fill_rule::odd        ? windings[k] % 2 != 0
+            in_[k] = rule_ == tf::fill_rule::even_odd   ? windings[k] % 2 != 0
                      : rule_ == tf::fill_rule::positive ? windings[k] > 0
                                                         : windings[k] != 0;
         return expression({in_.get(), count_});

@@ -56,7 +56,7 @@ inline tf::boolean_result whole_boolean(const std::vector<tf::mesh>& operands,
     for (std::uint32_t c = 0; c < count; ++c) {
         for (std::size_t k = 0; k < operands.size(); ++k)
             in[k] = !cells.winding.empty() &&
-                    detail::boolean::is_inside(options.inside, cells.winding_of(c)[k]);
+                    detail::boolean::is_inside(options.fill_rule, cells.winding_of(c)[k]);
         inside[c] = expression({in.get(), operands.size()}) ? 1 : 0;
     }
     detail::boolean::chosen_surface chosen{

@@ -14,8 +14,7 @@ ENUMS = {
     "resolve_mode": ("treeform_resolve_mode", "RESOLVE_"),
     "pair_kind": ("treeform_pair_kind", ""),
     "location": ("treeform_location", ""),
-    "mesh_relation": ("treeform_mesh_relation", {"touching": "MEETING",
-                                                 "closer_than_clearance": "TOO_CLOSE"}),
+    "mesh_relation": ("treeform_mesh_relation", "RELATION_"),
     "feature": ("uint8_t", ""),
     "feature_kind": ("treeform_feature_kind", ""),
     "placement_end": ("treeform_placement_end", "END_"),
@@ -56,7 +55,7 @@ BOUND = [
     Bound("face_pair", kind="same"),
     Bound("intersection_result", "pairs", counts={"pairs": "count"},
           leave="exact_pairs predicates tree_seconds pair_seconds"),
-    Bound("intersection_options", "intersections_options", custom={
+    Bound("intersection_options", custom={
         "component_of_face": [Member("const uint32_t* component_of_face",
                                      "[F] for `between` and `within`; or null")]}),
     Bound("intersection_region", "region", "part"),
@@ -107,7 +106,7 @@ BOUND = [
     # nearness.h
     Bound("mesh_hit", "hit", "same"),
     Bound("measure_options"),
-    Bound("mesh_measure", "relation", names={"relation": "how"}, custom={
+    Bound("mesh_measure", "relation", custom={
         f"on_{x}": [
             Member(f"uint32_t nearest_{x}", f"the face of `{x}` that contains `on_{x}`",
                    f"to.nearest_{x} = from.on_{x}.face;"),
@@ -189,7 +188,7 @@ BOUND = [
     Bound("lay_flat_options"),
     Bound("laid_flat", leave="contact", counts={"points": "point_count"},
           custom={"+": [MESSAGE]}),
-    Bound("pack_options", names={"size": "plate"}),
+    Bound("pack_options"),
     Bound("packed_part", kind="part", counts={"points": "point_count"}),
     Bound("packing", counts={"parts": "part_count"}, custom={"+": [MESSAGE]}),
     Bound("align_options"),

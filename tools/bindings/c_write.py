@@ -96,13 +96,13 @@ class Writer:
         """Existing members keep their order, so that compiled programs keep working; new ones come
         last."""
         before = self.order.get(c, [])
-        before = before[1:] if before and before[0] in ("owner", "size") else before
+        before = before[1:] if before and before[0] in ("owner", "struct_size") else before
         place = {name: i for i, name in enumerate(before)}
         return sorted(members, key=lambda one: place.get(one.name, len(before)))
 
     def struct(self, bound: Bound) -> str:
         self.fields = {one.name for one in self.language.structs[bound.cpp].fields}
-        first = {"options": "size_t size;\n", "result": "void* owner;\n"}.get(bound.kind, "")
+        first = {"options": "size_t struct_size;\n", "result": "void* owner;\n"}.get(bound.kind, "")
         said = self.language.structs[bound.cpp].doc
         text = comment(self.words(said))
         text += f"typedef struct {bound.c} {{\n{first}"

@@ -412,7 +412,7 @@ RESULTS = [
                    "+": [MESSAGE]}),
     # _assembly
     Result("part_clash", "PartClash", "_assembly", docs={
-        "how": "'penetrating', 'touching' or 'closer_than_clearance'."},
+        "relation": "'penetrating', 'touching' or 'closer_than_clearance'."},
            custom={"regions": [Attribute(
                "regions", "list[tuple[Floats, int, Ids, Ids]]", "Regions where they meet: (box "
                "(2, 3), number of pairs of faces, faces of a, faces of b).", "regions_of(from)")]}),
@@ -432,8 +432,8 @@ RESULTS = [
                  for name, annotation, doc, value in (
                      ("parts", "Ids", "(n, 2) the two parts, the lower number first.",
                       "std::array{one.a, one.b}"),
-                     ("how", "NDArray[np.uint8]", "(n,) uint8: their relation, an index into "
-                      "`RELATIONS`.", "one.how"),
+                     ("relation", "NDArray[np.uint8]", "(n,) uint8: their relation, an index into "
+                      "`RELATIONS`.", "one.relation"),
                      ("distance", "Floats", "(n,) of those that are closer than the clearance; "
                                             "else "
                       "0.", "one.distance"))]]}),

@@ -23,12 +23,13 @@ _PIECE = f"mesh.prepared(), {_ALL_RAYS}.piece(begin, end)"
 _MESHES = {"meshes": "each argument is a mesh or a list of meshes."}
 _VOLUMES = {"volumes": "compute the volumes of the two operands, of their union and of their "
                        "intersection."}
-_INSIDE = {"inside": "'nonzero', 'odd' or 'positive': the winding numbers that count as inside."}
+_FILL_RULE = {"fill_rule": "'nonzero', 'even_odd' or 'positive': the winding numbers that count "
+                           "as inside."}
 _WELD = {
     "same": "vertex properties that must agree for points to be merged, each with the largest "
             "difference allowed.",
     "keep_seams": "merge only points with equal normals, texture coordinates and colors, except "
-                  "for those in `across`.",
+                  "for those in `ignored_seams`.",
     "chain": "merge all points that are connected by a chain of points, each within the tolerance"
              " of the next. By default, a point is dropped if it is within the tolerance of an "
              "earlier point that is kept.",
@@ -38,7 +39,7 @@ _WELD = {
     "order_by": "a vertex property: visit the points in ascending order of its values. Requires "
                 "`keep` 'first'. Empty: in the order of their numbers.",
     "highest_first": "visit the points in descending order of `order_by`.",
-    "across": "properties that `keep_seams` ignores."}
+    "ignored_seams": "properties that `keep_seams` ignores."}
 _WELD_STREAM = _WELD | {
     "files": "one or several files of points, read as one cloud; or one file of a "
              "mesh.",
@@ -65,8 +66,8 @@ _BODIES = "`a` and `b` are each a mesh or a cloud (n, 3). Points of a cloud coun
 def _operation(name: str, what: str, leave: str = "gap",
                docs: dict[str, str] = {}) -> Function:  # noqa: B006
     return Function(f"{name}(*meshes: Operands, options: boolean_options) -> BooleanResult",
-                    doc=what, leave=leave, docs=_MESHES | _VOLUMES | _INSIDE | docs, cpp="boolean",
-                    check="solids",
+                    doc=what, leave=leave, docs=_MESHES | _VOLUMES | _FILL_RULE | docs,
+                    cpp="boolean", check="solids",
                     body=f'combined("{name}", meshes, how, progress)')
 
 
@@ -125,7 +126,7 @@ FUNCTIONS = [
                   "The value is 0 or NaN if an operand does not have the attribute. Coplanar "
                   "faces are merged only if their values are equal, and if vertices have values, "
                   "only with `simplify`.",
-             docs=_VOLUMES | _INSIDE | {
+             docs=_VOLUMES | _FILL_RULE | {
                    "expression": "a formula of `operands`, named `a`, `b`, `c`, ..., and of "
                                  "`meshes` by their names: `+` or `|` for union, `*` or `&` for "
                                  "intersection, `-` for difference, `^` for exclusive or, and "
@@ -139,7 +140,7 @@ FUNCTIONS = [
                  "parts of `sheet` outside all of them, or inside all of them. The sheet may have"
                  " any border, may intersect itself, and may even be closed. The result is an "
                  "open surface, so its edges are not checked.",
-             docs=_INSIDE | {
+             docs=_FILL_RULE | {
                    "keep": "'outside' or 'inside'. Parts on the surface of a solid count as "
                            "inside it. So for one solid, the two results together are the whole "
                            "sheet."}),
@@ -153,7 +154,7 @@ FUNCTIONS = [
     Function("split(*meshes: Operands, options: boolean_options) -> BooleanResult",
              "tf::split($meshes, options)", "attributes of meshes", check="meshes",
              docs=_MESHES,
-             leave="inside keep_cuts simplify volumes min_volume gap"),
+             leave="fill_rule keep_cuts simplify volumes min_volume gap"),
     Function("check_solid(mesh: Mesh) -> Certificate",
              'require_faces(mesh, "mesh"), tf::check_solid(mesh.view(), report)'),
     # _cuts
@@ -239,7 +240,7 @@ FUNCTIONS = [
              "options: resolve_options) -> RepairResult",
              "tf::resolve_self_intersections($mesh, $mode, options)", "attributes of mesh",
              check="solid",
-             docs=_INSIDE | {
+             docs=_FILL_RULE | {
                    "mode": "'outer' cuts faces along their intersections and keeps those that "
                            "bound the solid; 'split' keeps all pieces; 'remove', for surfaces "
                            "that do not bound a solid, deletes intersecting faces and fills the "
@@ -253,10 +254,10 @@ FUNCTIONS = [
                             "separates parts that touch only at an edge or a vertex.",
                    "keep_cuts": "as in `boolean`; faces that fill holes are only merged with each"
                                 " other.",
-                   "inside": "'nonzero', 'odd' or 'positive': the winding numbers that count as "
-                             "inside. None: 'positive' if all shells are oriented outward, "
-                             "otherwise 'nonzero'; if faces are inconsistent, inside and outside "
-                             "are determined by a minimum cut."}),
+                   "fill_rule": "'nonzero', 'even_odd' or 'positive': the winding numbers that "
+                                "count as inside. None: 'positive' if all shells are oriented "
+                                "outward, otherwise 'nonzero'; if faces are inconsistent, inside "
+                                "and outside are determined by a minimum cut."}),
     Function("wrap(mesh: Mesh, size: float, options: offset_options) -> OffsetResult",
              "tf::wrap($mesh, size, options)", kind="long_work", check="mesh",
              leave="resolution shift",

@@ -288,8 +288,8 @@ void append(std::vector<std::size_t>& begin, std::vector<T>& all, std::vector<st
 template <class C>
 void init(C* options, std::size_t size, C defaults) noexcept {
     if (!options || size < sizeof(std::size_t)) return;
-    defaults.size = size < sizeof defaults ? size : sizeof defaults;
-    std::memcpy(options, &defaults, defaults.size);
+    defaults.struct_size = size < sizeof defaults ? size : sizeof defaults;
+    std::memcpy(options, &defaults, defaults.struct_size);
 }
 
 /// The caller's options, with defaults for members beyond the size of the caller's struct.
@@ -298,10 +298,10 @@ template <class C>
     C all{};
     init(&all, sizeof all);
     if (!options) return all;
-    if (options->size < sizeof(std::size_t) || options->size > sizeof all)
-        throw std::invalid_argument("options of " + std::to_string(options->size) +
+    if (options->struct_size < sizeof(std::size_t) || options->struct_size > sizeof all)
+        throw std::invalid_argument("options of " + std::to_string(options->struct_size) +
                                     " bytes: call the init function of their struct first");
-    std::memcpy(&all, options, options->size);
+    std::memcpy(&all, options, options->struct_size);
     return all;
 }
 

@@ -19,7 +19,7 @@ namespace glue {
 /// All pairs of faces that meet in a point that is neither a shared corner nor on a shared edge.
 /// Exact on the coordinates as given.
 inline tf::intersection_result self_intersections(const tf::mesh_ref& mesh,
-                                                  const treeform_intersections_options* options) {
+                                                  const treeform_intersection_options* options) {
     tf::intersection_options how = read(options);
     if (options && options->component_of_face)
         how.component_of_face = {options->component_of_face, mesh.view().faces.size()};

@@ -210,7 +210,10 @@ std::string help_of(const command_text& c, std::string_view word) {
     if (at == c.modes.end()) return page(c, c.usage, c.purpose, c.groups) + c.epilogue;
     std::string purpose = wrapped(at->text + ".", width);
     purpose[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(purpose[0])));
-    return page(c, at->usage, purpose, groups_for(*at, c.groups, c.modes)) + at->more + "\n" +
+    const std::string text =
+        page(c, at->usage, purpose, groups_for(*at, c.groups, c.modes)) + at->more;
+    if (at->more.find("\nExit status: ") != std::string::npos) return text;
+    return text + "\n" +
            c.epilogue.substr(std::min(c.epilogue.find("Exit status:"), c.epilogue.size()));
 }
 

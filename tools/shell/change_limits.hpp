@@ -20,7 +20,7 @@ struct change_limits {
 };
 
 /// By `fill_rule`.
-inline constexpr std::array<const char*, 3> fill_rules{"nonzero", "odd", "positive"};
+inline constexpr std::array<const char*, 3> fill_rules{"nonzero", "even-odd", "positive"};
 
 void add_max_move(command_line& line, change_limits& target);
 void add_max_loss(command_line& line, change_limits& target);

@@ -136,10 +136,11 @@ void warn_of_folds(job& work, const tf::rounding_effects& defects, tf::precision
         text += (text.empty() ? "" : ", ") + counted(defects.meeting, "pair", "pairs") +
                 " of faces newly " + (defects.meeting == 1 ? "meets" : "meet");
     if (text.empty()) return;
-    work.warn("folded", "by rounding, " + text + "; " +
-                            (precision == tf::precision::float32
-                                 ? "--precision double, in a format that has it, may avoid this"
-                                 : "coordinates nearer to the origin are rounded less"));
+    work.warn("rounding-defects",
+              "by rounding, " + text + "; " +
+                  (precision == tf::precision::float32
+                       ? "--precision double, in a format that has it, may avoid this"
+                       : "coordinates nearer to the origin are rounded less"));
 }
 
 void enter_rounding(job& work, const tf::rounding_effects& lost, tf::precision precision) {

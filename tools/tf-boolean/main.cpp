@@ -32,8 +32,9 @@ void add_options(command_line& line, boolean_settings& s) {
                                "names of parts, \"body-(bolt_1+'left bolt')\""});
     line.repeatable_option(s.matrix_texts,
                            {"--matrix", "N:FILE", "4x4 matrix for INPUT N (repeatable)"});
-    line.option(s.inside,
-                {"--inside", "RULE", "winding numbers inside: nonzero | odd | positive", "nonzero"},
+    line.option(s.fill_rule,
+                {"--fill-rule", "RULE", "winding numbers inside: nonzero |\neven-odd | positive",
+                 "nonzero"},
                 tools::fill_rules);
     line.flag(s.check, {"--check", "", "only check that the inputs bound solids"});
     line.flag(s.accept_open, {"--accept-open", "",
@@ -55,7 +56,7 @@ void add_options(command_line& line, boolean_settings& s) {
     tools::add_max_move(line, s.limits);
 }
 
-void add_what_to_give_back(command_line& line, boolean_settings& s, common_options& options) {
+void add_outputs(command_line& line, boolean_settings& s, common_options& options) {
     line.group("Output");
     line.output(options.output, {"-o, --output", "FILE", "the result"});
     line.option(s.source, {"--source", "P",
@@ -86,7 +87,7 @@ tf::boolean_result ask(tools::job& work, const boolean_settings& s,
                        const std::optional<std::uint32_t>& sheet, tf::precision precision) {
     const auto timing = work.time("cut");
     const std::vector<tf::mesh_view> views = tools::views_of(solids);
-    tf::boolean_options options{.inside = s.inside,
+    tf::boolean_options options{.fill_rule = s.fill_rule,
                                 .precision = precision,
                                 .keep_cuts = keeps_cuts(s, solids),
                                 .simplify = s.simplify,
@@ -208,7 +209,7 @@ int main(int argc, char** argv) {
     line.group("OP");
     line.describe(tools::help_text);
     add_options(line, s);
-    add_what_to_give_back(line, s, options);
+    add_outputs(line, s, options);
     line.group("Common options");
     tools::add_common_options(
         line, options,

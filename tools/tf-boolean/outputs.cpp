@@ -45,7 +45,7 @@ void enter_choices(json& entry, const boolean_settings& settings, const std::vec
 void enter_blank_report(job& work, const boolean_settings& settings) {
     json& entry = work.entry;
     entry["operation"] = settings.name().empty() ? json(nullptr) : json(settings.name());
-    entry["inside"] = name_of(settings.inside);
+    entry["fill_rule"] = name_of(settings.fill_rule);
     entry["check"] = settings.check;
     entry["inputs"] = json::array();
     for (const char* key : {"pairs", "cut_faces", "volumes", "separated_points"})

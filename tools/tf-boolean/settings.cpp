@@ -75,8 +75,8 @@ void refuse_what_does_nothing(const boolean_settings& s, const common_options& o
         refuse("--repair closes open surfaces; it excludes --accept-open");
     check_curve_path(s.curves);
     if (s.check && !s.curves.empty()) refuse("--curves: --check makes no result");
-    if (s.splits() && s.inside != tf::fill_rule::nonzero)
-        refuse("--inside: split keeps every piece");
+    if (s.splits() && s.fill_rule != tf::fill_rule::nonzero)
+        refuse("--fill-rule: split keeps every piece");
     if (s.source.empty() || s.source.find_first_of(" \t\r\n") != std::string::npos)
         refuse("--source: expected a name without blanks");
     if (s.source_given && (!mesh || !holds_sources(mesh_format(o, o.output))))

@@ -25,7 +25,7 @@ struct boolean_settings {
     std::vector<std::string> names{};         ///< of parts that it has; empty: it has letters
     std::vector<std::string> matrix_texts{};  ///< of --matrix, "N:FILE"
     std::vector<std::filesystem::path> matrix_files{};  ///< by input; empty: it is not moved
-    tf::fill_rule inside = tf::fill_rule::nonzero;
+    tf::fill_rule fill_rule = tf::fill_rule::nonzero;
     bool check = false;
     bool accept_open = false;
     bool repair = false;

@@ -187,7 +187,7 @@ void say_section(job& work, const cut_settings& s, const usable_input& input,
         work.warn("open-loops", counted(open, "polyline is", "polylines are") +
                                     " open, since the surface is open there; tf-repair closes it");
     if (unsure > 0)
-        work.warn("turned-loops",
+        work.warn("unoriented-loops",
                   counted(static_cast<std::uint64_t>(unsure), "polyline runs", "polylines run") +
                       " along inconsistently oriented faces; tf-repair orients them");
 }

@@ -181,9 +181,9 @@ cut_off shape_of(job& work, const cut_settings& s, const usable_input& input,
 void write_pieces(job& work, const cut_settings& s, const usable_input& input,
                   std::vector<cut_off>& pieces);
 
-/// That pieces can be written so: --output with "%d", or a format with objects. \throws failure
-/// (bad_usage)
-void check_pieces_path(const common_options& options, std::size_t pieces);
+/// Checks that several pieces can be written: --output has "%d", or its format has objects. `what`
+/// is "pieces" or "parts". \throws failure (bad_usage)
+void check_pieces_path(const common_options& options, const std::string& what);
 
 /// Sides of loops or isolines, to be drawn.
 struct drawn_lines {

@@ -126,10 +126,11 @@ exit_status look_at(tools::job& work, const cut_settings& s) {
             return tools::found;
         }
         if (made.resolved)
-            work.warn("united", s.open ? "the mesh has self-intersections: its faces are cut along "
-                                         "each other first"
-                                       : "the mesh has self-intersections: overlapping parts are "
-                                         "merged before the cut");
+            work.warn("self-intersections",
+                      s.open ? "the mesh has self-intersections: its faces are cut along "
+                               "each other first"
+                             : "the mesh has self-intersections: overlapping parts are "
+                               "merged before the cut");
         pieces = pieces_of(std::move(made), s);
         const auto furthest = std::ranges::max_element(
             pieces, {}, [](const cut_off& piece) { return piece.certificate.max_displacement; });

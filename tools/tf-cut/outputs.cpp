@@ -92,15 +92,15 @@ std::vector<std::filesystem::path> numbered_paths(job& work, const std::filesyst
     return paths;
 }
 
-void check_pieces_path(const common_options& o, std::size_t pieces) {
-    if (o.output.empty() || pieces < 2 || has_number(o.output)) return;
+void check_pieces_path(const common_options& o, const std::string& what) {
+    if (o.output.empty() || has_number(o.output)) return;
     const std::string format = mesh_format(o, o.output);
     if (has_objects(format)) return;
     const std::filesystem::path example =
         o.output.parent_path() /
         (o.output.stem().string() + "_" + number_mark + o.output.extension().string());
-    refuse("there may be several pieces, but " + format + " holds one: use -o " + example.string() +
-           ", or write 3mf, obj or glb");
+    refuse("there may be several " + what + ", but " + format + " holds one: use -o " +
+           example.string() + ", or write 3mf, obj or glb");
 }
 
 void write_pieces(job& work, const cut_settings& s, const usable_input& input,

@@ -108,7 +108,7 @@ void add_options(command_line& line, cut_settings& s) {
                 {"--largest", "N", "parts: only the N parts of greatest volume", "all"});
 }
 
-void add_what_to_give_back(command_line& line, cut_settings& s) {
+void add_outputs(command_line& line, cut_settings& s) {
     line.group("Output");
     line.output(s.output, {"-o, --output", "FILE",
                            "the result: lines as svg, dxf, obj or json (\"-\": json\n"
@@ -174,7 +174,7 @@ void add_settings(command_line& line, cut_settings& s) {
     line.group("Modes");
     line.describe(help_text);
     add_options(line, s);
-    add_what_to_give_back(line, s);
+    add_outputs(line, s);
 }
 
 void check_request(const command_line& line, cut_settings& s, common_options& options) {
@@ -196,7 +196,8 @@ void check_request(const command_line& line, cut_settings& s, common_options& op
         if (!single) {
             if (!options.output_dir.empty() || options.in_place)
                 refuse("--output-dir and --in-place need --keep below or above");
-            check_pieces_path(options, s.parts.largest == 1 ? 1 : 2);
+            if (s.parts.largest != 1)
+                check_pieces_path(options, s.mode == cut_mode::parts ? "parts" : "pieces");
         }
         if (!s.caps.empty() && !options.output.empty()) {
             const std::string format = mesh_format(options, options.output);

@@ -268,7 +268,7 @@ void write_page(job& work, const placing& p, const tf::deviation_result* known) 
         shown.y_is_up = false;
     shown.verdict = sentence(p);
     shown.good = p.at && (!p.aligned || p.aligned->converged) &&
-                 p.at.at_place != tf::mesh_relation::penetrating;
+                 p.at.relation != tf::mesh_relation::penetrating;
     shown.classes = classes_of(p);
     const tf::prepared_mesh& shape = p.moving.shapes[0];
     const tf::points_view before = shape.view().points;

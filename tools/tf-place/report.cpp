@@ -15,8 +15,8 @@ constexpr const char* blank_report = R"({
     "format": null, "sha256": null, "precision_in": null, "faces": null, "triangles": null,
     "box": null, "mode": null, "fixed": [],
     "skipped": {"non_finite": null, "parts_not_loaded": 0, "parts_not_indexed": null,
-        "primitives_not_indexed": null, "pairs_culled_by_box": null,
-        "face_pairs_in_motion": null, "filter_calls": null, "exact_calls": null},
+        "primitives_not_indexed": null, "pairs_culled_by_box": null},
+    "work": {"face_pairs_in_motion": null, "predicates": null, "exact_predicates": null},
     "clearance": {"given": null, "used": null}, "max_travel": null, "bed": null, "placed": null,
     "reason": null, "status_at_start": null, "status": null, "inside": null, "distance": null,
     "surface_distance": null, "closest": null, "direction": null, "travel": null,
@@ -60,10 +60,10 @@ void enter_skipped(json& entry, const placing& p) {
     }
     entry["skipped"].update({{"parts_not_indexed", bodies},
                              {"primitives_not_indexed", faces},
-                             {"pairs_culled_by_box", p.at.statistics.fixed_culled},
-                             {"face_pairs_in_motion", p.at.statistics.pairs_tested},
-                             {"filter_calls", p.at.statistics.predicates.calls},
-                             {"exact_calls", p.at.statistics.predicates.undecided}});
+                             {"pairs_culled_by_box", p.at.statistics.fixed_culled}});
+    entry["work"] = {{"face_pairs_in_motion", p.at.statistics.pairs_tested},
+                     {"predicates", p.at.statistics.predicates.calls},
+                     {"exact_predicates", p.at.statistics.predicates.undecided}};
 }
 
 }  // namespace
@@ -97,8 +97,8 @@ void enter_place(json& entry, const placing& p) {
                         {"used", *at.bed},
                         {"reached", at.end == tf::placement_end::bed}};
     entry["placed"] = static_cast<bool>(at);
-    entry["status_at_start"] = name_of(at.at_start);
-    entry["status"] = name_of(at.at_place);
+    entry["status_at_start"] = name_of(at.relation_at_start);
+    entry["status"] = name_of(at.relation);
     for (const tf::placement_contact& c : at.contacts)
         entry["contacts"].push_back(contact_entry(p.moving, p.fixed, c));
     entry["contact_count"] = at.contact_count;
@@ -124,7 +124,7 @@ std::string sentence(const placing& p) {
     std::string relation = at.relation_in_words(p.moving, p.fixed);
     if (!at) {
         std::string pairs;  // of faces, behind "penetrating other.stl"
-        if (at.at_place == tf::mesh_relation::penetrating && at.nearest) {
+        if (at.relation == tf::mesh_relation::penetrating && at.nearest) {
             const std::string seen = "penetrating " + p.fixed.label(at.nearest_fixed);
             pairs = relation.substr(std::min(seen.size(), relation.size()));
         }
@@ -142,7 +142,7 @@ std::string sentence(const placing& p) {
                               : drops                                ? "dropped by "
                               : p.settings.mode == place_mode::slide ? "slid by "
                                                                      : "moved by ";
-    return moved + brief(at.travel) + "; " + relation + cut_in_words(at.effort);
+    return moved + brief(at.travel) + "; " + relation + skipped_in_words(at.effort);
 }
 
 void say_place(job& work, const placing& p) {

@@ -119,6 +119,8 @@ void check_settings(const command_line& line, place_settings& s, common_options&
         {is(measure) && s.max_travel, "--max-travel: measure moves nothing"},
         {is(measure) && !s.matrix.empty(), "--matrix: measure moves nothing"},
         {is(measure) && o.in_place, "--in-place: measure moves nothing"},
+        {is(lay) && s.scene, "--scene: lay has no fixed meshes"},
+        {is(pack) && s.scene, "--scene: pack always writes all parts"},
         {s.scene && (!mesh || o.in_place), "--scene needs -o or --output-dir"},
         {!mesh && form,
          "--output-format, --ascii, --binary and --precision need -o, --output-dir or --in-place"}};

@@ -63,17 +63,18 @@ void add_options(command_line& line, repair_settings& s) {
     line.option(
         {"--strays", "SHARE", "drop loose open pieces below this share of the area", "0.1%"},
         [&s](std::string_view text) { s.steps.strays = tools::parse_share("--strays", text); });
-    line.option({.names = "--inside",
-                 .value = "RULE",
-                 .text = "winding numbers inside: auto | nonzero | odd |\npositive",
-                 .fallback = "auto",
-                 .offered = {"auto", "nonzero", "odd", "positive"}},
-                [&s](std::string_view text) {
-                    const std::array<const char*, 4> rules{"auto", "nonzero", "odd", "positive"};
-                    const std::size_t chosen = tools::parse_choice("--inside", text, rules);
-                    s.steps.inside.reset();
-                    if (chosen > 0) s.steps.inside = static_cast<tf::fill_rule>(chosen - 1);
-                });
+    line.option(
+        {.names = "--fill-rule",
+         .value = "RULE",
+         .text = "winding numbers inside: auto | nonzero |\neven-odd | positive",
+         .fallback = "auto",
+         .offered = {"auto", "nonzero", "even-odd", "positive"}},
+        [&s](std::string_view text) {
+            const std::array<const char*, 4> rules{"auto", "nonzero", "even-odd", "positive"};
+            const std::size_t chosen = tools::parse_choice("--fill-rule", text, rules);
+            s.steps.fill_rule.reset();
+            if (chosen > 0) s.steps.fill_rule = static_cast<tf::fill_rule>(chosen - 1);
+        });
     line.flag(s.steps.sheet, {"--sheet", "", "the input is an open surface: keep its border"});
     line.flag(s.steps.keep_cuts, {"--keep-cuts", "",
                                   "do not merge coplanar faces that were cut, or\n"
@@ -86,7 +87,7 @@ void add_options(command_line& line, repair_settings& s) {
     tools::add_max_move(line, s.limits);
 }
 
-void add_what_to_give_back(command_line& line, repair_settings& s, common_options& options) {
+void add_outputs(command_line& line, repair_settings& s, common_options& options) {
     line.group("Output");
     line.output(options.output, {"-o, --output", "FILE", "the solid"});
     line.output(s.curves, {"--curves", "FILE", "intersection curves of the input, as OBJ or PLY"});
@@ -105,7 +106,7 @@ void check_request(const command_line& line, request& r, common_options& options
     if (s.gap && !s.steps.join) refuse("--gap: --no-join skips the step that closes cracks");
     if (line.given("--holes") && (!s.steps.fill || s.steps.sheet))
         refuse("--holes: --no-fill and --sheet fill no holes");
-    for (const char* name : {"--inside", "--keep-cuts"})
+    for (const char* name : {"--fill-rule", "--keep-cuts"})
         if (line.given(name) && !s.steps.resolve)
             refuse(std::string(name) + ": --no-resolve skips the cutting");
     if (s.steps.keep_cuts && s.steps.sheet) refuse("--keep-cuts: --sheet never merges faces");
@@ -121,8 +122,8 @@ void check_request(const command_line& line, request& r, common_options& options
     }
     if (tools::wants_mesh(options)) refuse("--check writes no mesh");
     for (const char* name :
-         {"--max-loss", "--accept-loss", "--max-move", "--gap", "--holes", "--strays", "--inside",
-          "--sheet", "--keep-cuts", "--source", "--precision"})
+         {"--max-loss", "--accept-loss", "--max-move", "--gap", "--holes", "--strays",
+          "--fill-rule", "--sheet", "--keep-cuts", "--source", "--precision"})
         if (line.given(name)) refuse(std::string(name) + ": --check changes nothing");
 }
 
@@ -218,7 +219,7 @@ int main(int argc, char** argv) {
     add_steps(line, r);
     add_options(line, r.settings);
     tools::add_wrapping(line, r.settings.wrap);
-    add_what_to_give_back(line, r.settings, options);
+    add_outputs(line, r.settings, options);
     line.group("Common options");
     tools::add_common_options(line, options,
                               {.output_formats = {"ply", "obj", "stl", "off", "glb", "3mf"}});

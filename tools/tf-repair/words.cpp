@@ -121,13 +121,14 @@ void warn_of_surprises(job& work, const repair_settings& settings, const tf::rep
                                     " vanished, since they enclose no volume");
     if (did.dropped_shells > 0) {
         const bool is_one = did.dropped_shells == 1;
-        const bool is_odd = settings.steps.inside == tf::fill_rule::odd;
-        work.warn("dropped-shells", counted(did.dropped_shells, "shell", "shells") +
-                                        " within another " + (is_one ? "was" : "were") +
-                                        " dropped, since the inside of a solid is filled" +
-                                        (is_odd   ? ""
-                                         : is_one ? "; --inside odd makes a cavity of it"
-                                                  : "; --inside odd makes cavities of them"));
+        const bool is_odd = settings.steps.fill_rule == tf::fill_rule::even_odd;
+        work.warn("dropped-shells",
+                  counted(did.dropped_shells, "shell", "shells") + " within another " +
+                      (is_one ? "was" : "were") +
+                      " dropped, since the inside of a solid is filled" +
+                      (is_odd   ? ""
+                       : is_one ? "; --fill-rule even-odd makes a cavity of it"
+                                : "; --fill-rule even-odd makes cavities of them"));
     }
 }
 

@@ -59,7 +59,7 @@ void warn_of_skin(job& work, const dirty_mesh& input, const tf::offset_result& m
     const auto edges = tf::count_topology(joined.points.size(), joined.faces);
     // Where parts overlap or are within each other, volumes say nothing.
     if (edges.boundary_edges <= edges.nonmanifold_edges) return;
-    work.warn("skin",
+    work.warn("double-walled",
               "the wrap covers both sides of faces, since it enters holes wider than about " +
                   brief(2.0 * made.resolution) + "; a larger --wrap closes them");
 }
@@ -81,7 +81,7 @@ void check_wrapping(const command_line& line, const wrap_settings& settings) {
         return;
     }
     for (const char* name :
-         {"--check", "--gap", "--holes", "--strays", "--inside", "--sheet", "--keep-cuts",
+         {"--check", "--gap", "--holes", "--strays", "--fill-rule", "--sheet", "--keep-cuts",
           "--max-loss", "--accept-loss", "--max-move", "--source", "--curves", "--no-join",
           "--no-orient", "--no-fill", "--no-resolve", "--no-detach"})
         if (line.given(name)) refuse(std::string(name) + ": --wrap replaces all steps");

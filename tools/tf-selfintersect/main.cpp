@@ -65,7 +65,7 @@ void add_what_counts(command_line& line, tools::search_settings& s) {
                 [&s](std::string_view text) { s.box = parse_box(text); });
 }
 
-void add_what_to_give_back(command_line& line, request& r, common_options& options) {
+void add_outputs(command_line& line, request& r, common_options& options) {
     line.group("Output");
     line.flag(r.search.first, {"--first", "", "stop at the first pair found"});
     line.option(r.limit, {"--limit", "N",
@@ -93,9 +93,9 @@ void add_repair(command_line& line, request& r) {
                              r.repairs = true;
                              r.repair.mode = static_cast<tf::resolve_mode>(mode);
                          });
-    line.option(r.repair.inside,
-                {"--inside", "RULE", "for outer: winding numbers inside: nonzero | odd |\npositive",
-                 "nonzero"},
+    line.option(r.repair.fill_rule,
+                {"--fill-rule", "RULE",
+                 "for outer: winding numbers inside: nonzero |\neven-odd | positive", "nonzero"},
                 tools::fill_rules);
     line.flag(r.repair.keep_cuts, {"--keep-cuts", "",
                                    "for outer: do not merge coplanar faces that were\n"
@@ -110,11 +110,11 @@ void check_request(const command_line& line, request& r, common_options& options
     using tools::refuse;
     if (r.search.between && r.search.within) refuse("--between and --within exclude each other");
     tools::check_curve_path(r.curves);
-    for (const char* name : {"--inside", "--keep-cuts", "--max-move", "--max-loss", "--accept-loss",
-                             "--keep-components"})
+    for (const char* name : {"--fill-rule", "--keep-cuts", "--max-move", "--max-loss",
+                             "--accept-loss", "--keep-components"})
         if (!r.repairs && line.given(name)) refuse(std::string(name) + " needs --repair");
-    if (line.given("--inside") && r.repair.mode != tf::resolve_mode::outer)
-        refuse("--inside is for --repair=outer");
+    if (line.given("--fill-rule") && r.repair.mode != tf::resolve_mode::outer)
+        refuse("--fill-rule is for --repair=outer");
     if (r.repair.keep_cuts && r.repair.mode != tf::resolve_mode::outer)
         refuse("--keep-cuts is for --repair=outer");
     if (r.repairs && (r.search.first || r.search.between || r.search.within || r.search.box))
@@ -194,7 +194,7 @@ int run(int argc, char** argv, tools::team_member& me) {
         options.table.push_back({kind, std::string("/pairs/") + kind});
     line.inputs(options.inputs, tools::mesh_inputs);
     add_what_counts(line, r.search);
-    add_what_to_give_back(line, r, options);
+    add_outputs(line, r, options);
     add_repair(line, r);
     tools::add_tile_options(
         line, r.tiles, "Files larger than --memory are searched in tiles on the disk (STL, PLY)",

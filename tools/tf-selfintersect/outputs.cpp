@@ -53,9 +53,9 @@ void enter_report(job& work, const findings& result, const search_settings& sett
     entry["searched"] = result.searched;
     entry["box"] = result.box;
     entry["skipped"] = {{"non_finite", result.part.non_finite},
-                        {"degenerate", result.part.degenerate},
-                        {"filter_calls", result.found.box_pairs},
-                        {"exact_calls", result.found.exact_pairs}};
+                        {"degenerate", result.part.degenerate}};
+    entry["work"] = {{"box_pairs", result.found.box_pairs},
+                     {"exact_pairs", result.found.exact_pairs}};
     entry["tolerance"] = {{"given", settings.tolerance.given},
                           {"used", result.tolerance_used},
                           {"joined", result.part.joined}};

@@ -45,7 +45,7 @@ inline constexpr std::array<const char*, 3> repair_modes{"split", "outer", "remo
 
 struct repair_settings {
     tf::resolve_mode mode = tf::resolve_mode::outer;
-    tf::fill_rule inside = tf::fill_rule::nonzero;
+    tf::fill_rule fill_rule = tf::fill_rule::nonzero;
     tools::change_limits limits{};
     bool keep_cuts = false;
     bool keep_components = false;

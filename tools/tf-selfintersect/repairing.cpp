@@ -28,7 +28,7 @@ tf::repair_result compute(job& work, const tf::mesh_file& input, const findings&
     const auto timing = work.time("repair");
     tf::repair_result repaired = tf::resolve_self_intersections(
         result.part.mesh, settings.mode,
-        {.inside = settings.inside,
+        {.fill_rule = settings.fill_rule,
          .precision = precision,
          .max_displacement = settings.limits.max_move.used(result.diagonal()),
          .keep_cuts = keeps_cuts(input, settings),

@@ -34,7 +34,7 @@ tf::mesh_file join(std::vector<tf::mesh_file> files, const std::vector<std::stri
     try {
         tf::mesh_file all = tf::join(std::move(files), names, mixed);
         for (tf::io_warning& w : all.warnings)
-            if (w.code == "left-out") w.text += " by --join";
+            if (w.code == "data-dropped") w.text += " by --join";
         return all;
     } catch (const std::length_error& error) {
         throw failure(bad_input, "size", in_plain_words(error));

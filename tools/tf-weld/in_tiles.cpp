@@ -48,7 +48,7 @@ tf::weld_stream_options library_options(job& work, const weld_request& request,
     options.order_by = asked.order_by;
     options.highest_first = asked.highest_first;
     options.keep_seams = asked.keep_seams;
-    options.across = asked.across;
+    options.ignored_seams = asked.ignored_seams;
     options.keep_degenerate = asked.keep_degenerate;
     const auto path = mesh_output(work.options, work.path);
     const std::string& format = work.options.output_format;
@@ -109,7 +109,7 @@ void enter_sources(job& work, const tf::cloud_survey& survey, const tf::cloud_in
         work.entry[key] = inputs.paths.size() == 1 ? first[key] : json(nullptr);
     work.entry["precision_in"] = precision(survey.single);
     for (const tf::io_warning& w : survey.warnings)
-        work.warn(w.code, w.code == "left-out" ? w.text + " by --join" : w.text);
+        work.warn(w.code, w.code == "data-dropped" ? w.text + " by --join" : w.text);
 }
 
 void say_plan(job& work, const tf::cloud_survey& survey, const fs::path& folder) {

@@ -38,10 +38,12 @@ void add_what_is_merged(command_line& line, weld_settings& s, bool& exact) {
                  "merge only points with equal P (or within TOL), such\n"
                  "as --same classification,nx=0.01"},
                 [&s](std::string_view text) { s.options.same = tools::parse_same(text); });
-    line.option({"--across", "P,...",
-                 "merge across mesh seams in P, which are kept by\n"
-                 "default: normal, uv, color"},
-                [&s](std::string_view text) { s.options.across = tools::parse_across(text); });
+    line.option({"--ignore-seams", "P,...",
+                 "merge points across mesh seams in P, which are kept\n"
+                 "by default: normal, uv, color"},
+                [&s](std::string_view text) {
+                    s.options.ignored_seams = tools::parse_ignored_seams(text);
+                });
     line.flag(s.options.only_borders,
               {"--borders", "", "merge only vertices on open edges (stitch shells)"});
     line.flag(exact, {.names = "--exact"});
@@ -60,7 +62,7 @@ void add_which_one_stays(command_line& line, tf::weld_options& options) {
     line.offer("--order", {"min:", "max:"});
 }
 
-void add_what_to_give_back(command_line& line, weld_outputs& outputs, common_options& options) {
+void add_outputs(command_line& line, weld_outputs& outputs, common_options& options) {
     line.group("Output");
     line.output(options.output, {"-o, --output", "FILE",
                                  "the welded points or mesh, with all their properties\n"
@@ -155,8 +157,9 @@ void check_request(const command_line& line, const tools::weld_request& r,
         refuse("--drop-non-finite changes the numbers of points; it excludes --map");
     if (r.mixed && !o.joined) refuse("--mixed needs --join");
     for (const auto& condition : r.settings.options.same)
-        for (const auto& name : r.settings.options.across)
-            if (condition.property == name) refuse(name + " is named by --same and by --across");
+        for (const auto& name : r.settings.options.ignored_seams)
+            if (condition.property == name)
+                refuse(name + " is named by --same and by --ignore-seams");
     const tf::weld_options& options = r.settings.options;
     if (!options.order_by.empty() && options.keep != tf::weld_keep::first)
         refuse("--order decides which point is kept; it excludes --keep " +
@@ -185,7 +188,7 @@ int run(int argc, char** argv, tools::team_member& me) {
     line.flag(options.joined, {"--join", "", "treat all INPUTs as one set", "each on its own"});
     add_what_is_merged(line, r.settings, exact);
     add_which_one_stays(line, r.settings.options);
-    add_what_to_give_back(line, r.outputs, options);
+    add_outputs(line, r.outputs, options);
     add_meshes(line, r.settings);
     add_columns(line, options, r.mixed);
     tools::add_tile_options(line, tiles,

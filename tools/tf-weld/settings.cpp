@@ -104,8 +104,8 @@ std::vector<tf::weld_condition> parse_same(std::string_view text) {
     return conditions;
 }
 
-std::vector<std::string> parse_across(std::string_view text) {
-    const auto parts = split("--across", text);
+std::vector<std::string> parse_ignored_seams(std::string_view text) {
+    const auto parts = split("--ignore-seams", text);
     return {parts.begin(), parts.end()};
 }
 
@@ -147,9 +147,10 @@ const char* rule_in_words(const tf::weld_options& options) {
 }
 
 failure property_failure(const tf::weld_property_error& error, const tf::attributes& known) {
-    const std::string option = error.option() == "keep_by"    ? "--keep "
-                               : error.option() == "order_by" ? "--order "
-                                                              : "--" + error.option() + " ";
+    const std::string option = error.option() == "keep_by"         ? "--keep "
+                               : error.option() == "order_by"      ? "--order "
+                               : error.option() == "ignored_seams" ? "--ignore-seams "
+                                                                   : "--" + error.option() + " ";
     const std::string why =
         error.reason().empty() ? "no such property; " + known_properties(known) : error.reason();
     return {bad_input, "property", option + error.name() + ": " + why};

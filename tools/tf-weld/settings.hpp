@@ -44,7 +44,7 @@ struct weld_request {
 void parse_rule(std::string_view text, tf::weld_options& options);
 /// "intensity,nx=0.01"
 [[nodiscard]] std::vector<tf::weld_condition> parse_same(std::string_view text);
-[[nodiscard]] std::vector<std::string> parse_across(std::string_view text);
+[[nodiscard]] std::vector<std::string> parse_ignored_seams(std::string_view text);
 /// "x=E,y=N,z=H"; `option` is named where it is none
 [[nodiscard]] name_pairs parse_names(std::string_view option, std::string_view text);
 /// "P,..."

@@ -12,5 +12,5 @@ int main() {
     if (!place) return 1;
     ball.points = place.points;  // coordinates that were checked, ready to be written
     std::printf("moved by %g\n", place.travel);
-    return place.at_place == tf::mesh_relation::clear ? 0 : 1;
+    return place.relation == tf::mesh_relation::clear ? 0 : 1;
 }

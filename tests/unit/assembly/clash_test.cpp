@@ -53,7 +53,7 @@ TEST_CASE("clash: boxes apart, touching and penetrating, with volume, depth and 
     const tf::part_clash& deep = found.pairs[0];
     CHECK(deep.a == 0);
     CHECK(deep.b == 1);
-    CHECK(deep.how == mesh_relation::penetrating);
+    CHECK(deep.relation == mesh_relation::penetrating);
     CHECK(deep.volume.value() == doctest::Approx(0.5 * 1.5 * 1.5).epsilon(1e-15));
     CHECK(deep.depth.value() == 0.5);
     CHECK(deep.move == tf::point3{-0.5, 0, 0});
@@ -61,7 +61,7 @@ TEST_CASE("clash: boxes apart, touching and penetrating, with volume, depth and 
     CHECK(deep.regions[0].box.min == tf::point3{1.5, 0.5, 0.5});
     CHECK(deep.regions[0].box.max == tf::point3{2, 2, 2});
     CHECK(deep.regions[0].face_pairs == deep.face_pairs);
-    CHECK(found.pairs[1].how == mesh_relation::touching);
+    CHECK(found.pairs[1].relation == mesh_relation::touching);
     CHECK(found.pairs[1].b == 2);
     CHECK_FALSE(found.pairs[1].volume.has_value());
     CHECK_FALSE(found.pairs[1].depth.has_value());
@@ -74,13 +74,13 @@ TEST_CASE("clash: a part that is inside out penetrates with the same volume and 
     const tf::mesh a = box(1, 1, 1), b = moved(box(1, 1, 1), {0.5, 0, 0});
     const auto expected = clash_of({a, b});
     REQUIRE(expected.pairs.size() == 1);
-    REQUIRE(expected.pairs[0].how == mesh_relation::penetrating);
+    REQUIRE(expected.pairs[0].relation == mesh_relation::penetrating);
     for (const auto& parts :
          {std::vector{test::inside_out(a), b}, std::vector{a, test::inside_out(b)},
           std::vector{test::inside_out(a), test::inside_out(b)}}) {
         const auto found = clash_of(parts);
         REQUIRE(found.pairs.size() == 1);
-        CHECK(found.pairs[0].how == mesh_relation::penetrating);
+        CHECK(found.pairs[0].relation == mesh_relation::penetrating);
         CHECK(found.pairs[0].volume == doctest::Approx(0.5));
         CHECK(found.pairs[0].depth == expected.pairs[0].depth);
         CHECK(found.clashes == 1);
@@ -90,7 +90,7 @@ TEST_CASE("clash: a part that is inside out penetrates with the same volume and 
 TEST_CASE("clash: a part inside another one has no region, but a depth, a volume and a distance") {
     const auto found = clash_of({box(4, 4, 4), moved(box(1, 1, 1), {1, 1.25, 1.5})});
     REQUIRE(found.pairs.size() == 1);
-    CHECK(found.pairs[0].how == mesh_relation::penetrating);
+    CHECK(found.pairs[0].relation == mesh_relation::penetrating);
     CHECK(found.pairs[0].b_inside_a);
     CHECK(found.pairs[0].regions.empty());
     CHECK(found.pairs[0].distance == 1.0);
@@ -103,7 +103,7 @@ TEST_CASE("clash: a clearance is kept by what is exactly as far") {
     CHECK(clash_of(parts, with_clearance(0.25)).pairs.empty());
     const auto near = clash_of(parts, with_clearance(std::nextafter(0.25, 1.0)));
     REQUIRE(near.pairs.size() == 1);
-    CHECK(near.pairs[0].how == mesh_relation::closer_than_clearance);
+    CHECK(near.pairs[0].relation == mesh_relation::closer_than_clearance);
     CHECK(near.pairs[0].distance == 0.25);
     CHECK((*near.pairs[0].nearest)[0].x == 1.0);
     CHECK(near.clashes == 1);
@@ -158,7 +158,7 @@ TEST_CASE("clash: what it says of random parts is what relation and distance say
                 const tf::part_clash& one = found.pairs[next++];
                 REQUIRE(one.a == i);
                 REQUIRE(one.b == j);
-                CHECK(one.how ==
+                CHECK(one.relation ==
                       (how == tf::mesh_relation::separate   ? mesh_relation::closer_than_clearance
                        : how == tf::mesh_relation::touching ? mesh_relation::touching
                                                             : mesh_relation::penetrating));
@@ -190,7 +190,7 @@ TEST_CASE("clash: an open part has no volume in common, a cloud penetrates with 
     open.faces.pop_back();
     const auto found = clash_of({open, moved(box(2, 2, 2), {1, 1, 1})});
     REQUIRE(found.pairs.size() == 1);
-    CHECK(found.pairs[0].how == mesh_relation::penetrating);
+    CHECK(found.pairs[0].relation == mesh_relation::penetrating);
     CHECK_FALSE(found.pairs[0].volume.has_value());
     CHECK(found.pairs[0].depth.has_value());
     std::vector<tf::prepared_mesh> parts;
@@ -198,7 +198,7 @@ TEST_CASE("clash: an open part has no volume in common, a cloud penetrates with 
     parts.push_back(tf::prepared_mesh(tf::mesh{{{1, 1, 1}, {9, 9, 9}}}));
     const auto cloud = tf::clash(parts);
     REQUIRE(cloud.pairs.size() == 1);
-    CHECK(cloud.pairs[0].how == mesh_relation::penetrating);
+    CHECK(cloud.pairs[0].relation == mesh_relation::penetrating);
     CHECK_FALSE(cloud.pairs[0].depth.has_value());
 }
 

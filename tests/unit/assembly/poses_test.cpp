@@ -58,8 +58,8 @@ void check_by_moving(const std::vector<tf::mesh>& parts, const std::vector<motio
         for (std::size_t i = 0; i < each.pairs.size(); ++i) {
             CHECK(found.poses[p][i].a == each.pairs[i].a);
             CHECK(found.poses[p][i].b == each.pairs[i].b);
-            CHECK(found.poses[p][i].how == each.pairs[i].how);
-            if (each.pairs[i].how == mesh_relation::closer_than_clearance)
+            CHECK(found.poses[p][i].relation == each.pairs[i].relation);
+            if (each.pairs[i].relation == mesh_relation::closer_than_clearance)
                 CHECK(found.poses[p][i].distance == doctest::Approx(each.pairs[i].distance));
         }
     }
@@ -149,7 +149,7 @@ TEST_CASE("poses: a pose that mirrors a part makes no other solid of it") {
                               mesh_relation::penetrating, mesh_relation::penetrating};
     for (std::size_t p = 0; p < 4; ++p) {
         REQUIRE(found.poses[p].size() == 1);
-        CHECK(found.poses[p][0].how == expected[p]);
+        CHECK(found.poses[p][0].relation == expected[p]);
     }
 }
 

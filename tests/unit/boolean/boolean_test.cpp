@@ -215,21 +215,21 @@ TEST_CASE("boolean: what is inside follows the rule") {
     const tf::mesh b = box(2, 2, 2);
     const std::vector<tf::mesh> twice{together(b, moved(b, {1, 0, 0}))};
     const auto volume = [](const std::vector<tf::mesh>& meshes, tf::fill_rule rule) {
-        return tf::signed_volume(solid_of(meshes, "a", {.inside = rule}));
+        return tf::signed_volume(solid_of(meshes, "a", {.fill_rule = rule}));
     };
     CHECK(volume(twice, tf::fill_rule::nonzero) == 12.0);
     CHECK(volume(twice, tf::fill_rule::positive) == 12.0);
-    CHECK(volume(twice, tf::fill_rule::odd) == 8.0);
+    CHECK(volume(twice, tf::fill_rule::even_odd) == 8.0);
     const std::vector<tf::mesh> turned_out{inside_out(b)};
     CHECK(volume(turned_out, tf::fill_rule::nonzero) == 8.0);
     CHECK(volume(turned_out, tf::fill_rule::positive) == 0.0);
-    CHECK(volume(turned_out, tf::fill_rule::odd) == 8.0);
+    CHECK(volume(turned_out, tf::fill_rule::even_odd) == 8.0);
     const std::vector<tf::mesh> cavity{
         together(b, moved(inside_out(box(1, 1, 1)), {0.5, 0.5, 0.5}))};
     CHECK(volume(cavity, tf::fill_rule::nonzero) == 7.0);
     const std::vector<tf::mesh> both_outward{together(b, moved(box(1, 1, 1), {0.5, 0.5, 0.5}))};
     CHECK(volume(both_outward, tf::fill_rule::nonzero) == 8.0);
-    CHECK(volume(both_outward, tf::fill_rule::odd) == 7.0);
+    CHECK(volume(both_outward, tf::fill_rule::even_odd) == 7.0);
 }
 
 TEST_CASE("boolean: a clean mesh alone comes back as it is") {

@@ -219,7 +219,7 @@ TEST_CASE("boolean: the volumes of two operands and of what they make") {
     const auto volumes = [](const tf::mesh& first, const tf::mesh& second,
                             tf::fill_rule rule = tf::fill_rule::nonzero) {
         const std::vector<tf::mesh_view> views{first, second};
-        const auto result = tf::boolean(views, {"a-b", 2}, {.inside = rule, .volumes = true});
+        const auto result = tf::boolean(views, {"a-b", 2}, {.fill_rule = rule, .volumes = true});
         REQUIRE(result.volumes.has_value());
         CHECK(result.volumes->first + result.volumes->second ==
               doctest::Approx(result.volumes->either + result.volumes->both));
@@ -233,7 +233,7 @@ TEST_CASE("boolean: the volumes of two operands and of what they make") {
     // An operand that overlaps itself, and one that is inside out.
     const tf::mesh twice = together(b, moved(b, {1, 0, 0}));
     CHECK(volumes(twice, b).first == 12.0);
-    CHECK(volumes(twice, b, tf::fill_rule::odd).first == 8.0);
+    CHECK(volumes(twice, b, tf::fill_rule::even_odd).first == 8.0);
     const tf::mesh turned = test::inside_out(b);
     CHECK(volumes(b, turned).second == 8.0);
     CHECK(volumes(b, turned, tf::fill_rule::positive).second == 0.0);

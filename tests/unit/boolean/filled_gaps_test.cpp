@@ -124,8 +124,8 @@ TEST_CASE("filled gaps: by any rule, in floats, with groups of faces, with cuts 
     const std::vector<tf::mesh> two{box(1, 1, 1), moved(box(1, 1, 1), {0.25, 0.5, 1.125})};
     const std::vector<std::uint32_t> groups(24, 7);
     for (const tf::fill_rule rule :
-         {tf::fill_rule::nonzero, tf::fill_rule::odd, tf::fill_rule::positive})
-        CHECK(tf::signed_volume(filled(two, 0.2, {.inside = rule}).mesh) == 2.046875);
+         {tf::fill_rule::nonzero, tf::fill_rule::even_odd, tf::fill_rule::positive})
+        CHECK(tf::signed_volume(filled(two, 0.2, {.fill_rule = rule}).mesh) == 2.046875);
     CHECK(shells(filled(two, 0.2, {.precision = tf::precision::float32}).mesh) == 1);
     CHECK(filled(two, 0.2, {.face_groups = groups}).mesh == filled(two, 0.2).mesh);
     CHECK(filled(two, 0.2, {.keep_cuts = true}).mesh.faces.size() >

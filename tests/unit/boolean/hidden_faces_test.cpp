@@ -83,7 +83,7 @@ crowd random_crowd(test::random& source, std::size_t boxes) {
 }
 
 bool is_inside(tf::fill_rule rule, int winding) {
-    if (rule == tf::fill_rule::odd) return winding % 2 != 0;
+    if (rule == tf::fill_rule::even_odd) return winding % 2 != 0;
     return rule == tf::fill_rule::positive ? winding > 0 : winding != 0;
 }
 
@@ -121,7 +121,7 @@ TEST_CASE("hidden faces: crowds of boxes are what voxels say") {
         std::vector<tf::mesh_view> views;
         for (const crowd& c : crowds) views.emplace_back(c.mesh);
         const tf::boolean_result result =
-            tf::boolean(views, expression, {.inside = rule, .simplify = run % 3 == 0});
+            tf::boolean(views, expression, {.fill_rule = rule, .simplify = run % 3 == 0});
         REQUIRE(result.certificate);
         CHECK(tf::signed_volume(result.mesh) == voxels);
         CHECK(tf::self_intersections(result.mesh).pairs.empty());
@@ -172,7 +172,7 @@ TEST_CASE("hidden faces: what is deep inside costs nothing and changes nothing")
         CHECK(result.mesh.faces.size() == large.faces.size() + hollow.faces.size());
         const tf::boolean_result positive =
             tf::boolean(std::array<tf::mesh_view, 1>{all}, tf::boolean_expression::union_of(1),
-                        {.inside = tf::fill_rule::positive});
+                        {.fill_rule = tf::fill_rule::positive});
         CHECK(positive.mesh.faces.size() == large.faces.size() + hollow.faces.size());
     }
     SUBCASE("nothing is left of a difference") {

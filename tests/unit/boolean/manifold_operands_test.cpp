@@ -29,7 +29,8 @@ using test::moved;
 using test::together;
 using operands = std::array<tf::mesh, 2>;
 
-constexpr std::array rules{tf::fill_rule::nonzero, tf::fill_rule::odd, tf::fill_rule::positive};
+constexpr std::array rules{tf::fill_rule::nonzero, tf::fill_rule::even_odd,
+                           tf::fill_rule::positive};
 constexpr std::array formulas{"a+b", "a*b", "a-b", "b-a", "a^b", "a", "b"};
 
 /// The results are those of all faces, for all formulas and rules.
@@ -38,8 +39,9 @@ void check_both_ways(const operands& pair) {
         for (const std::string text : formulas) {
             CAPTURE(text);
             CAPTURE(static_cast<int>(rule));
-            const auto whole = test::whole_boolean({pair[0], pair[1]}, text, {.inside = rule});
-            check_same_boolean(tf::boolean({pair[0], pair[1]}, {text, 2}, {.inside = rule}), whole);
+            const auto whole = test::whole_boolean({pair[0], pair[1]}, text, {.fill_rule = rule});
+            check_same_boolean(tf::boolean({pair[0], pair[1]}, {text, 2}, {.fill_rule = rule}),
+                               whole);
         }
 }
 
@@ -47,8 +49,8 @@ void check_both_ways(const operands& pair) {
 void check_alone(const tf::mesh& mesh) {
     for (const tf::fill_rule rule : rules) {
         CAPTURE(static_cast<int>(rule));
-        const tf::boolean_result whole = test::whole_boolean({mesh}, "a", {.inside = rule});
-        check_same_boolean(tf::boolean({mesh}, {"a", 1}, {.inside = rule}), whole);
+        const tf::boolean_result whole = test::whole_boolean({mesh}, "a", {.fill_rule = rule});
+        check_same_boolean(tf::boolean({mesh}, {"a", 1}, {.fill_rule = rule}), whole);
     }
 }
 
@@ -166,8 +168,8 @@ TEST_CASE("manifold operands: heaps of solids that wind as they like give the ge
                 operand = together(operand, random_part(source));
         const tf::fill_rule rule = rules[source.below(rules.size())];
         const std::string text = formulas[source.below(formulas.size())];
-        check_same_boolean(tf::boolean({pair[0], pair[1]}, {text, 2}, {.inside = rule}),
-                           test::whole_boolean({pair[0], pair[1]}, text, {.inside = rule}));
+        check_same_boolean(tf::boolean({pair[0], pair[1]}, {text, 2}, {.fill_rule = rule}),
+                           test::whole_boolean({pair[0], pair[1]}, text, {.fill_rule = rule}));
     }
 }
 
@@ -180,8 +182,9 @@ TEST_CASE(
         if (source.below(2) == 0) std::swap(pair[0], pair[1]);
         for (const tf::fill_rule rule : rules)
             for (const std::string text : formulas)
-                check_same_boolean(tf::boolean({pair[0], pair[1]}, {text, 2}, {.inside = rule}),
-                                   test::whole_boolean({pair[0], pair[1]}, text, {.inside = rule}));
+                check_same_boolean(
+                    tf::boolean({pair[0], pair[1]}, {text, 2}, {.fill_rule = rule}),
+                    test::whole_boolean({pair[0], pair[1]}, text, {.fill_rule = rule}));
     }
 }
 

@@ -18,7 +18,7 @@ namespace {
 using tf::detail::boolean::minimum_cut;
 using tf::detail::boolean::network;
 
-constexpr auto go_on = [] { return false; };
+constexpr auto never_stop = [] { return false; };
 
 std::int64_t capacity_of(const network& given, const std::vector<std::uint8_t>& side) {
     std::int64_t sum = 0;
@@ -49,13 +49,16 @@ std::vector<std::uint8_t> smallest_least_cut(const network& given) {
 }  // namespace
 
 TEST_CASE("minimum cut: no node, one node, and two that hold together") {
-    CHECK(minimum_cut({}, go_on)->empty());
-    CHECK(*minimum_cut({{2}, {3}, {}}, go_on) == std::vector<std::uint8_t>{0});
-    CHECK(*minimum_cut({{3}, {2}, {}}, go_on) == std::vector<std::uint8_t>{1});
-    CHECK(*minimum_cut({{3}, {3}, {}}, go_on) == std::vector<std::uint8_t>{0});  // the fewest
-    CHECK(*minimum_cut({{9, 0}, {0, 2}, {{0, 1, 5}}}, go_on) == std::vector<std::uint8_t>{1, 1});
-    CHECK(*minimum_cut({{9, 0}, {0, 5}, {{0, 1, 2}}}, go_on) == std::vector<std::uint8_t>{1, 0});
-    CHECK(*minimum_cut({{9, 0}, {0, 5}, {{1, 0, 7}}}, go_on) == std::vector<std::uint8_t>{1, 0});
+    CHECK(minimum_cut({}, never_stop)->empty());
+    CHECK(*minimum_cut({{2}, {3}, {}}, never_stop) == std::vector<std::uint8_t>{0});
+    CHECK(*minimum_cut({{3}, {2}, {}}, never_stop) == std::vector<std::uint8_t>{1});
+    CHECK(*minimum_cut({{3}, {3}, {}}, never_stop) == std::vector<std::uint8_t>{0});  // the fewest
+    CHECK(*minimum_cut({{9, 0}, {0, 2}, {{0, 1, 5}}}, never_stop) ==
+          std::vector<std::uint8_t>{1, 1});
+    CHECK(*minimum_cut({{9, 0}, {0, 5}, {{0, 1, 2}}}, never_stop) ==
+          std::vector<std::uint8_t>{1, 0});
+    CHECK(*minimum_cut({{9, 0}, {0, 5}, {{1, 0, 7}}}, never_stop) ==
+          std::vector<std::uint8_t>{1, 0});
 }
 
 TEST_CASE("minimum cut: on random networks, the smallest of the least of all cuts") {
@@ -72,7 +75,7 @@ TEST_CASE("minimum cut: on random networks, the smallest of the least of all cut
                                    static_cast<std::uint32_t>(source.below(n)),
                                    static_cast<std::int64_t>(source.below(5))});
         CAPTURE(round);
-        REQUIRE(*minimum_cut(given, go_on) == smallest_least_cut(given));
+        REQUIRE(*minimum_cut(given, never_stop) == smallest_least_cut(given));
     }
 }
 
@@ -84,7 +87,7 @@ TEST_CASE("minimum cut: a long chain, and a stop") {
     given.from_source[0] = given.to_sink[n - 1] = std::int64_t{1} << 50;
     for (std::uint32_t v = 0; v + 1 < n; ++v)
         given.edges.push_back({v, v + 1, v == 777 ? 3 : std::int64_t{1} << 40});
-    const auto side = minimum_cut(given, go_on);
+    const auto side = minimum_cut(given, never_stop);
     REQUIRE(side);
     CHECK((*side)[777] == 1);
     CHECK((*side)[778] == 0);

@@ -27,7 +27,7 @@ std::string nested_formula(test::random& source, unsigned depth) {
 }
 
 bool is_filled(tf::fill_rule rule, std::int64_t winding) {
-    if (rule == tf::fill_rule::odd) return winding % 2 != 0;
+    if (rule == tf::fill_rule::even_odd) return winding % 2 != 0;
     return rule == tf::fill_rule::positive ? winding > 0 : winding != 0;
 }
 

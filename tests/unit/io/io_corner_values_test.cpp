@@ -346,7 +346,7 @@ TEST_CASE("writing: formats that do not hold materials say so") {
         CHECK(codes("o oak\n" + face, format).empty());
         if (format == std::string("glb")) continue;  // which holds names
         CHECK(codes("o oak\n" + face + "o elm\nf 1 3 2\n", format) ==
-              std::vector<std::string>{"left-out"});
+              std::vector<std::string>{"data-dropped"});
     }
     CHECK(codes("usemtl oak\n" + face, "obj").empty());
 }

@@ -168,7 +168,7 @@ TEST_CASE("glb: parts are nodes with their names and points; the same name again
     CHECK(w.again.mesh.points.size() == 7);
     CHECK(column_values(w.again, "s") == numbers{0, 1, 2, 3, 1, 2, 3});
     CHECK(w.again.mesh.faces == std::vector<tf::face>{{0, 1, 2}, {0, 2, 3}, {4, 5, 6}});
-    CHECK(w.warnings == texts{"left-out: 1 points without faces left out",
+    CHECK(w.warnings == texts{"data-dropped: 1 points without faces left out",
                               "materials: not written to GLB: materials"});
     // A name for all is that of the one node, and then all points are kept.
     file.attributes.parts.resize(1);

@@ -186,7 +186,7 @@ TEST_CASE("mesh translation: STL says how many points it leaves out") {
     given.mesh.points.push_back({7, 7, 7});
     for (const bool ascii : {false, true})
         CHECK(put_translated(given, "stl", {.ascii = ascii}).warnings ==
-              sentences{"left-out: 1 point without faces left out: STL holds faces only"});
+              sentences{"data-dropped: 1 point without faces left out: STL holds faces only"});
     for (const std::string& format : mesh_formats)
         if (format != "stl") CHECK(put_translated(given, format).warnings.empty());
 }
@@ -269,9 +269,10 @@ TEST_CASE("mesh translation: 3MF says that names are lost where parts share poin
     tf::mesh_file given = folded_sheet();
     given.attributes.parts = {{.object = "left", .first_face = 0},
                               {.object = "right", .first_face = 1}};
-    CHECK(put_translated(given, "3mf").warnings ==
-          sentences{
-              "left-out: names of parts left out, since parts that share points are one object"});
+    CHECK(
+        put_translated(given, "3mf").warnings ==
+        sentences{
+            "data-dropped: names of parts left out, since parts that share points are one object"});
     given.mesh.points.insert(given.mesh.points.end(), {{2, 0, 4.5}, {1, 0.25, 0}});
     given.mesh.faces[1] = {4, 5, 3};
     CHECK(put_translated(given, "3mf").warnings.empty());
@@ -292,7 +293,7 @@ TEST_CASE("mesh translation: 3MF keeps the unit of all remarks, and says so") {
     CHECK(put_translated(given, "3mf").warnings.empty());
     given.attributes.obj_info.emplace_back("made by hand");
     CHECK(put_translated(given, "3mf").warnings ==
-          sentences{"left-out: not written to 3MF: remarks"});
+          sentences{"data-dropped: not written to 3MF: remarks"});
 }
 
 TEST_CASE("mesh translation: faces ahead of a part that has a name; groups are names in STL") {

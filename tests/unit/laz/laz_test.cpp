@@ -120,7 +120,7 @@ TEST_CASE("chunks: every format comes back, with and without extra bytes") {
         for (const std::size_t extra : {0u, 1u, 7u}) {
             const std::size_t size = test::las_sizes[format] + extra;
             const auto items = laz::items_of(format, size);
-            CHECK(laz::is_known(items));
+            CHECK(laz::is_supported(items));
             REQUIRE(laz::record_size(items) == size);
             CHECK(laz::is_layered(items) == (format >= 6));
             for (const auto family :
@@ -171,7 +171,7 @@ TEST_CASE("chunks: damaged bytes end with an error or with other points") {
 TEST_CASE("chunks: the first versions of items come back, too") {
     auto items = laz::items_of(3, 34);
     for (laz::item& i : items) i.version = 1;
-    CHECK(laz::is_known(items));
+    CHECK(laz::is_supported(items));
     for (const auto family :
          {test::las_family::scan, test::las_family::equal, test::las_family::noise}) {
         const std::string records = test::las_points(family, 3, 34, 1000, 4);
@@ -182,11 +182,11 @@ TEST_CASE("chunks: the first versions of items come back, too") {
 TEST_CASE("chunks: items that are not known are not taken for others") {
     auto items = laz::items_of(3, 34);
     items[0].version = 3;
-    CHECK_FALSE(laz::is_known(items));
-    CHECK_FALSE(laz::is_known({}));
+    CHECK_FALSE(laz::is_supported(items));
+    CHECK_FALSE(laz::is_supported({}));
     items = laz::items_of(7, 40);
     std::swap(items[1], items[2]);
-    CHECK_FALSE(laz::is_known(items));
+    CHECK_FALSE(laz::is_supported(items));
 }
 
 TEST_CASE("table of chunks: comes back; one that says more than there can be is refused") {

@@ -232,7 +232,7 @@ TEST_CASE("mate features: a shaft that goes through its bore stays in the middle
     check_features(shaft, bore, found);
     CHECK(found.end == tf::placement_end::unchanged);
     CHECK(std::abs(found.offset) < 1e-12);
-    CHECK(found.at_place == tf::mesh_relation::separate);
+    CHECK(found.relation == tf::mesh_relation::separate);
     // One that is too thick stops outside.
     const tf::mesh thick = test::moved(tube(10.2, 4, 30, 64), {50, 3, 2});
     const auto stopped =
@@ -251,8 +251,8 @@ TEST_CASE("features: what cannot be meant is refused, and nothing is found in no
     CHECK_THROWS_AS(static_cast<void>(tf::find_features(box, feature_kind::plane, {.arc = -1})),
                     std::invalid_argument);
     std::vector<double> told;
-    const auto go_on = [&](double done) { return told.push_back(done), true; };
-    CHECK(tf::find_features(box, feature_kind::plane, {.progress = go_on}).size() == 6);
+    const auto record = [&](double done) { return told.push_back(done), true; };
+    CHECK(tf::find_features(box, feature_kind::plane, {.progress = record}).size() == 6);
     CHECK(told == std::vector{0.0});
     CHECK(tf::find_features(box, feature_kind::plane, {.progress = [](double) { return false; }})
               .empty());

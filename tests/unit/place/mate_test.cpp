@@ -34,8 +34,8 @@ TEST_CASE("mate: a corner comes to a corner, or to the clearance from it") {
     const auto found = tf::mate(a, among.prepared);
     REQUIRE(found);
     CHECK(found.end == placement_end::contact);
-    CHECK(found.at_start == tf::mesh_relation::separate);
-    CHECK(found.at_place == tf::mesh_relation::touching);
+    CHECK(found.relation_at_start == tf::mesh_relation::separate);
+    CHECK(found.relation == tf::mesh_relation::touching);
     REQUIRE(found.nearest);
     CHECK(found.nearest_fixed == 1);
     CHECK(found.travel == 5.0);
@@ -46,7 +46,7 @@ TEST_CASE("mate: a corner comes to a corner, or to the clearance from it") {
     const auto apart = tf::mate(a, among.prepared, {.clearance = 1.25});
     REQUIRE(apart);
     CHECK(apart.travel == doctest::Approx(3.75).epsilon(1e-12));
-    CHECK(apart.at_place == tf::mesh_relation::clear);
+    CHECK(apart.relation == tf::mesh_relation::clear);
     CHECK(tf::mate(a, among.prepared, {.clearance = 6}).end == placement_end::starts_too_near);
     CHECK(tf::mate(a, among.prepared, {.max_travel = 4.5}).end == placement_end::too_far);
     CHECK(tf::mate(a.view(), among.meshes[1]).points == found.points);
@@ -63,7 +63,7 @@ TEST_CASE("mate: of nothing there is no way, and what meets stays") {
     REQUIRE(touching);
     CHECK(touching.end == placement_end::unchanged);
     CHECK(touching.nearest_fixed == 1);
-    CHECK(touching.at_place == tf::mesh_relation::touching);
+    CHECK(touching.relation == tf::mesh_relation::touching);
     CHECK(touching.travel == 0.0);
     CHECK(tf::mate(a, among.prepared, {.clearance = 1}).end == placement_end::starts_touching);
     among.add(moved(box(1, 1, 1), {0.5, 0, 0}));

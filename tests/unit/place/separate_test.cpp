@@ -146,8 +146,8 @@ TEST_CASE("separate: the mesh comes out of all, in coordinates that hold") {
                          {.clearance = clearance,
                           .precision = single ? tf::precision::float32 : tf::precision::float64});
         REQUIRE(found);
-        CHECK(found.at_place != tf::mesh_relation::penetrating);
-        CHECK(found.at_place != tf::mesh_relation::closer_than_clearance);
+        CHECK(found.relation != tf::mesh_relation::penetrating);
+        CHECK(found.relation != tf::mesh_relation::closer_than_clearance);
         const tf::mesh there{found.points, a.faces};
         for (const prepared_mesh& one : fixed) {
             CHECK(tf::relation(there, one.view()).relation != mesh_relation::penetrating);

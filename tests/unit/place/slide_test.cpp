@@ -55,8 +55,9 @@ TEST_CASE("slide: the first of several ends it, what is beside the way is not in
         CHECK(found.travel == 6.0 - clearance);
         CHECK(found.direction == down);
         CHECK(found.points == moved(box(6, 1, 1), {0, 0, 3.0 + clearance}).points);
-        CHECK(found.at_start == (clearance > 0.0 ? mesh_relation::clear : mesh_relation::separate));
-        CHECK(found.at_place == (clearance > 0.0 ? mesh_relation::clear : mesh_relation::touching));
+        CHECK(found.relation_at_start ==
+              (clearance > 0.0 ? mesh_relation::clear : mesh_relation::separate));
+        CHECK(found.relation == (clearance > 0.0 ? mesh_relation::clear : mesh_relation::touching));
         for (const auto& c : found.contacts) {
             CHECK((c.fixed == 1 || c.fixed == 2));
             CHECK(c.point.z == 3.0);
@@ -81,7 +82,7 @@ TEST_CASE("slide: what touches stays, what penetrates or is too near has no plac
     const auto stays = tf::slide(on, floor, down);
     CHECK(stays.end == placement_end::unchanged);
     CHECK(stays.points == on.points);
-    CHECK(stays.at_place == mesh_relation::touching);
+    CHECK(stays.relation == mesh_relation::touching);
     CHECK(stays.contact_count > 0);
     CHECK(tf::slide(on, floor, down, {.clearance = 0.5}).end == placement_end::starts_touching);
     const auto in = tf::slide(moved(on, {0, 0, -0.5}), floor, down);
@@ -264,8 +265,8 @@ TEST_CASE(
     const prepared_mesh floor(box(2, 2, 1)), turned(test::inside_out(box(2, 2, 1)));
     const auto at = tf::measure_among(a, floor), same = tf::measure_among(a, turned);
     REQUIRE(at.contacts.size() == same.contacts.size());
-    CHECK(at.at_place == tf::mesh_relation::penetrating);
-    CHECK(same.at_place == at.at_place);
+    CHECK(at.relation == tf::mesh_relation::penetrating);
+    CHECK(same.relation == at.relation);
     for (std::size_t i = 0; i < at.contacts.size(); ++i)
         CHECK(same.contacts[i].normal == at.contacts[i].normal);
     CHECK(tf::separate(a, turned).travel == tf::separate(a, floor).travel);

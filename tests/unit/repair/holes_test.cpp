@@ -221,7 +221,7 @@ TEST_CASE("repair: a shell within another that faces outward, too, is counted, a
     CHECK(tf::signed_volume(made.mesh) == 8000.0);
     CHECK(made.statistics.dropped_shells == 1);
     CHECK(made.statistics.vanished_components == 0);
-    const tf::repair_result hollow = tf::repair(nested, {.inside = tf::fill_rule::odd});
+    const tf::repair_result hollow = tf::repair(nested, {.fill_rule = tf::fill_rule::even_odd});
     REQUIRE(hollow.certificate);
     CHECK(tf::signed_volume(hollow.mesh) == 7000.0);
     CHECK(hollow.statistics.dropped_shells == 0);

@@ -137,8 +137,8 @@ TEST_CASE("labels: what faces say without a doubt is not asked about") {
 
 TEST_CASE("labels: a rule that is asked for, and steps that are left out, leave them out") {
     const tf::mesh rooms = test::rooms(2, 2, 2);
-    CHECK(tf::repair(rooms, {.inside = tf::fill_rule::nonzero}).statistics.labeled_cells == 0);
-    CHECK(tf::repair(rooms, {.inside = tf::fill_rule::odd}).statistics.labeled_cells == 0);
+    CHECK(tf::repair(rooms, {.fill_rule = tf::fill_rule::nonzero}).statistics.labeled_cells == 0);
+    CHECK(tf::repair(rooms, {.fill_rule = tf::fill_rule::even_odd}).statistics.labeled_cells == 0);
     CHECK(tf::repair(rooms, {.fill = false}).statistics.labeled_cells == 0);
     CHECK(tf::repair(rooms, {.sheet = true}).statistics.labeled_cells == 0);
 }

@@ -53,7 +53,7 @@ std::size_t wrong_points(const tf::mesh& mesh, tf::fill_rule rule, const tf::mes
         const tf::point3 p{source.in(-1.2, 2.0), source.in(-1.2, 1.6), source.in(-1.2, 1.4)};
         const auto was = before.locate(p);
         const auto is = after.locate(p);
-        const bool inside = rule == tf::fill_rule::odd        ? was.winding % 2 != 0
+        const bool inside = rule == tf::fill_rule::even_odd   ? was.winding % 2 != 0
                             : rule == tf::fill_rule::positive ? was.winding > 0
                                                               : was.winding != 0;
         wrong += is.winding != (inside ? 1 : 0);
@@ -66,13 +66,13 @@ std::size_t wrong_points(const tf::mesh& mesh, tf::fill_rule rule, const tf::mes
 TEST_CASE("repair: the outer surface of two balls bounds what either held") {
     const tf::mesh mesh = two_balls();
     for (const tf::fill_rule rule :
-         {tf::fill_rule::nonzero, tf::fill_rule::odd, tf::fill_rule::positive})
+         {tf::fill_rule::nonzero, tf::fill_rule::even_odd, tf::fill_rule::positive})
         for (const bool to_float : {false, true}) {
             CAPTURE(static_cast<int>(rule));
             CAPTURE(to_float);
             const auto result = tf::resolve_self_intersections(
                 mesh, mode::outer,
-                {.inside = rule,
+                {.fill_rule = rule,
                  .precision = to_float ? tf::precision::float32 : tf::precision::float64});
             CHECK(result.certificate);
             CHECK(result.certificate.meeting.empty());

@@ -56,7 +56,7 @@ void check_partial(std::size_t count, std::size_t changed, std::uint64_t seed) {
     const boxes<D> others = box_family<D>("random", count, seed + 1);
     auto tree = tf::build(of, itself);
     auto whole = tree;
-    const std::vector<std::uint32_t> place_of = tf::places_of(tree);
+    const std::vector<std::uint32_t> place_of = tf::places_in_leaf_order(tree);
     std::vector<std::uint32_t> places;
     for (std::size_t i = 0; i < changed; ++i) {
         const std::size_t id = random.below(count);
@@ -141,7 +141,7 @@ TEST_CASE("refit: refuses a box that is not finite, naming the element, and can 
         const std::string complaint =
             "treeform::refit: the box of element 12345 is empty or not finite";
         CHECK_THROWS_WITH_AS(tf::refit(tree, of, itself), complaint.c_str(), std::invalid_argument);
-        const std::vector<std::uint32_t> places{3, tf::places_of(tree)[12'345], 77};
+        const std::vector<std::uint32_t> places{3, tf::places_in_leaf_order(tree)[12'345], 77};
         CHECK_THROWS_WITH_AS(tf::refit(tree, of, itself, places), complaint.c_str(),
                              std::invalid_argument);
         tf::refit(tree, sound, itself);

@@ -102,8 +102,8 @@ TEST_CASE("weld: seams of a mesh are kept when asked for, except for those acros
     };
     CHECK(points_left({}) == 3);
     CHECK(points_left({.keep_seams = true}) == 4);
-    CHECK(points_left({.keep_seams = true, .across = {"normal"}}) == 3);
-    CHECK(points_left({.keep_seams = true, .across = {"uv", "color"}}) == 4);
+    CHECK(points_left({.keep_seams = true, .ignored_seams = {"normal"}}) == 3);
+    CHECK(points_left({.keep_seams = true, .ignored_seams = {"uv", "color"}}) == 4);
     CHECK(points_left({.same = {{"normal", 1.0}}, .keep_seams = true}) == 3);
     CHECK(points_left({.same = {{"normal", 0.5}}}) == 4);
     CHECK(tf::weld(mesh.points, properties, {.keep_seams = true}).mesh.points.size() == 3);
@@ -125,7 +125,7 @@ TEST_CASE("weld: an error says which option names which property") {
         }
     };
     refused({}, {.same = {{"q"}}}, "same", "");
-    refused({}, {.keep_seams = true, .across = {"q"}}, "across", "");
+    refused({}, {.keep_seams = true, .ignored_seams = {"q"}}, "ignored_seams", "");
     refused(vertex_columns({{"nx", {0}}, {"ny", {0}}}),
             {.keep = tf::weld_keep::lowest, .keep_by = "normal"}, "keep_by",
             "is more than one property");

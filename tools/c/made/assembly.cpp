@@ -50,7 +50,7 @@ void glue::fill(keeper&, const tf::contact_region& from, treeform_contact_region
 void glue::fill(keeper& kept, const tf::part_clash& from, treeform_part_clash& to) {
     to.a = from.a;
     to.b = from.b;
-    to.how = static_cast<treeform_mesh_relation>(from.how);
+    to.relation = static_cast<treeform_mesh_relation>(from.relation);
     to.a_inside_b = from.a_inside_b;
     to.b_inside_a = from.b_inside_a;
     to.distance = from.distance;
@@ -78,7 +78,7 @@ void glue::fill(keeper& kept, const tf::clash_result& from, treeform_clashes& to
 static_assert(sizeof(treeform_pose_clash) == sizeof(tf::pose_clash));
 static_assert(offsetof(treeform_pose_clash, a) == offsetof(tf::pose_clash, a));
 static_assert(offsetof(treeform_pose_clash, b) == offsetof(tf::pose_clash, b));
-static_assert(offsetof(treeform_pose_clash, how) == offsetof(tf::pose_clash, how));
+static_assert(offsetof(treeform_pose_clash, relation) == offsetof(tf::pose_clash, relation));
 static_assert(offsetof(treeform_pose_clash, distance) == offsetof(tf::pose_clash, distance));
 
 treeform_code treeform_bodies_of(const treeform_file* const* files, const char* const* labels,

@@ -25,7 +25,8 @@ static_assert(offsetof(treeform_element, index) == offsetof(tf::operand_element,
 static_assert(sizeof(treeform_search_effort) == sizeof(tf::search_effort));
 static_assert(offsetof(treeform_search_effort, pairs) == offsetof(tf::search_effort, pairs));
 static_assert(offsetof(treeform_search_effort, bound) == offsetof(tf::search_effort, bound));
-static_assert(offsetof(treeform_search_effort, cut) == offsetof(tf::search_effort, cut));
+static_assert(offsetof(treeform_search_effort, skipped_candidates) ==
+              offsetof(tf::search_effort, skipped_candidates));
 
 void glue::fill(keeper& kept, const tf::certificate& from, treeform_certificate& to) {
     to.status = static_cast<treeform_status>(from.status);

@@ -27,10 +27,10 @@ void glue::fill(keeper&, const tf::intersection_result& from, treeform_pairs& to
     to.box_pairs = from.box_pairs;
 }
 
-tf::intersection_options glue::read(const treeform_intersections_options* options) {
-    return read(chosen(options, treeform_intersections_options_init));
+tf::intersection_options glue::read(const treeform_intersection_options* options) {
+    return read(chosen(options, treeform_intersection_options_init));
 }
-tf::intersection_options glue::read(const treeform_intersections_options& o) {
+tf::intersection_options glue::read(const treeform_intersection_options& o) {
     tf::intersection_options how;
     how.vertices = choice<tf::vertex_identity>(o.vertices, 2, "vertices");
     how.move_a = matrix(o.move_a);
@@ -46,8 +46,8 @@ tf::intersection_options glue::read(const treeform_intersections_options& o) {
     return how;
 }
 
-void treeform_intersections_options_init(treeform_intersections_options* options, size_t size) {
-    treeform_intersections_options to{};
+void treeform_intersection_options_init(treeform_intersection_options* options, size_t size) {
+    treeform_intersection_options to{};
     const tf::intersection_options from;
     to.vertices = static_cast<treeform_vertices>(from.vertices);
     to.first_only = from.first_only;
@@ -130,7 +130,7 @@ void glue::fill(keeper& kept, const std::vector<tf::intersection_region>& from,
 }
 
 treeform_code treeform_self_intersections(const treeform_mesh* mesh,
-                                          const treeform_intersections_options* options,
+                                          const treeform_intersection_options* options,
                                           treeform_pairs** pairs) {
     return glue::guard([&] {
         glue::start(pairs);
@@ -148,7 +148,7 @@ treeform_code treeform_group_pairs(const treeform_mesh* mesh, const treeform_fac
 }
 
 treeform_code treeform_intersections(const treeform_mesh* a, const treeform_mesh* b,
-                                     const treeform_intersections_options* options,
+                                     const treeform_intersection_options* options,
                                      treeform_pairs** pairs) {
     return glue::guard([&] {
         glue::start(pairs);

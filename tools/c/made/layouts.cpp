@@ -74,7 +74,7 @@ tf::pack_options glue::read(const treeform_pack_options* options) {
 }
 tf::pack_options glue::read(const treeform_pack_options& o) {
     tf::pack_options how;
-    how.size = point(o.plate, "plate");
+    how.size = point(o.size, "size");
     how.corner = point(o.corner, "corner");
     how.spacing = o.spacing;
     how.turns = o.turns;
@@ -95,7 +95,7 @@ void treeform_pack_options_init(treeform_pack_options* options, size_t size) {
     treeform_pack_options to{};
     const tf::pack_options from;
     using namespace glue;
-    copy(from.size, to.plate);
+    copy(from.size, to.size);
     copy(from.corner, to.corner);
     to.spacing = from.spacing;
     to.turns = from.turns;

@@ -10,11 +10,12 @@ namespace tf = treeform;
 static_assert(TREEFORM_OUTSIDE == static_cast<int>(tf::location::outside));
 static_assert(TREEFORM_INSIDE == static_cast<int>(tf::location::inside));
 static_assert(TREEFORM_BOUNDARY == static_cast<int>(tf::location::boundary));
-static_assert(TREEFORM_SEPARATE == static_cast<int>(tf::mesh_relation::separate));
-static_assert(TREEFORM_MEETING == static_cast<int>(tf::mesh_relation::touching));
-static_assert(TREEFORM_PENETRATING == static_cast<int>(tf::mesh_relation::penetrating));
-static_assert(TREEFORM_TOO_CLOSE == static_cast<int>(tf::mesh_relation::closer_than_clearance));
-static_assert(TREEFORM_CLEAR == static_cast<int>(tf::mesh_relation::clear));
+static_assert(TREEFORM_RELATION_SEPARATE == static_cast<int>(tf::mesh_relation::separate));
+static_assert(TREEFORM_RELATION_TOUCHING == static_cast<int>(tf::mesh_relation::touching));
+static_assert(TREEFORM_RELATION_PENETRATING == static_cast<int>(tf::mesh_relation::penetrating));
+static_assert(TREEFORM_RELATION_CLOSER_THAN_CLEARANCE ==
+              static_cast<int>(tf::mesh_relation::closer_than_clearance));
+static_assert(TREEFORM_RELATION_CLEAR == static_cast<int>(tf::mesh_relation::clear));
 
 static_assert(sizeof(treeform_hit) == sizeof(tf::mesh_hit));
 static_assert(offsetof(treeform_hit, face) == offsetof(tf::mesh_hit, face));
@@ -48,7 +49,7 @@ void treeform_measure_options_init(treeform_measure_options* options, size_t siz
 }
 
 void glue::fill(keeper&, const tf::mesh_measure& from, treeform_relation& to) {
-    to.how = static_cast<treeform_mesh_relation>(from.relation);
+    to.relation = static_cast<treeform_mesh_relation>(from.relation);
     to.face_a = from.face_a;
     to.face_b = from.face_b;
     to.a_inside_b = from.a_inside_b;

@@ -89,8 +89,8 @@ void glue::fill(keeper& kept, const tf::placement& from, treeform_placement& to)
     to.clearance = from.clearance;
     to.bed = from.bed.value_or(not_known);
     to.below_bed = from.below_bed;
-    to.at_start = static_cast<treeform_mesh_relation>(from.at_start);
-    to.at_place = static_cast<treeform_mesh_relation>(from.at_place);
+    to.relation_at_start = static_cast<treeform_mesh_relation>(from.relation_at_start);
+    to.relation = static_cast<treeform_mesh_relation>(from.relation);
     if (from.nearest) to.nearest = &filled<treeform_relation>(kept, *from.nearest);
     to.nearest_fixed = from.nearest_fixed;
     to.contacts = list<treeform_contact>(kept, from.contacts);

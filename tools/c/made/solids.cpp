@@ -8,7 +8,7 @@
 namespace tf = treeform;
 
 static_assert(TREEFORM_NONZERO == static_cast<int>(tf::fill_rule::nonzero));
-static_assert(TREEFORM_ODD == static_cast<int>(tf::fill_rule::odd));
+static_assert(TREEFORM_EVEN_ODD == static_cast<int>(tf::fill_rule::even_odd));
 static_assert(TREEFORM_POSITIVE == static_cast<int>(tf::fill_rule::positive));
 static_assert(TREEFORM_RESOLVE_SPLIT == static_cast<int>(tf::resolve_mode::split));
 static_assert(TREEFORM_RESOLVE_OUTER == static_cast<int>(tf::resolve_mode::outer));
@@ -19,7 +19,7 @@ tf::boolean_options glue::read(const treeform_boolean_options* options) {
 }
 tf::boolean_options glue::read(const treeform_boolean_options& o) {
     tf::boolean_options how;
-    how.inside = choice<tf::fill_rule>(o.inside, 3, "inside");
+    how.fill_rule = choice<tf::fill_rule>(o.fill_rule, 3, "fill_rule");
     how.precision = choice<tf::precision>(o.precision, 2, "precision");
     how.max_displacement = o.max_displacement;
     how.keep_cuts = o.keep_cuts != 0;
@@ -37,7 +37,7 @@ tf::boolean_options glue::read(const treeform_boolean_options& o) {
 void treeform_boolean_options_init(treeform_boolean_options* options, size_t size) {
     treeform_boolean_options to{};
     const tf::boolean_options from;
-    to.inside = static_cast<treeform_fill_rule>(from.inside);
+    to.fill_rule = static_cast<treeform_fill_rule>(from.fill_rule);
     to.precision = static_cast<treeform_precision>(from.precision);
     to.max_displacement = from.max_displacement;
     to.keep_cuts = from.keep_cuts;
@@ -85,7 +85,7 @@ tf::resolve_options glue::read(const treeform_resolve_options* options) {
 }
 tf::resolve_options glue::read(const treeform_resolve_options& o) {
     tf::resolve_options how;
-    how.inside = choice<tf::fill_rule>(o.inside, 3, "inside");
+    how.fill_rule = choice<tf::fill_rule>(o.fill_rule, 3, "fill_rule");
     how.precision = choice<tf::precision>(o.precision, 2, "precision");
     how.max_displacement = o.max_displacement;
     how.keep_cuts = o.keep_cuts != 0;
@@ -100,7 +100,7 @@ tf::resolve_options glue::read(const treeform_resolve_options& o) {
 void treeform_resolve_options_init(treeform_resolve_options* options, size_t size) {
     treeform_resolve_options to{};
     const tf::resolve_options from;
-    to.inside = static_cast<treeform_fill_rule>(from.inside);
+    to.fill_rule = static_cast<treeform_fill_rule>(from.fill_rule);
     to.precision = static_cast<treeform_precision>(from.precision);
     to.max_displacement = from.max_displacement;
     to.keep_cuts = from.keep_cuts;
@@ -123,7 +123,7 @@ tf::repair_options glue::read(const treeform_repair_options& o) {
     how.gap = given(o.gap);
     how.largest_hole = o.largest_hole;
     how.strays = o.strays;
-    if (o.inside != -1) how.inside = choice<tf::fill_rule>(o.inside, 3, "inside");
+    if (o.fill_rule != -1) how.fill_rule = choice<tf::fill_rule>(o.fill_rule, 3, "fill_rule");
     how.max_loss = o.max_loss;
     how.sheet = o.sheet != 0;
     how.as_one = o.as_one != 0;
@@ -147,7 +147,7 @@ void treeform_repair_options_init(treeform_repair_options* options, size_t size)
     to.gap = not_known;
     to.largest_hole = from.largest_hole;
     to.strays = from.strays;
-    to.inside = -1;
+    to.fill_rule = -1;
     to.max_loss = from.max_loss;
     to.sheet = from.sheet;
     to.as_one = from.as_one;

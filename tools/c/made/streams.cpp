@@ -19,7 +19,7 @@ tf::weld_stream_options glue::read(const treeform_weld_stream_options& o) {
     how.order_by = text(o.order_by);
     how.highest_first = o.highest_first != 0;
     how.keep_seams = o.keep_seams != 0;
-    how.across = texts(o.across, o.across_count, "across");
+    how.ignored_seams = texts(o.ignored_seams, o.ignored_seam_count, "ignored_seams");
 
     how.keep_degenerate = o.keep_degenerate != 0;
     how.as_las = o.as_las != 0;

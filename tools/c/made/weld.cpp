@@ -33,7 +33,7 @@ tf::weld_options glue::read(const treeform_weld_options& o) {
     how.same = conditions(o.same, o.same_count, "same");
 
     how.keep_seams = o.keep_seams != 0;
-    how.across = texts(o.across, o.across_count, "across");
+    how.ignored_seams = texts(o.ignored_seams, o.ignored_seam_count, "ignored_seams");
 
     how.keep = choice<tf::weld_keep>(o.keep, 5, "keep");
     how.keep_by = text(o.keep_by);

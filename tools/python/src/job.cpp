@@ -118,7 +118,7 @@ class helper;
 class helpers {
   public:
     helper& take();
-    void give_back(helper& one) {
+    void release(helper& one) {
         const std::lock_guard lock(mutex_);
         idle_.push_back(&one);
     }
@@ -183,7 +183,7 @@ class helper {
             call(*mine);
             PyEval_SaveThread();
             current = nullptr;
-            all_helpers.load()->give_back(*this);
+            all_helpers.load()->release(*this);
             const std::lock_guard lock(mine->mutex);
             mine->ended = true;
             mine->ended_now.notify_one();

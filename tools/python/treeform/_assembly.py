@@ -21,7 +21,7 @@ __all__ = ["ClashResult", "NearestPoints", "PartClash", "PoseClashes", "RELATION
            "clash", "closest_points", "distance", "intersects"]
 # end
 
-#: The relations of two parts; numbers in `PoseClashes.how` are indexes of this list.
+#: The relations of two parts; numbers in `PoseClashes.relation` are indexes of this list.
 RELATIONS = tuple(_core.RELATIONS)
 
 
@@ -208,7 +208,6 @@ class PartClash(Result):
 
     a: The lower number.
     b: Number of the second part.
-    how: 'penetrating', 'touching' or 'closer_than_clearance'.
     a_inside_b: As in `measure`.
     b_inside_a: The same with `a` and `b` swapped.
     distance: Distance of the surfaces; 0 if they meet.
@@ -220,11 +219,11 @@ class PartClash(Result):
     depth_effort: Of `depth`, as in `Depth`.
     regions: Regions where they meet: (box (2, 3), number of pairs of faces, faces of a, faces of
         b).
+    relation: 'penetrating', 'touching' or 'closer_than_clearance'.
     """
 
     a: int
     b: int
-    how: str
     a_inside_b: bool
     b_inside_a: bool
     distance: float
@@ -235,6 +234,7 @@ class PartClash(Result):
     move: Floats
     depth_effort: SearchEffort
     regions: list[tuple[Floats, int, Ids, Ids]]
+    relation: str
 
 
 @dataclass(frozen=True, repr=False)
@@ -286,7 +286,7 @@ def clash(parts: Iterable[Body], clearance: float = 0.0, *, volumes: bool = True
     >>> cube = treeform.read("data/cube.stl")
     >>> found = treeform.clash([cube, (cube.vertices + 0.5, cube.faces),
     ...                         (cube.vertices + [0, 0, 9], cube.faces)])
-    >>> [(one.a, one.b, one.how, one.volume) for one in found.pairs]
+    >>> [(one.a, one.b, one.relation, one.volume) for one in found.pairs]
     [(0, 1, 'penetrating', 0.125)]
     >>> import numpy as np
     >>> poses = np.stack([np.eye(4), np.eye(4)])
@@ -304,19 +304,19 @@ class PoseClashes(Result):
 
     pose: (n,) the number of the pose, ascending.
     parts: (n, 2) the two parts, the lower number first.
-    how: (n,) uint8: their relation, an index into `RELATIONS`.
     distance: (n,) of those that are closer than the clearance; else 0.
     in_collision: (P,) whether, in each pose, a pair penetrates or is too close; with a clearance,
         also whether a pair touches.
     clashing: Number of poses in collision.
+    relation: (n,) uint8: their relation, an index into `RELATIONS`.
     """
 
     pose: Ids
     parts: Ids
-    how: NDArray[np.uint8]
     distance: Floats
     in_collision: NDArray[np.bool_]
     clashing: int
+    relation: NDArray[np.uint8]
 
 
 def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0, *,
@@ -348,7 +348,7 @@ def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0,
     >>> poses = np.tile(np.eye(4), (3, 2, 1, 1))
     >>> poses[:, 1, 0, 3] = [0.5, 1.0, 1.5]
     >>> found = treeform.check_poses([cube, cube], poses)
-    >>> [(int(p), treeform.RELATIONS[h]) for p, h in zip(found.pose, found.how)]
+    >>> [(int(p), treeform.RELATIONS[h]) for p, h in zip(found.pose, found.relation)]
     [(0, 'penetrating'), (1, 'touching')]
     >>> found.in_collision
     array([ True, False, False])

@@ -85,7 +85,7 @@ class BooleanResult(MeshResult):
     statistics: dict[str, Any]
 
 
-def union(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
+def union(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str = "float64",
           max_displacement: float = np.inf, keep_cuts: bool = False, simplify: bool = False,
           volumes: bool = False, min_volume: float = 0.0, gap: float = 0.0, check: bool = True,
           progress: Progress = None) -> BooleanResult:
@@ -93,7 +93,7 @@ def union(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float6
     a single mesh is the solid that it encloses, without self-intersections. See `boolean`.
 
     meshes: each argument is a mesh or a list of meshes.
-    inside: 'nonzero', 'odd' or 'positive': the winding numbers that count as inside.
+    fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
     max_displacement: Where rounding makes faces meet, only points at most this far apart are
@@ -133,7 +133,7 @@ def union(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float6
     return checked(combined("union", meshes, how, progress), check)
 
 
-def intersection(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
+def intersection(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str = "float64",
                  max_displacement: float = np.inf, keep_cuts: bool = False, simplify: bool = False,
                  volumes: bool = False, min_volume: float = 0.0, check: bool = True,
                  progress: Progress = None) -> BooleanResult:
@@ -141,7 +141,7 @@ def intersection(*meshes: MeshesLike, inside: str = "nonzero", precision: str = 
     a file with several objects, these are the operands, as in `difference`. See `boolean`.
 
     meshes: each argument is a mesh or a list of meshes.
-    inside: 'nonzero', 'odd' or 'positive': the winding numbers that count as inside.
+    fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
     max_displacement: Where rounding makes faces meet, only points at most this far apart are
@@ -174,7 +174,7 @@ def intersection(*meshes: MeshesLike, inside: str = "nonzero", precision: str = 
     return checked(combined("intersection", meshes, how, progress), check)
 
 
-def difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
+def difference(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str = "float64",
                max_displacement: float = np.inf, keep_cuts: bool = False, simplify: bool = False,
                volumes: bool = False, min_volume: float = 0.0, check: bool = True,
                progress: Progress = None) -> BooleanResult:
@@ -185,7 +185,7 @@ def difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "f
     is subtracted. See `boolean`.
 
     meshes: each argument is a mesh or a list of meshes.
-    inside: 'nonzero', 'odd' or 'positive': the winding numbers that count as inside.
+    fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
     max_displacement: Where rounding makes faces meet, only points at most this far apart are
@@ -219,16 +219,17 @@ def difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "f
     return checked(combined("difference", meshes, how, progress), check)
 
 
-def symmetric_difference(*meshes: MeshesLike, inside: str = "nonzero", precision: str = "float64",
-                         max_displacement: float = np.inf, keep_cuts: bool = False,
-                         simplify: bool = False, volumes: bool = False, min_volume: float = 0.0,
-                         check: bool = True, progress: Progress = None) -> BooleanResult:
+def symmetric_difference(*meshes: MeshesLike, fill_rule: str = "nonzero",
+                         precision: str = "float64", max_displacement: float = np.inf,
+                         keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
+                         min_volume: float = 0.0, check: bool = True,
+                         progress: Progress = None) -> BooleanResult:
     """The symmetric difference (exclusive or) of solids: the region inside an odd number of them.
     If a single mesh was read from a file with several objects, these are the operands, as in
     `difference`. See `boolean`.
 
     meshes: each argument is a mesh or a list of meshes.
-    inside: 'nonzero', 'odd' or 'positive': the winding numbers that count as inside.
+    fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
     max_displacement: Where rounding makes faces meet, only points at most this far apart are
@@ -261,7 +262,7 @@ def symmetric_difference(*meshes: MeshesLike, inside: str = "nonzero", precision
     return checked(combined("symmetric_difference", meshes, how, progress), check)
 
 
-def boolean(expression: str, *operands: MeshesLike, inside: str = "nonzero",
+def boolean(expression: str, *operands: MeshesLike, fill_rule: str = "nonzero",
             precision: str = "float64", max_displacement: float = np.inf, keep_cuts: bool = False,
             simplify: bool = False, volumes: bool = False, min_volume: float = 0.0,
             check: bool = True, progress: Progress = None, **meshes: MeshLike) -> BooleanResult:
@@ -287,7 +288,7 @@ def boolean(expression: str, *operands: MeshesLike, inside: str = "nonzero",
     expression: a formula of `operands`, named `a`, `b`, `c`, ..., and of `meshes` by their names:
         `+` or `|` for union, `*` or `&` for intersection, `-` for difference, `^` for exclusive or,
         and parentheses. `*` and `&` are evaluated first, the others from left to right.
-    inside: 'nonzero', 'odd' or 'positive': the winding numbers that count as inside.
+    fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
     max_displacement: Where rounding makes faces meet, only points at most this far apart are
@@ -321,7 +322,7 @@ def boolean(expression: str, *operands: MeshesLike, inside: str = "nonzero",
     return checked(by_formula(expression, operands, meshes, how, progress), check)
 
 
-def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", inside: str = "nonzero",
+def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", fill_rule: str = "nonzero",
          precision: str = "float64", max_displacement: float = np.inf, keep_cuts: bool = False,
          check: bool = True, progress: Progress = None) -> BooleanResult:
     """Trims an open surface with solids, given one by one or as a list: returns the parts of
@@ -330,7 +331,7 @@ def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", inside: st
 
     keep: 'outside' or 'inside'. Parts on the surface of a solid count as inside it. So for one
         solid, the two results together are the whole sheet.
-    inside: 'nonzero', 'odd' or 'positive': the winding numbers that count as inside.
+    fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
     max_displacement: Where rounding makes faces meet, only points at most this far apart are

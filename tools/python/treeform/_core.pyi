@@ -227,7 +227,7 @@ class WriteOptions:
 class BooleanOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
-    def __init__(self, *, inside: str = ..., precision: str = ..., max_displacement: float = ...,
+    def __init__(self, *, fill_rule: str = ..., precision: str = ..., max_displacement: float = ...,
                  keep_cuts: bool = ..., simplify: bool = ..., volumes: bool = ...,
                  min_volume: float = ..., gap: float = ...) -> None: ...
 
@@ -240,7 +240,7 @@ class CutOptions:
 class ResolveOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
-    def __init__(self, *, inside: str = ..., precision: str = ..., max_displacement: float = ...,
+    def __init__(self, *, fill_rule: str = ..., precision: str = ..., max_displacement: float = ...,
                  keep_cuts: bool = ..., touching: bool = ..., max_loss: float = ...) -> None: ...
 
 class RepairOptions:
@@ -249,7 +249,7 @@ class RepairOptions:
     def __init__(self, *, join: bool = ..., orient: bool = ..., fill: bool = ...,
                  resolve: bool = ..., detach: bool = ..., gap: Optional[float] = ...,
                  largest_hole: Optional[int] = ..., strays: float = ...,
-                 inside: Optional[str] = ..., max_loss: float = ..., sheet: bool = ...,
+                 fill_rule: Optional[str] = ..., max_loss: float = ..., sheet: bool = ...,
                  precision: str = ..., max_displacement: float = ...,
                  keep_cuts: bool = ...) -> None: ...
 
@@ -289,7 +289,7 @@ class WeldOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
     def __init__(self, *, tolerance: float = ..., chain: bool = ..., same: Same = ...,
-                 keep_seams: bool = ..., across: list[str] = ..., keep: str = ...,
+                 keep_seams: bool = ..., ignored_seams: list[str] = ..., keep: str = ...,
                  keep_by: str = ..., order_by: str = ..., highest_first: bool = ...,
                  only_borders: bool = ..., keep_manifold: bool = ...,
                  keep_degenerate: bool = ...) -> None: ...
@@ -299,7 +299,7 @@ class WeldStreamOptions:
     defaults: dict[str, Any]
     def __init__(self, *, tolerance: float = ..., relative: bool = ..., chain: bool = ...,
                  same: Same = ..., keep: str = ..., keep_by: str = ..., order_by: str = ...,
-                 highest_first: bool = ..., keep_seams: bool = ..., across: list[str] = ...,
+                 highest_first: bool = ..., keep_seams: bool = ..., ignored_seams: list[str] = ...,
                  keep_degenerate: bool = ..., as_las: bool = ..., memory: Optional[int] = ...,
                  folder: str = ..., points_per_tile: Optional[int] = ...) -> None: ...
 

@@ -75,16 +75,17 @@ class Placement(MeshResult):
     message: Why there is no place, as a clause; empty if there is a place.
     direction: (3,) unit direction of the travel; 0 if there is none.
     travel: Distance moved; for `too_far` the distance needed.
-    at_start: Exact: 'separate', 'touching', 'penetrating', 'closer_than_clearance' or 'clear'.
-    at_place: The same at the place: 'separate', 'touching', 'penetrating', 'closer_than_clearance'
+    relation_at_start: Exact: 'separate', 'touching', 'penetrating', 'closer_than_clearance' or
+        'clear'.
+    relation: The same at the place: 'separate', 'touching', 'penetrating', 'closer_than_clearance'
         or 'clear'.
     contacts: Pairs of faces that touch in the final position, or are at the clearance.
     contact_count: Number of all contacts, listed or not.
     nearest: The relation, at the place, of the moving mesh (`a`) to the fixed mesh that it
         penetrates, else to one that it touches, else to the nearest. None if all are too far away.
     certificate: The outcome of checking the coordinates.
-    effort: For `separate`: the effort of its search. If `cut` is not 0, a shorter translation may
-        exist or, if no place was found, a place.
+    effort: For `separate`: the effort of its search. If `skipped_candidates` is not 0, a shorter
+        translation may exist or, if no place was found, a place.
     angle: For `turn` and `mate_features`: angle of the rotation, in degrees.
     tolerance: For `turn`: the gap, beyond the clearance, that counts as contact.
     offset: For `mate_features`: the distance of the moving feature's center from the fixed
@@ -99,8 +100,8 @@ class Placement(MeshResult):
     message: str
     direction: Floats
     travel: float
-    at_start: str
-    at_place: str
+    relation_at_start: str
+    relation: str
     contacts: Contacts
     contact_count: int
     nearest: Measure | None
@@ -121,13 +122,13 @@ class SearchEffort(NamedTuple):
 
     pairs: Pairs of faces tested; a pair in motion counts as two.
     bound: The limit of `pairs`.
-    cut: Number of candidates skipped because testing one would take more than 1/32 of the bound, or
-        more than the rest of it. If not 0, a better result may exist.
+    skipped_candidates: Number of candidates skipped because testing one would take more than 1/32
+        of the bound, or more than the rest of it. If not 0, a better result may exist.
     """
 
     pairs: int
     bound: int
-    cut: int
+    skipped_candidates: int
 
     def __repr__(self) -> str:
         return tuple_repr(self)
@@ -191,7 +192,7 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
     >>> seated = treeform.slide((cube.vertices + [0.25, 0, 5], cube.faces), cube, [0, 0, -1])
-    >>> bool(seated), seated.travel, seated.at_place
+    >>> bool(seated), seated.travel, seated.relation
     (True, 4.0, 'touching')
     """
     how = options(_core.PlacementOptions, locals())
@@ -279,7 +280,7 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
     >>> apart = treeform.separate((cube.vertices + [0.75, 0, 0], cube.faces), cube)
-    >>> apart.travel, apart.at_start, apart.at_place
+    >>> apart.travel, apart.relation_at_start, apart.relation
     (0.25, 'penetrating', 'touching')
     """
     how = options(_core.PlacementOptions, locals())
@@ -304,7 +305,7 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
 
     `travel` is 0, and vertices differ from `matrix` by a few units in the last place of the largest
     coordinate. `contacts` are the pairs of faces within the tolerance, beyond the clearance.
-    `at_place` is exact: separate, in general, by no more than the tolerance.
+    `Placement.relation` is exact: separate, in general, by no more than the tolerance.
 
     Points that no face uses turn along and are otherwise ignored; points without any face are a
     cloud.
@@ -367,7 +368,7 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
     >>> cube = treeform.read("data/cube.stl")
     >>> other = (cube.vertices + [0, 0, 5], cube.faces)
     >>> side, top = treeform.find_features(other)[0], treeform.find_features(cube)[0]
-    >>> treeform.mate_features(other, cube, side, top).at_place
+    >>> treeform.mate_features(other, cube, side, top).relation
     'touching'
     """
     how = options(_core.PlacementOptions, locals())
@@ -718,8 +719,8 @@ class Depth(NamedTuple):
     depth: The length of `move`, rounded.
     move: (3,) After adding this to every point of `a`, with each coordinate rounded, `measure` is
         not `penetrating`.
-    effort: The effort of the search. If `cut` is not 0, a shorter translation is more likely to
-        exist.
+    effort: The effort of the search. If `skipped_candidates` is not 0, a shorter translation is
+        more likely to exist.
     """
 
     depth: float

@@ -89,7 +89,7 @@ class RepairResult(MadeMesh):
     steps: dict[str, Any]
 
 
-def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: str = "nonzero",
+def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, fill_rule: str = "nonzero",
                                precision: str = "float64", max_displacement: float = np.inf,
                                keep_cuts: bool = False, touching: bool = False,
                                max_loss: float = 0.05, check: bool = True,
@@ -112,7 +112,7 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
     mode: 'outer' cuts faces along their intersections and keeps those that bound the solid; 'split'
         keeps all pieces; 'remove', for surfaces that do not bound a solid, deletes intersecting
         faces and fills the holes.
-    inside: 'nonzero', 'odd' or 'positive': the winding numbers that count as inside.
+    fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
     max_displacement: For `split` and `outer`: as in `boolean`.
@@ -141,7 +141,7 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, inside: s
 
 
 def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = None,
-           largest_hole: int | None = None, strays: float = 0.001, inside: str | None = None,
+           largest_hole: int | None = None, strays: float = 0.001, fill_rule: str | None = None,
            max_loss: float = 0.05, sheet: bool = False, precision: str = "float64",
            max_displacement: float = np.inf, keep_cuts: bool = False, check: bool = True,
            progress: Progress = None) -> RepairResult:
@@ -173,7 +173,7 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
     strays: Drops loose open pieces below this share of the area, and single triangles below 1 %. If
         a larger component vanishes since it bounds no solid, the status is `excessive_loss`, unless
         `max_loss` is 1.
-    inside: 'nonzero', 'odd' or 'positive': the winding numbers that count as inside. None:
+    fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside. None:
         'positive' if all shells are oriented outward, otherwise 'nonzero'; if faces are
         inconsistent, inside and outside are determined by a minimum cut.
     max_loss: Losing more than this share of the volume gives the status `excessive_loss`; if there

@@ -95,8 +95,8 @@ class SharedWeld(InSteps[_core.WeldInSteps]):
         'first'. Empty: in the order of their numbers.
     highest_first: visit the points in descending order of `order_by`.
     keep_seams: merge only points with equal normals, texture coordinates and colors, except for
-        those in `across`.
-    across: properties that `keep_seams` ignores.
+        those in `ignored_seams`.
+    ignored_seams: properties that `keep_seams` ignores.
     keep_degenerate: keep faces that have the same vertex more than once.
     as_las: if `out` is a LAS file: round the coordinates, and means of coordinates, to the
         resolution of that file before they are compared.
@@ -128,8 +128,8 @@ class SharedWeld(InSteps[_core.WeldInSteps]):
                  relative: bool = False, chain: bool = False,
                  same: Mapping[str, float] | None = None, keep: str = "first", keep_by: str = "",
                  order_by: str = "", highest_first: bool = False, keep_seams: bool = False,
-                 across: Iterable[str] = (), keep_degenerate: bool = False, as_las: bool = False,
-                 memory: int = 0, folder: Path = "", points_per_tile: int = 0,
+                 ignored_seams: Iterable[str] = (), keep_degenerate: bool = False,
+                 as_las: bool = False, memory: int = 0, folder: Path = "", points_per_tile: int = 0,
                  columns: Columns | None = None, mixed: bool = False,
                  progress: Progress = None) -> None:
         super().__init__(locals())
@@ -155,9 +155,9 @@ class SharedWeld(InSteps[_core.WeldInSteps]):
 #   weld count_nearly_equal WeldStreamResult weld_stream
 def weld(mesh_or_points: Body, tolerance: float = 0.0, *, chain: bool = False,
          same: Mapping[str, float] | None = None, keep_seams: bool = False,
-         across: Iterable[str] = (), keep: str = "first", keep_by: str = "", order_by: str = "",
-         highest_first: bool = False, only_borders: bool = False, keep_manifold: bool = False,
-         keep_degenerate: bool = False, label: ArrayLike | None = None,
+         ignored_seams: Iterable[str] = (), keep: str = "first", keep_by: str = "",
+         order_by: str = "", highest_first: bool = False, only_borders: bool = False,
+         keep_manifold: bool = False, keep_degenerate: bool = False, label: ArrayLike | None = None,
          progress: Progress = None) -> WeldResult:
     """Merges the points of a mesh or point cloud that are within the tolerance of each other.
 
@@ -200,8 +200,8 @@ def weld(mesh_or_points: Body, tolerance: float = 0.0, *, chain: bool = False,
     same: vertex properties that must agree for points to be merged, each with the largest
         difference allowed.
     keep_seams: merge only points with equal normals, texture coordinates and colors, except for
-        those in `across`.
-    across: properties that `keep_seams` ignores.
+        those in `ignored_seams`.
+    ignored_seams: properties that `keep_seams` ignores.
     keep: which point of a group is kept: 'first', 'last', 'mean', or the one with the 'lowest' or
         'highest' value of `keep_by`.
     keep_by: a vertex property.
@@ -279,10 +279,11 @@ def weld_stream(files: Path | Iterable[Path], out: Path, tolerance: float = 0.0,
                 relative: bool = False, chain: bool = False,
                 same: Mapping[str, float] | None = None, keep: str = "first", keep_by: str = "",
                 order_by: str = "", highest_first: bool = False, keep_seams: bool = False,
-                across: Iterable[str] = (), keep_degenerate: bool = False, as_las: bool = False,
-                memory: int = 0, folder: Path = "", points_per_tile: int = 0, removed: Path = "",
-                label: str = "", withhold: bool = False, columns: Columns | None = None,
-                mixed: bool = False, communicator: Communicator | None = None,
+                ignored_seams: Iterable[str] = (), keep_degenerate: bool = False,
+                as_las: bool = False, memory: int = 0, folder: Path = "", points_per_tile: int = 0,
+                removed: Path = "", label: str = "", withhold: bool = False,
+                columns: Columns | None = None, mixed: bool = False,
+                communicator: Communicator | None = None,
                 progress: Progress = None) -> WeldStreamResult:
     """Welds the cloud in the files `files` (PLY without faces, PCD, LAS, LAZ, PTS, XYZ, CSV), and
     writes the outputs. Each output file is written completely or not at all. A single PLY or binary
@@ -307,8 +308,8 @@ def weld_stream(files: Path | Iterable[Path], out: Path, tolerance: float = 0.0,
         'first'. Empty: in the order of their numbers.
     highest_first: visit the points in descending order of `order_by`.
     keep_seams: merge only points with equal normals, texture coordinates and colors, except for
-        those in `across`.
-    across: properties that `keep_seams` ignores.
+        those in `ignored_seams`.
+    ignored_seams: properties that `keep_seams` ignores.
     keep_degenerate: keep faces that have the same vertex more than once.
     as_las: if `out` is a LAS file: round the coordinates, and means of coordinates, to the
         resolution of that file before they are compared.

@@ -44,7 +44,9 @@ json detach_entry(const tf::repair_statistics& from) {
 }
 
 json effort_entry(const tf::search_effort& from) {
-    return {{"pairs", from.pairs}, {"bound", from.bound}, {"cut", from.cut}};
+    return {{"pairs", from.pairs},
+            {"bound", from.bound},
+            {"skipped_candidates", from.skipped_candidates}};
 }
 
 json deviations_entry(const tf::deviation_result& from) {

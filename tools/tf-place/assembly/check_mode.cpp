@@ -81,7 +81,7 @@ json clashes_entry(const movable& all, const std::vector<tf::pose_clash>& clashe
     for (const tf::pose_clash& one : clashes)
         list.push_back({{"a", all.names[one.a]},
                         {"b", all.names[one.b]},
-                        {"status", name_of(one.how)},
+                        {"status", name_of(one.relation)},
                         {"distance", one.distance}});
     return list;
 }
@@ -117,7 +117,7 @@ class pose_run {
     void enter(const std::vector<tf::pose_clash>& clashes, output_file* results) {
         const json list = clashes_entry(all_, clashes);
         const bool clash = std::any_of(clashes.begin(), clashes.end(), [&](const auto& one) {
-            return one.how != tf::mesh_relation::touching || options_.clearance > 0.0;
+            return one.relation != tf::mesh_relation::touching || options_.clearance > 0.0;
         });
         const json entry{{"pose", count}, {"clash", clash}, {"pairs", list}};
         if (clash && !first) first = count;

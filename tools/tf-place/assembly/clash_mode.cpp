@@ -43,7 +43,7 @@ json regions_entry(const named_assembly& all, const tf::part_clash& one) {
 json clash_entry(const named_assembly& all, const tf::part_clash& one) {
     return {{"a", all.names[one.a]},
             {"b", all.names[one.b]},
-            {"status", name_of(one.how)},
+            {"status", name_of(one.relation)},
             {"inside", one.a_inside_b   ? json("a")
                        : one.b_inside_a ? json("b")
                                         : json(nullptr)},
@@ -58,13 +58,14 @@ json clash_entry(const named_assembly& all, const tf::part_clash& one) {
 }
 
 std::string sentence(const named_assembly& all, const tf::part_clash& one) {
-    std::string text = all.names[one.a] + " and " + all.names[one.b] + ": " + name_of(one.how);
-    if (one.how == mesh_relation::closer_than_clearance) return text + ", " + brief(one.distance);
+    std::string text = all.names[one.a] + " and " + all.names[one.b] + ": " + name_of(one.relation);
+    if (one.relation == mesh_relation::closer_than_clearance)
+        return text + ", " + brief(one.distance);
     if (one.a_inside_b) text += ", the first inside the second";
     if (one.b_inside_a) text += ", the second inside the first";
     if (one.depth) text += ", at most " + brief(*one.depth) + " deep";
     if (one.volume) text += ", common volume " + brief(*one.volume);
-    if (one.depth) text += cut_in_words(one.depth_effort);
+    if (one.depth) text += skipped_in_words(one.depth_effort);
     if (!one.regions.empty())
         text += "; " + counted(one.regions.size(), "region", "regions") + ", " +
                 counted(one.face_pairs, "pair", "pairs") + " of faces";
@@ -106,8 +107,8 @@ std::vector<std::vector<mesh_relation>> face_relations(const named_assembly& all
     };
     for (const tf::part_clash& pair : r.pairs)  // faces that meet: touching < penetrating
         for (const tf::contact_region& region : pair.regions) {
-            mark(pair.a, region.faces_a, pair.how);
-            mark(pair.b, region.faces_b, pair.how);
+            mark(pair.a, region.faces_a, pair.relation);
+            mark(pair.b, region.faces_b, pair.relation);
         }
     return relations;
 }
@@ -145,9 +146,9 @@ std::vector<const tf::part_clash*> gravest_first(const tf::clash_result& r) {
     std::vector<const tf::part_clash*> worst;
     for (const tf::part_clash& one : r.pairs) worst.push_back(&one);
     const auto rank = [](const tf::part_clash* one) {
-        return std::pair(one->how == mesh_relation::penetrating             ? 0
-                         : one->how == mesh_relation::closer_than_clearance ? 1
-                                                                            : 2,
+        return std::pair(one->relation == mesh_relation::penetrating             ? 0
+                         : one->relation == mesh_relation::closer_than_clearance ? 1
+                                                                                 : 2,
                          -one->depth.value_or(0.0));
     };
     std::stable_sort(worst.begin(), worst.end(),

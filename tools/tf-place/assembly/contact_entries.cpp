@@ -48,8 +48,8 @@ json contact_entry(const tf::body_set& moving, const tf::body_set& fixed,
             {"name", on_bed ? json(nullptr) : name_entry(fixed, c.fixed)}};
 }
 
-std::string cut_in_words(const tf::search_effort& effort) {
-    if (effort.cut == 0) return {};
+std::string skipped_in_words(const tf::search_effort& effort) {
+    if (effort.skipped_candidates == 0) return {};
     return "; the search ended after " + counted(effort.pairs, "pair", "pairs") +
            " of faces, so a shorter translation may exist";
 }

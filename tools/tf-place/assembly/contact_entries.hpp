@@ -20,6 +20,6 @@ void enter_nearest(json& entry, const tf::body_set& moving, const tf::body_set& 
                                  const tf::placement_contact& c);
 
 /// "; the search ended after 12,345 pairs of faces: a shorter way may exist", where it was cut.
-[[nodiscard]] std::string cut_in_words(const tf::search_effort& effort);
+[[nodiscard]] std::string skipped_in_words(const tf::search_effort& effort);
 
 }  // namespace tools

@@ -18,7 +18,7 @@ namespace {
 
 void enter_depth(job& work, const tf::body_set& moving, const tf::body_set& fixed,
                  const tf::placement& at) {
-    if (at.at_place != tf::mesh_relation::penetrating || !at.nearest) return;
+    if (at.relation != tf::mesh_relation::penetrating || !at.nearest) return;
     const std::size_t other = at.nearest_fixed;
     const auto timing = work.time("search");
     const auto found = tf::penetration_depth(moving.shapes[0], fixed.shapes[other],
@@ -29,7 +29,7 @@ void enter_depth(job& work, const tf::body_set& moving, const tf::body_set& fixe
         {"bound", found->depth}, {"move", found->move}, {"effort", effort_entry(found->effort)}};
     work.out.result(work.name + ": at most " + brief(found->depth) + " deep: a translation by " +
                     in_words(found->move) + " moves it out of " + fixed.label(other) +
-                    cut_in_words(found->effort));
+                    skipped_in_words(found->effort));
 }
 
 /// `known` of all points, if it is.

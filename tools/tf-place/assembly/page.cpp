@@ -35,7 +35,7 @@ void add_classes(scene& shown, const named_assembly& all,
         const bool last = i + 1 == most_colors && pairs.size() > most_colors;
         shown.classes.push_back(
             {last ? "other pairs"
-                  : all.names[one.a] + " and " + all.names[one.b] + ", " + name_of(one.how),
+                  : all.names[one.a] + " and " + all.names[one.b] + ", " + name_of(one.relation),
              scene_color(i),
              last || one.face_pairs == 0
                  ? ""
@@ -85,7 +85,7 @@ scene_table table_of(const named_assembly& all, const std::vector<const tf::part
     };
     for (std::size_t i = 0; i < std::min(pairs.size(), most_rows); ++i) {
         const tf::part_clash& one = *pairs[i];
-        table.rows.push_back({.cells = {all.names[one.a], all.names[one.b], name_of(one.how),
+        table.rows.push_back({.cells = {all.names[one.a], all.names[one.b], name_of(one.relation),
                                         one.distance, or_blank(one.depth), or_blank(one.volume),
                                         one.regions.size(), one.face_pairs},
                               .box = box_of_pair(one)});

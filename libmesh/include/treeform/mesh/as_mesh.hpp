@@ -87,8 +87,8 @@ TREEFORM_API std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh);
 ///
 /// Columns of "vertex" and "face" are matched by name. If a file lacks a column, its rows get NaN,
 /// 0 or empty lists. Types are widened until they hold every value. Corners keep their texture
-/// coordinates, normals and texture files. Other elements are dropped (warning "left-out"). `names`
-/// has one name for each file, for the warnings.
+/// coordinates, normals and texture files. Other elements are dropped (warning "data-dropped").
+/// `names` has one name for each file, for the warnings.
 ///
 /// Columns of points whose names depend on the format (`normal_x` in PCD, `nx` in PLY) get the
 /// names of the first file's format. The LAS header is copied from the first file. If scales or

@@ -68,14 +68,14 @@ class TREEFORM_API boolean_expression {
 
 /// Which points are inside an operand, by how often its surface winds around them.
 enum class fill_rule : std::uint8_t {
-    nonzero,  ///< any number of times except 0
-    odd,      ///< an odd number of times
-    positive  ///< once or more
+    nonzero,   ///< any number of times except 0
+    even_odd,  ///< an odd number of times
+    positive   ///< once or more
 };
 
 /// How to combine solids.
 struct boolean_options {
-    fill_rule inside = fill_rule::nonzero;  ///< the rule that defines the inside
+    treeform::fill_rule fill_rule = treeform::fill_rule::nonzero;  ///< what is inside
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
     /// Where rounding makes faces meet, only points at most this far apart are joined, in the

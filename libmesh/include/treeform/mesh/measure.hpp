@@ -134,7 +134,8 @@ struct penetration_depth_result {
     /// After adding this to every point of `a`, with each coordinate rounded, `relation` is not
     /// `penetrating`.
     point3 move{};
-    /// The effort of the search. If `cut` is not 0, a shorter translation is more likely to exist.
+    /// The effort of the search. If `skipped_candidates` is not 0, a shorter translation is more
+    /// likely to exist.
     search_effort effort{};
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is invalid
 };

@@ -75,8 +75,8 @@ struct placement {
     double clearance = 0.0;       ///< the given clearance
     std::optional<double> bed{};  ///< least z allowed, rounded: the bed plus the clearance
     double below_bed = 0.0;       ///< how far the mesh was below `bed` at the start
-    mesh_relation at_start = mesh_relation::separate;  ///< exact
-    mesh_relation at_place = mesh_relation::separate;  ///< the same at the place
+    mesh_relation relation_at_start = mesh_relation::separate;  ///< exact
+    mesh_relation relation = mesh_relation::separate;           ///< the same at the place
     /// The relation, at the place, of the moving mesh (`a`) to the fixed mesh that it penetrates,
     /// else to one that it touches, else to the nearest. None if all are too far away.
     std::optional<mesh_measure> nearest{};
@@ -84,8 +84,8 @@ struct placement {
     std::vector<placement_contact> contacts{};
     std::uint64_t contact_count = 0;     ///< number of all contacts, listed or not
     std::optional<double> max_travel{};  ///< the given limit
-    /// For `separate`: the effort of its search. If `cut` is not 0, a shorter translation may exist
-    /// or, if no place was found, a place.
+    /// For `separate`: the effort of its search. If `skipped_candidates` is not 0, a shorter
+    /// translation may exist or, if no place was found, a place.
     search_effort effort{};
     double angle = 0.0;      ///< for `turn` and `mate_features`: angle of the rotation, in degrees
     double tolerance = 0.0;  ///< for `turn`: the gap, beyond the clearance, that counts as contact

@@ -28,7 +28,7 @@ enum class resolve_mode : std::uint8_t {
 /// How to resolve self-intersections.
 struct resolve_options {
     /// for `outer`: the rule that defines the inside
-    fill_rule inside = fill_rule::nonzero;
+    treeform::fill_rule fill_rule = treeform::fill_rule::nonzero;
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
     /// For `split` and `outer`: as in `boolean_options`.
@@ -62,7 +62,7 @@ struct repair_options {
     double strays = 0.001;
     /// The rule that defines the inside. By default `positive` if each shell is outward after
     /// `orient`, else `nonzero` or the labels of cells (see `repair`).
-    std::optional<fill_rule> inside{};
+    std::optional<treeform::fill_rule> fill_rule{};
     /// Losing more than this share of the volume gives the status `excessive_loss`; if there were
     /// holes, of the area. Faces that remain, or are inside the solid, do not count as lost. 1
     /// allows any loss.
@@ -113,7 +113,7 @@ struct repair_statistics {
     /// Components (faces linked by vertices) that lost all of their faces; for `repair`, only those
     /// larger than `repair_options::strays`.
     std::uint64_t vanished_components = 0;
-    /// closed shells inside the solid, dropped; `odd` makes them cavities
+    /// closed shells inside the solid, dropped; `even_odd` makes them cavities
     std::uint64_t dropped_shells = 0;
     double volume_before = 0.0;  ///< after `join`, `orient` and `fill`; 0 if that is no solid
     double volume_after = 0.0;

@@ -54,9 +54,9 @@ struct weld_options {
     /// Properties that must agree, in addition to `label` and `may_merge`.
     std::vector<weld_condition> same{};
     /// For a mesh with faces: keep seams, that is, normals, texture coordinates and colors of
-    /// points must agree, except for those named in `across`.
+    /// points must agree, except for those named in `ignored_seams`.
     bool keep_seams = false;
-    std::vector<std::string> across{};
+    std::vector<std::string> ignored_seams{};
     weld_keep keep = weld_keep::first;
     std::string keep_by{};  ///< for `lowest` and `highest`: a property as in `weld_condition`
     /// A property as in `weld_condition`: the rule visits points by its values, the least first,
@@ -73,8 +73,8 @@ struct weld_options {
     /// The conditions that these options imply, on single columns: conditions of `same`, then
     /// conditions of seams.
     ///
-    /// A property name is the name of a column, or else of a group of columns. `across` may name
-    /// groups that the vertices lack.
+    /// A property name is the name of a column, or else of a group of columns. `ignored_seams` may
+    /// name groups that the vertices lack.
     ///
     /// \throws weld_property_error for an unknown name, or a column of lists
     [[nodiscard]] TREEFORM_API std::vector<weld_condition> conditions(const attributes& properties,

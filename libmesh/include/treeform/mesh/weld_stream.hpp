@@ -47,7 +47,7 @@ struct weld_stream_options {
     std::string order_by{};
     bool highest_first = false;
     bool keep_seams = false;  ///< this and the next two: for a mesh, as in `weld_options`
-    std::vector<std::string> across{};
+    std::vector<std::string> ignored_seams{};
     bool keep_degenerate = false;
     /// Round coordinates and their means as LAS stores them before comparing them: to the scale and
     /// offset of the first file if it is LAS, else to those that `round_to_las` chooses.

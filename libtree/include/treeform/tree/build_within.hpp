@@ -29,7 +29,7 @@ namespace detail {
 inline constexpr std::size_t elements_per_chunk = std::size_t{1} << 13;
 
 template <std::ranges::random_access_range Range>
-[[nodiscard]] decltype(auto) at_place(const Range& range, std::size_t i) {
+[[nodiscard]] decltype(auto) element_at(const Range& range, std::size_t i) {
     return std::ranges::begin(range)[static_cast<std::ranges::range_difference_t<const Range>>(i)];
 }
 
@@ -77,7 +77,7 @@ template <class State, class Range, class MakeBox, class Use>
         for (std::size_t first = begin; first < end; first += block::size) {
             const std::size_t count = std::min(block::size, end - first);
             for (std::size_t i = 0; i < count; ++i)
-                boxes.set(i, make_aabb(at_place(range, first + i)));
+                boxes.set(i, make_aabb(element_at(range, first + i)));
             for (std::size_t i = 0; i < count; ++i) {
                 const auto box = box_at(boxes, i);
                 if (!is_finite(box)) return lower(bad, first + i);
@@ -134,7 +134,8 @@ template <std::size_t D, class Range, class MakeBox>
 template <std::size_t D, class Range, class MakeBox>
 [[nodiscard]] tree<D> tree_over(const std::vector<std::uint32_t>& kept, const Range& range,
                                 const MakeBox& make_aabb) {
-    tree<D> result = build(kept, [&](std::uint32_t id) { return make_aabb(at_place(range, id)); });
+    tree<D> result =
+        build(kept, [&](std::uint32_t id) { return make_aabb(element_at(range, id)); });
     std::uint32_t* const places = result.ids_data();
     for_chunks(kept.size(), elements_per_chunk,
                [&](std::size_t begin, std::size_t end, std::size_t) {

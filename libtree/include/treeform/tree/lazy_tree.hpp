@@ -58,7 +58,7 @@ class lazy_tree {
               std::vector<std::uint32_t> ids(end - begin);
               std::iota(ids.begin(), ids.end(), static_cast<std::uint32_t>(begin));
               tree<D> boxes = build(
-                  ids, [&](std::uint32_t i) { return make_aabb(detail::at_place(range, i)); });
+                  ids, [&](std::uint32_t i) { return make_aabb(detail::element_at(range, i)); });
               for (std::size_t i = 0; i < ids.size(); ++i)
                   boxes.ids_data()[i] += static_cast<std::uint32_t>(begin);
               return boxes;
@@ -127,7 +127,7 @@ class lazy_tree {
             box mine;
             for (std::size_t j = 0; j < samples; ++j)
                 mine.include(detail::in_double(
-                    make_aabb(detail::at_place(range, begin + j * count / samples))));
+                    make_aabb(detail::element_at(range, begin + j * count / samples))));
             all.include(mine);
             sum += extent(mine) / static_cast<double>(asked);
         }

@@ -28,7 +28,7 @@ namespace treeform {
 /// \pre  the tree has no empty slots (`build` makes none)
 /// \same on any number of threads
 template <std::size_t D>
-[[nodiscard]] TREEFORM_API std::vector<std::uint32_t> places_of(const tree<D>& tree);
+[[nodiscard]] TREEFORM_API std::vector<std::uint32_t> places_in_leaf_order(const tree<D>& tree);
 
 /// How expensive a tree is to search: the sum of the extents of all node boxes, divided by those of
 /// the root. This is the number of nodes that a random plane (in 2D: line) through the root's box
@@ -187,8 +187,8 @@ void refit(tree<D>& tree, const Range& range, const MakeBox& make_aabb) {
     if (bad != detail::no_primitive) detail::refuse_refit(bad);
 }
 
-/// The same only for the primitives at `places` of the leaf order (`places_of`); all others keep
-/// their boxes. Places may be in any order, and may repeat.
+/// The same only for the primitives at `places` of the leaf order (`places_in_leaf_order`); all
+/// others keep their boxes. Places may be in any order, and may repeat.
 ///
 /// \throws std::invalid_argument also naming a place out of range; the tree is then unchanged
 /// \cost   O(P log N) for P places and their ancestors; if P is above N / 128, also a pass over N /

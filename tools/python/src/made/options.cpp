@@ -30,7 +30,7 @@ void each_field(tf::write_options& how, const Visit& visit) {
 
 template <class Visit>
 void each_field(tf::boolean_options& how, const Visit& visit) {
-    visit("inside", how.inside);
+    visit("fill_rule", how.fill_rule);
     visit("precision", how.precision);
     visit("max_displacement", how.max_displacement);
     visit("keep_cuts", how.keep_cuts);
@@ -49,7 +49,7 @@ void each_field(tf::cut_options& how, const Visit& visit) {
 
 template <class Visit>
 void each_field(tf::resolve_options& how, const Visit& visit) {
-    visit("inside", how.inside);
+    visit("fill_rule", how.fill_rule);
     visit("precision", how.precision);
     visit("max_displacement", how.max_displacement);
     visit("keep_cuts", how.keep_cuts);
@@ -67,7 +67,7 @@ void each_field(tf::repair_options& how, const Visit& visit) {
     visit("gap", how.gap);
     visit("largest_hole", how.largest_hole);
     visit("strays", how.strays);
-    visit("inside", how.inside);
+    visit("fill_rule", how.fill_rule);
     visit("max_loss", how.max_loss);
     visit("sheet", how.sheet);
     visit("precision", how.precision);
@@ -124,7 +124,7 @@ void each_field(tf::weld_options& how, const Visit& visit) {
     visit("chain", how.chain);
     visit("same", how.same);
     visit("keep_seams", how.keep_seams);
-    visit("across", how.across);
+    visit("ignored_seams", how.ignored_seams);
     visit("keep", how.keep);
     visit("keep_by", how.keep_by);
     visit("order_by", how.order_by);
@@ -145,7 +145,7 @@ void each_field(tf::weld_stream_options& how, const Visit& visit) {
     visit("order_by", how.order_by);
     visit("highest_first", how.highest_first);
     visit("keep_seams", how.keep_seams);
-    visit("across", how.across);
+    visit("ignored_seams", how.ignored_seams);
     visit("keep_degenerate", how.keep_degenerate);
     visit("as_las", how.as_las);
     visit("memory", how.memory);

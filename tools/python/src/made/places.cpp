@@ -69,7 +69,7 @@ py::object object(of_result, tf::search_effort&& from) {
     py::dict made;
     made["pairs"] = as_python(std::move(from.pairs));
     made["bound"] = as_python(std::move(from.bound));
-    made["cut"] = as_python(std::move(from.cut));
+    made["skipped_candidates"] = as_python(std::move(from.skipped_candidates));
     return object_of("treeform._placement", "SearchEffort", made);
 }
 
@@ -98,8 +98,8 @@ py::object object(of_result, tf::placement&& from, const held_mesh& moving) {
     made["matrix"] = as_python(std::move(from.matrix));
     made["direction"] = as_python(std::move(from.direction));
     made["travel"] = as_python(std::move(from.travel));
-    made["at_start"] = as_python(std::move(from.at_start));
-    made["at_place"] = as_python(std::move(from.at_place));
+    made["relation_at_start"] = as_python(std::move(from.relation_at_start));
+    made["relation"] = as_python(std::move(from.relation));
     made["nearest"] = as_python(std::move(from.nearest));
     made["nearest_fixed"] = as_python(std::move(from.nearest_fixed));
     made["contacts"] = as_python(std::move(from.contacts));
@@ -193,7 +193,7 @@ py::object object(of_result, tf::part_clash&& from) {
     py::dict made;
     made["a"] = as_python(std::move(from.a));
     made["b"] = as_python(std::move(from.b));
-    made["how"] = as_python(std::move(from.how));
+    made["relation"] = as_python(std::move(from.relation));
     made["a_inside_b"] = as_python(std::move(from.a_inside_b));
     made["b_inside_a"] = as_python(std::move(from.b_inside_a));
     made["distance"] = as_python(std::move(from.distance));
@@ -214,8 +214,8 @@ py::object object(of_result, tf::pose_result&& from) {
     made["parts"] = column_of_poses(from, [](std::uint32_t, const tf::pose_clash& one) {
         return std::array{one.a, one.b};
     });
-    made["how"] =
-        column_of_poses(from, [](std::uint32_t, const tf::pose_clash& one) { return one.how; });
+    made["relation"] = column_of_poses(
+        from, [](std::uint32_t, const tf::pose_clash& one) { return one.relation; });
     made["distance"] = column_of_poses(
         from, [](std::uint32_t, const tf::pose_clash& one) { return one.distance; });
     made["in_collision"] = as_python(std::move(from.in_collision)).attr("view")("bool");

@@ -28,7 +28,7 @@ struct words_of<tf::feature_kind> {
 };
 template <>
 struct words_of<tf::fill_rule> {
-    static constexpr words<3> all{"nonzero", "odd", "positive"};
+    static constexpr words<3> all{"nonzero", "even_odd", "positive"};
 };
 template <>
 struct words_of<tf::location> {

@@ -53,7 +53,7 @@ TREEFORM_C_API treeform_code treeform_put_back(treeform_bodies* bodies, size_t b
 /// Options of `treeform_clash` and `treeform_check_poses`. Only `treeform_clash` uses `volumes`,
 /// `depths`, `effort` and `limit`; only `treeform_check_poses` uses `first_only`.
 typedef struct treeform_clash_options {
-    size_t size;
+    size_t struct_size;
     double clearance;    ///< parts nearer than this are too close; not squared
     int32_t first_only;  ///< find only the first clash of each pose
     /// [ignored_count][2] pairs of parts to skip; any order; or null
@@ -85,15 +85,15 @@ typedef struct treeform_contact_region {
 
 /// Two parts that are not clear of each other.
 typedef struct treeform_part_clash {
-    uint32_t a;                  ///< the lower number
-    uint32_t b;                  ///< number of the second part
-    treeform_mesh_relation how;  ///< or penetrating, closer_than_clearance
-    int32_t a_inside_b;          ///< as in `treeform_measure`
-    int32_t b_inside_a;          ///< the same with `a` and `b` swapped
-    double distance;             ///< distance of the surfaces; 0 if they meet
-    double on_a[3];              ///< for parts that are too close: the nearest point on a; else NaN
-    double on_b[3];              ///< the same on b
-    uint64_t face_pairs;         ///< pairs of faces that meet
+    uint32_t a;                       ///< the lower number
+    uint32_t b;                       ///< number of the second part
+    treeform_mesh_relation relation;  ///< or penetrating, closer_than_clearance
+    int32_t a_inside_b;               ///< as in `treeform_measure`
+    int32_t b_inside_a;               ///< the same with `a` and `b` swapped
+    double distance;                  ///< distance of the surfaces; 0 if they meet
+    double on_a[3];       ///< for parts that are too close: the nearest point on a; else NaN
+    double on_b[3];       ///< the same on b
+    uint64_t face_pairs;  ///< pairs of faces that meet
     /// [region_count] ordered by their lowest faces
     const treeform_contact_region* regions;
     size_t region_count;
@@ -143,7 +143,7 @@ typedef struct treeform_pose_clash {
     uint32_t a;  ///< the lower number
     uint32_t b;
     /// or penetrating, closer_than_clearance (a `treeform_mesh_relation`)
-    uint8_t how;
+    uint8_t relation;
     double distance;  ///< for parts closer than the clearance; else 0
 } treeform_pose_clash;
 // end

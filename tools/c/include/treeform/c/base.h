@@ -14,8 +14,8 @@
 /// The first member of a result, `owner`, is internal. You keep ownership of arrays that you pass;
 /// functions do not use them after they return, unless their description says they borrow them.
 ///
-/// Options. Structs of options begin with their size: call their `..._init` with `sizeof`, then set
-/// members; null instead of options means the defaults. Later versions may append members to
+/// Options. Structs of options begin with `struct_size`: call their `..._init` with `sizeof`, then
+/// set members; null instead of options means the defaults. Later versions may append members to
 /// structs of options and results. This is compatible with compiled programs, since these structs
 /// are passed by address and never embedded in others. All other structs (`treeform_face_pair`,
 /// ...) are fixed within a major version; in version 0, within a minor version.
@@ -264,6 +264,6 @@ typedef struct treeform_search_effort {
     uint64_t bound;  ///< the limit of `pairs`
     /// Number of candidates skipped because testing one would take more than 1/32 of the bound, or
     /// more than the rest of it. If not 0, a better result may exist.
-    uint64_t cut;
+    uint64_t skipped_candidates;
 } treeform_search_effort;
 // end

@@ -105,7 +105,7 @@ TREEFORM_C_API treeform_code treeform_write_section(const char* path,
 
 /// How to cut.
 typedef struct treeform_cut_options {
-    size_t size;
+    size_t struct_size;
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
     /// float64
     treeform_precision precision;

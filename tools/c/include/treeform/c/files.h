@@ -30,7 +30,7 @@ TREEFORM_C_API treeform_code treeform_read_mesh(const char* path, treeform_mesh*
 
 /// How to read.
 typedef struct treeform_read_options {
-    size_t size;
+    size_t struct_size;
     const char* format;  ///< null: determined by the content
     /// [column_count] For XYZ, PTS and CSV: names of columns, as pairs of the new name and the
     /// name in the first line or the column number, from 1: {"x", "easting"}. Columns x, y and z
@@ -218,7 +218,7 @@ TREEFORM_C_API treeform_code treeform_file_turn_normals(treeform_file* file, con
 
 /// How to write.
 typedef struct treeform_write_options {
-    size_t size;
+    size_t struct_size;
     /// Extension without its dot: stl, obj, ply, off, xyz, csv, pcd, las, laz, glb, 3mf. Empty:
     /// the extension of the path.
     const char* format;
@@ -311,7 +311,7 @@ typedef struct treeform_part {
 
 /// Options of `treeform_usable_part`.
 typedef struct treeform_part_options {
-    size_t size;
+    size_t struct_size;
     /// Whether points with equal coordinates are one vertex.
     treeform_vertices vertices;
     /// If greater than 0, points within this distance are joined, as by `treeform_weld`, after

@@ -65,8 +65,8 @@ typedef struct treeform_pairs {
 
 /// Which pairs to search for, and the positions of meshes. Each function ignores the options that
 /// do not concern it.
-typedef struct treeform_intersections_options {
-    size_t size;
+typedef struct treeform_intersection_options {
+    size_t struct_size;
     /// [12] `mesh_intersections`: applied to each mesh first. The answer is exact for the moved
     /// corners, which `transform::operator()` rounds to double. A prepared mesh is not changed; or
     /// null
@@ -83,16 +83,16 @@ typedef struct treeform_intersections_options {
     const uint32_t* component_of_face;  ///< [F] for `between` and `within`; or null
     int32_t between;                    ///< only pairs of faces of different components
     int32_t within;                     ///< only pairs of faces of one component
-} treeform_intersections_options;
+} treeform_intersection_options;
 /// Sets the defaults.
-TREEFORM_C_API void treeform_intersections_options_init(treeform_intersections_options* options,
-                                                        size_t size);
+TREEFORM_C_API void treeform_intersection_options_init(treeform_intersection_options* options,
+                                                       size_t size);
 
 /// All pairs of faces that meet in a point that is neither a shared corner nor on a shared edge.
 /// Exact on the coordinates as given.
 TREEFORM_C_API treeform_code
-treeform_self_intersections(const treeform_mesh* mesh,
-                            const treeform_intersections_options* options, treeform_pairs** pairs);
+treeform_self_intersections(const treeform_mesh* mesh, const treeform_intersection_options* options,
+                            treeform_pairs** pairs);
 
 /// A connected set of faces that meet.
 typedef struct treeform_region {
@@ -128,7 +128,7 @@ TREEFORM_C_API treeform_code treeform_group_pairs(const treeform_mesh* mesh,
 /// only the faces that reach into the intersection of both bounding boxes (after the transforms)
 /// are indexed.
 TREEFORM_C_API treeform_code treeform_intersections(const treeform_mesh* a, const treeform_mesh* b,
-                                                    const treeform_intersections_options* options,
+                                                    const treeform_intersection_options* options,
                                                     treeform_pairs** pairs);
 
 /// Whether a face of `a` and a face of `b` have a common point, each moved by a matrix (null: not
@@ -201,7 +201,7 @@ TREEFORM_C_API treeform_code treeform_color_pairs(treeform_file* file, const tre
 
 /// Options of `treeform_self_intersections_of_file` and `shared_search`.
 typedef struct treeform_stream_search_options {
-    size_t size;
+    size_t struct_size;
     /// none: by coordinates for STL, else by index; a `treeform_vertices`, or -1
     int32_t vertices;
     uint32_t kinds;

@@ -10,7 +10,7 @@
 /// How to lay a mesh flat. At most one of `normal`, `point` and `most_stable` chooses the side of
 /// the convex hull that goes down; otherwise the side of the largest area does.
 typedef struct treeform_lay_flat_options {
-    size_t size;
+    size_t struct_size;
     /// Do not rotate about the vertical. Otherwise the mesh is also rotated about it, by at most
     /// 45 degrees, so that the longest edge of the side runs along x or y.
     int32_t keep_spin;
@@ -87,10 +87,10 @@ TREEFORM_C_API treeform_code treeform_lay_flat(const treeform_mesh* mesh,
 
 /// The plates, and options of packing.
 typedef struct treeform_pack_options {
-    size_t size;
+    size_t struct_size;
     /// Length, depth and height of the plate or box. The height may be infinite, as it is if it is
     /// 0, so that `{.size = {250, 210}}` is a plate; default infinite
-    double plate[3];
+    double size[3];
     /// The corner of the first plate with the lowest x and y; its z is the bed.
     double corner[3];
     /// least distance of any two parts; parts may touch the plate's rim; default 2.0
@@ -208,7 +208,7 @@ enum {
 
 /// How to align.
 typedef struct treeform_align_options {
-    size_t size;
+    size_t struct_size;
     treeform_align_method method;  ///< default automatic
     /// Share of the moving points that have a partner, in (0, 1]. Each step uses this share of the
     /// points, those with the nearest partners; default 1.0

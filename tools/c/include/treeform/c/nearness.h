@@ -130,18 +130,18 @@ TREEFORM_C_API treeform_code treeform_raycast_all(const treeform_mesh* mesh,
 /// The relation of two meshes; see `treeform_relation`. The last two occur only with a clearance.
 typedef int32_t treeform_mesh_relation;
 enum {
-    TREEFORM_SEPARATE = 0,
-    TREEFORM_MEETING = 1,
-    TREEFORM_PENETRATING = 2,
-    TREEFORM_TOO_CLOSE = 3,
+    TREEFORM_RELATION_SEPARATE = 0,
+    TREEFORM_RELATION_TOUCHING = 1,
+    TREEFORM_RELATION_PENETRATING = 2,
+    TREEFORM_RELATION_CLOSER_THAN_CLEARANCE = 3,
     /// separate, by at least the clearance
-    TREEFORM_CLEAR = 4
+    TREEFORM_RELATION_CLEAR = 4
 };
 
 /// The relation and distance of two meshes.
 typedef struct treeform_relation {
     void* owner;
-    treeform_mesh_relation how;
+    treeform_mesh_relation relation;
     /// Faces that prove the relation: two that cross, overlap with the inside on the same side, or
     /// touch. For a mesh that is or reaches inside the other, its lowest face there. Both are 0 if
     /// the meshes are separate.
@@ -166,7 +166,7 @@ typedef struct treeform_relation {
 /// Options of `treeform_relation`, `treeform_measure` and `treeform_penetration_depth`. Each
 /// ignores those that do not concern it.
 typedef struct treeform_measure_options {
-    size_t size;
+    size_t struct_size;
     /// For `treeform_measure`: ignore meshes farther apart than this; inclusive, not squared;
     /// default infinite
     double radius;
@@ -224,7 +224,7 @@ TREEFORM_C_API treeform_code treeform_count_sides(const double* points, size_t p
 
 /// What to compute besides distances.
 typedef struct treeform_deviation_options {
-    size_t size;
+    size_t struct_size;
     /// lower end of the tolerance band of signed distances; NaN: no band
     double band_low;
     double band_high;  ///< its upper end

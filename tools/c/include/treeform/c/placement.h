@@ -72,14 +72,14 @@ typedef struct treeform_placement {
     /// rotation. `points` are moved by it and rounded once, except for points that are set on the
     /// bed.
     double matrix[12];
-    double direction[3];              ///< unit direction of the travel; 0 if there is none
-    double travel;                    ///< distance moved; for `too_far` the distance needed
-    double clearance;                 ///< the given clearance
-    double bed;                       ///< least z allowed, rounded: the bed plus the clearance
-    double below_bed;                 ///< how far the mesh was below `bed` at the start
-    treeform_mesh_relation at_start;  ///< exact
-    treeform_mesh_relation at_place;  ///< the same at the place
-    size_t nearest_fixed;             ///< number of that fixed mesh; the lowest if several qualify
+    double direction[3];  ///< unit direction of the travel; 0 if there is none
+    double travel;        ///< distance moved; for `too_far` the distance needed
+    double clearance;     ///< the given clearance
+    double bed;           ///< least z allowed, rounded: the bed plus the clearance
+    double below_bed;     ///< how far the mesh was below `bed` at the start
+    treeform_mesh_relation relation_at_start;  ///< exact
+    treeform_mesh_relation relation;           ///< the same at the place
+    size_t nearest_fixed;  ///< number of that fixed mesh; the lowest if several qualify
     /// The relation, at the place, of the moving mesh (`a`) to the fixed mesh that it penetrates,
     /// else to one that it touches, else to the nearest. None if all are too far away.
     const treeform_relation* nearest;
@@ -99,14 +99,14 @@ typedef struct treeform_placement {
     /// feature's center at the place, along the direction of the fixed feature. For planes, their
     /// distance.
     double offset;
-    /// For `separate`: the effort of its search. If `treeform_cut` is not 0, a shorter translation
-    /// may exist or, if no place was found, a place.
+    /// For `separate`: the effort of its search. If `skipped_candidates` is not 0, a shorter
+    /// translation may exist or, if no place was found, a place.
     treeform_search_effort effort;
 } treeform_placement;
 
 /// Options of the placement functions. Each function ignores those that do not concern it.
 typedef struct treeform_place_options {
-    size_t size;
+    size_t struct_size;
     double clearance;  ///< gap to leave, a distance; 0: contact
     /// largest distance to move; obstacles beyond are ignored; NaN: not given
     double max_travel;
@@ -205,7 +205,8 @@ TREEFORM_C_API treeform_code treeform_separate(const treeform_mesh* moving,
 ///
 /// `travel` is 0, and `points` differ from `matrix` by a few units in the last place of the
 /// largest coordinate. `contacts` are the pairs of faces within the tolerance, beyond the
-/// clearance. `at_place` is exact: separate, in general, by no more than the tolerance.
+/// clearance. `treeform_placement::relation` is exact: separate, in general, by no more than the
+/// tolerance.
 ///
 /// Points that no face uses turn along and are otherwise ignored; points without any face are a
 /// cloud.
@@ -280,7 +281,7 @@ typedef struct treeform_impact {
 
 /// Start positions of the meshes, and limits.
 typedef struct treeform_impact_options {
-    size_t size;
+    size_t struct_size;
     /// [12] Applied to each mesh before the motion. Moved corners are computed by
     /// `transform::operator()` and rounded; the result is exact for these coordinates. A prepared
     /// mesh is not changed; or null

@@ -142,7 +142,7 @@ typedef struct treeform_features {
 
 /// What counts as flat or cylindrical.
 typedef struct treeform_feature_options {
-    size_t size;
+    size_t struct_size;
     /// Largest distance of a corner from the plane or cylinder. Default: 1e-4 of the diagonal;
     /// NaN: not given
     double tolerance;

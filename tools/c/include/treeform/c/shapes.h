@@ -12,7 +12,7 @@
 //   find_oriented_box() isoline isolines_result isolines() write_isolines() cut_along()
 /// Options of the functions of this header. Each function ignores those that do not concern it.
 typedef struct treeform_offset_options {
-    size_t size;
+    size_t struct_size;
     /// Edge length of the cells from which the surface is made, in the mesh's length unit; at most
     /// half of the distance. Every point whose distance differs from the given one by more than
     /// twice the resolution is on the right side of the surface. Smaller details may be lost.
@@ -115,7 +115,7 @@ TREEFORM_C_API treeform_code treeform_thicken(const treeform_mesh* mesh, double 
 
 /// How to simplify.
 typedef struct treeform_simplify_options {
-    size_t size;
+    size_t struct_size;
     /// Precision of the returned points. With float32, all points are rounded first, and the
     /// bounds include this; values are stored as doubles; default float64
     treeform_precision precision;

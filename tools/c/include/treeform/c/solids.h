@@ -19,15 +19,15 @@ enum {
     /// any number of times except 0
     TREEFORM_NONZERO = 0,
     /// an odd number of times
-    TREEFORM_ODD = 1,
+    TREEFORM_EVEN_ODD = 1,
     /// once or more
     TREEFORM_POSITIVE = 2
 };
 
 /// How to combine solids.
 typedef struct treeform_boolean_options {
-    size_t size;
-    treeform_fill_rule inside;  ///< the rule that defines the inside
+    size_t struct_size;
+    treeform_fill_rule fill_rule;  ///< what is inside
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
     /// float64
     treeform_precision precision;
@@ -199,8 +199,8 @@ enum {
 
 /// How to resolve self-intersections.
 typedef struct treeform_resolve_options {
-    size_t size;
-    treeform_fill_rule inside;  ///< for `outer`: the rule that defines the inside
+    size_t struct_size;
+    treeform_fill_rule fill_rule;  ///< for `outer`: the rule that defines the inside
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
     /// float64
     treeform_precision precision;
@@ -248,7 +248,7 @@ typedef struct treeform_repair_statistics {
     /// Components (faces linked by vertices) that lost all of their faces; for `treeform_repair`,
     /// only those larger than `treeform_repair_options::strays`.
     uint64_t vanished_components;
-    /// closed shells inside the solid, dropped; `odd` makes them cavities
+    /// closed shells inside the solid, dropped; `even_odd` makes them cavities
     uint64_t dropped_shells;
     double volume_before;  ///< after `join`, `orient` and `fill`; 0 if that is no solid
     double volume_after;
@@ -310,7 +310,7 @@ TREEFORM_C_API treeform_code treeform_resolve_self_intersections(
 
 /// How to repair. All steps are on by default.
 typedef struct treeform_repair_options {
-    size_t size;
+    size_t struct_size;
     /// drop degenerate and duplicate faces; close cracks and T-junctions; default 1
     int32_t join;
     /// orient faces consistently and shells outward; drop strays; default 1
@@ -331,7 +331,7 @@ typedef struct treeform_repair_options {
     /// The rule that defines the inside. By default `positive` if each shell is outward after
     /// `orient`, else `nonzero` or the labels of cells (see `treeform_repair`); a
     /// `treeform_fill_rule`, or -1
-    int32_t inside;
+    int32_t fill_rule;
     /// Losing more than this share of the volume gives the status `excessive_loss`; if there were
     /// holes, of the area. Faces that remain, or are inside the solid, do not count as lost. 1
     /// allows any loss; default 0.05

@@ -8,7 +8,7 @@
 //   weld_stream_options
 /// Options of `treeform_weld_stream` and `shared_weld`.
 typedef struct treeform_weld_stream_options {
-    size_t size;
+    size_t struct_size;
     double tolerance;  ///< as in `treeform_weld_options`
     /// whether `tolerance` is a fraction of the diagonal of the bounding box
     int32_t relative;
@@ -42,8 +42,7 @@ typedef struct treeform_weld_stream_options {
     const treeform_communicator* communicator;  ///< or null
     /// this and the next two: for a mesh, as in `treeform_weld_options`
     int32_t keep_seams;
-    const char* const* across;  ///< [across_count]
-    size_t across_count;
+    const char* const* ignored_seams;  ///< [ignored_seam_count]
     int32_t keep_degenerate;
     /// [column_count] as in `treeform_read_options`
     const treeform_named_column* columns;
@@ -51,6 +50,7 @@ typedef struct treeform_weld_stream_options {
     /// join LAS files of different coordinate systems or time types; the output then has the
     /// system and type of the first
     int32_t mixed;
+    size_t ignored_seam_count;
 } treeform_weld_stream_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_weld_stream_options_init(treeform_weld_stream_options* options,

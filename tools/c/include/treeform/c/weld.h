@@ -35,7 +35,7 @@ typedef struct treeform_weld_condition {
 
 /// How to weld. Most callers only set `tolerance`.
 typedef struct treeform_weld_options {
-    size_t size;
+    size_t struct_size;
     double tolerance;  ///< Euclidean, inclusive; 0: equal coordinates (-0 equals +0)
     /// The rule that forms groups. By default, the rule `first`: visits points in order, and drops
     /// a point if an earlier kept point is within the tolerance. The dropped point joins the
@@ -55,10 +55,9 @@ typedef struct treeform_weld_options {
     const treeform_weld_condition* same;
     size_t same_count;
     /// For a mesh with faces: keep seams, that is, normals, texture coordinates and colors of
-    /// points must agree, except for those named in `across`.
+    /// points must agree, except for those named in `ignored_seams`.
     int32_t keep_seams;
-    const char* const* across;  ///< [across_count]
-    size_t across_count;
+    const char* const* ignored_seams;  ///< [ignored_seam_count]
     treeform_weld_keep keep;
     /// for `lowest` and `highest`: a property as in `treeform_weld_condition`
     const char* keep_by;
@@ -74,6 +73,7 @@ typedef struct treeform_weld_options {
     int32_t keep_degenerate;  ///< keep faces that repeat a corner
     treeform_progress progress;
     void* progress_data;
+    size_t ignored_seam_count;
 } treeform_weld_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_weld_options_init(treeform_weld_options* options, size_t size);
