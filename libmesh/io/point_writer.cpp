@@ -120,7 +120,7 @@ struct point_writer::state {
                 "write_options::precision says how to write it");
     }
 
-    void check(const detail::io::row_block& block) {
+    void check(const row_block& block) {
         const element& given = block.rows;
         const auto is_over = [&](const element& e) {  // other parts may have the rest of it
             return e.rows == 0 || (points_end && e.name != given.name);
@@ -182,7 +182,7 @@ void point_writer::write(points_view points, const element& properties) {
     s.written += points.size();
 }
 
-void point_writer::write(const detail::io::row_block& block) {
+void point_writer::write(const row_block& block) {
     state_->check(block);
     state_->rows.behind(block);
 }
