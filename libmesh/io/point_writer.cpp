@@ -114,10 +114,17 @@ struct point_writer::state {
         if (!same_columns(properties, given ? &*given : nullptr))
             refuse_block("the columns are not those of the header");
         detail::io::check_columns(properties);
-        if (result.written_as == precision::float32 && !options.precision && !fits_single(points))
-            refuse_block(
-                "a coordinate is not a float32 value, as the header declares; "
-                "write_options::precision says how to write it");
+        if (result.written_as != precision::float32 || options.precision || fits_single(points))
+            return;
+        std::size_t i = 0;
+        while (fits_single(points.subspan(i, 1))) ++i;
+        refuse_point({i, "a coordinate is not a float32 value, as the header declares"});
+    }
+
+    [[noreturn]] void refuse_point(const detail::io::unfit_point& unfit) const {
+        throw std::invalid_argument(file->name() + ": point " +
+                                    std::to_string(written + unfit.point) + ": " + unfit.reason +
+                                    "; write_options::precision says how to write it");
     }
 
     void check(const row_block& block) {
@@ -173,11 +180,15 @@ void point_writer::write(points_view points, const element& properties) {
     if (s.result.written_as == precision::float32)
         s.result.max_displacement = std::max(
             s.result.max_displacement, detail::io::largest_move(points, s.written, s.file->name()));
-    if (s.given && s.translation->changes()) {
-        const element rows = s.translation->apply(properties);
-        s.rows.rows(points, &rows);
-    } else {
-        s.rows.rows(points, s.given ? &properties : nullptr);
+    try {
+        if (s.given && s.translation->changes()) {
+            const element rows = s.translation->apply(properties);
+            s.rows.rows(points, &rows);
+        } else {
+            s.rows.rows(points, s.given ? &properties : nullptr);
+        }
+    } catch (const detail::io::unfit_point& unfit) {
+        s.refuse_point(unfit);
     }
     s.written += points.size();
 }

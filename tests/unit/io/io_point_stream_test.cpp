@@ -257,8 +257,13 @@ TEST_CASE("point streams: a writer takes what was announced, and leaves nothing 
         other.properties.rows = 1;
         CHECK_THROWS_AS(writer.write(other.points, other.properties), std::invalid_argument);
         other = block;
-        other.points[0].x = 0.1;  // no float32, as the header promises
-        CHECK_THROWS_AS(writer.write(other.points, other.properties), std::invalid_argument);
+        other.points[1].x = 0.1;  // no float32, as the header promises
+        const std::string said =
+            (here.folder / "a.ply").string() +
+            ": point 1: a coordinate is not a float32 value, as the header declares; "
+            "write_options::precision says how to write it";
+        CHECK_THROWS_WITH_AS(writer.write(other.points, other.properties), said.c_str(),
+                             std::invalid_argument);
     }
     CHECK(fs::is_empty(here.folder));
     tf::point_writer rounding(here.folder / "a.ply", file, 2,

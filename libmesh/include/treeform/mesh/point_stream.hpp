@@ -128,8 +128,9 @@ class TREEFORM_API point_writer {
     /// Writes the next points; `properties` has one row for each.
     ///
     /// \throws io_error if the file cannot be written; std::invalid_argument for columns that
-    ///         differ from the header, for more than `count` points, or for a coordinate that the
-    ///         header's types cannot represent, unless `options.precision` requests rounding
+    ///         differ from the header, for more than `count` points, or naming the file and the
+    ///         first point with a coordinate that the header's types cannot represent, unless
+    ///         `options.precision` requests rounding
     void write(points_view points, const element& properties);
     /// Writes rows of the other elements, after all points, in the order of the header.
     /// \throws io_error; std::invalid_argument for other columns or more rows than in the header
