@@ -399,16 +399,26 @@ boolean_result boolean(const mesh_refs& operands, const char* formula,
 }
 
 boolean_result unite(const mesh_ref& a, const mesh_ref& b, const boolean_options& options) {
-    return evaluate("unite", std::array{a, b}, boolean_expression::union_of(2), options);
+    return unite({a, b}, options);
+}
+
+boolean_result unite(const mesh_refs& meshes, const boolean_options& options) {
+    return evaluate("unite", meshes.all(), boolean_expression::union_of(meshes.size()), options);
 }
 
 boolean_result intersection(const mesh_ref& a, const mesh_ref& b, const boolean_options& options) {
-    return evaluate("intersection", std::array{a, b}, boolean_expression::intersection_of(2),
-                    options);
+    return intersection({a, b}, options);
 }
 
-boolean_result subtract(const mesh_ref& a, const mesh_ref& b, const boolean_options& options) {
-    return evaluate("subtract", std::array{a, b}, boolean_expression::difference_of(2), options);
+boolean_result intersection(const mesh_refs& meshes, const boolean_options& options) {
+    return evaluate("intersection", meshes.all(),
+                    boolean_expression::intersection_of(meshes.size()), options);
+}
+
+boolean_result subtract(const mesh_ref& a, const mesh_refs& b, const boolean_options& options) {
+    std::vector<mesh_ref> all{a};
+    all.insert(all.end(), b.begin(), b.end());
+    return evaluate("subtract", all, boolean_expression::difference_of(all.size()), options);
 }
 
 boolean_result symmetric_difference(const mesh_ref& a, const mesh_ref& b,

@@ -182,9 +182,18 @@ std::vector<std::optional<mesh_hit>> raycast(const mesh_ref& given_mesh,
     return ray_query(mesh.view(), build_face_tree(mesh, "raycast")).first(rays);
 }
 
+std::vector<mesh_hit> raycast_all(const mesh_ref& mesh, const ray3& ray) {
+    return raycast_all(mesh, std::span(&ray, 1)).answers;
+}
+
 answer_lists<mesh_hit> raycast_all(const mesh_ref& given_mesh, std::span<const ray3> rays) {
     const detail::base::prepared_ref mesh(given_mesh);
     return ray_query(mesh.view(), build_face_tree(mesh, "raycast_all")).all(rays);
+}
+
+bool raycast_any(const mesh_ref& given_mesh, const ray3& ray) {
+    const detail::base::prepared_ref mesh(given_mesh);
+    return ray_query(mesh.view(), build_face_tree(mesh, "raycast_any")).any(ray);
 }
 
 std::vector<std::uint8_t> raycast_any(const mesh_ref& given_mesh, std::span<const ray3> rays) {

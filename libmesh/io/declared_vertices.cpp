@@ -4,7 +4,6 @@
 #include <libmesh/io/writers.hpp>
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace treeform::detail::io {
 
@@ -61,12 +60,16 @@ std::array<bool, 3> outgrown_axes(const element& declared, std::span<const point
 void check_axes(const write_job& job, bool text, const element& declared,
                 std::span<const point3> points) {
     if (job.options.precision) return;
+    unfit_point first{points.size()};
     for (const column& c : declared.columns) {
         if (c.role == column_role::data || (text && keeps_digits(c))) continue;
-        if (!fits(points, c.role, c.type))
-            throw std::invalid_argument("point_writer: a coordinate does not fit column " + c.name +
-                                        " of type " + std::string(name_of(c.type)));
+        if (fits(points.first(first.point), c.role, c.type)) continue;
+        std::size_t i = 0;
+        while (fits(points.subspan(i, 1), c.role, c.type)) ++i;
+        first = {i, "a coordinate does not fit column " + c.name + " of type " +
+                        std::string(name_of(c.type))};
     }
+    if (first.point < points.size()) throw first;
 }
 
 }  // namespace treeform::detail::io

@@ -147,7 +147,7 @@ bool point_reader::read(std::vector<point3>& points, element& properties, std::s
     properties = std::move(block.properties);
     return some;
 }
-bool point_reader::read(detail::io::row_block& block, std::size_t most) {
+bool point_reader::read(row_block& block, std::size_t most) {
     return state_->blocks.read(block, most);
 }
 

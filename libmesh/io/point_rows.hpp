@@ -36,6 +36,12 @@ enum class row_use : std::uint8_t {
 /// Fills `bytes` with the data from `at` on.
 using byte_getter = std::function<void(std::uint64_t at, std::span<std::byte> bytes)>;
 
+/// Consecutive points with their properties.
+struct point_block {
+    std::vector<point3> points{};
+    element properties{.name = "vertex"};  ///< one row for each point
+};
+
 struct point_rows {
     /// The file without its points; the element "vertex", if any, has columns without values.
     mesh_file head{};

@@ -114,13 +114,20 @@ struct point_writer::state {
         if (!same_columns(properties, given ? &*given : nullptr))
             refuse_block("the columns are not those of the header");
         detail::io::check_columns(properties);
-        if (result.written_as == precision::float32 && !options.precision && !fits_single(points))
-            refuse_block(
-                "a coordinate is not a float32 value, as the header declares; "
-                "write_options::precision says how to write it");
+        if (result.written_as != precision::float32 || options.precision || fits_single(points))
+            return;
+        std::size_t i = 0;
+        while (fits_single(points.subspan(i, 1))) ++i;
+        refuse_point({i, "a coordinate is not a float32 value, as the header declares"});
     }
 
-    void check(const detail::io::row_block& block) {
+    [[noreturn]] void refuse_point(const detail::io::unfit_point& unfit) const {
+        throw std::invalid_argument(file->name() + ": point " +
+                                    std::to_string(written + unfit.point) + ": " + unfit.reason +
+                                    "; write_options::precision says how to write it");
+    }
+
+    void check(const row_block& block) {
         const element& given = block.rows;
         const auto is_over = [&](const element& e) {  // other parts may have the rest of it
             return e.rows == 0 || (points_end && e.name != given.name);
@@ -173,16 +180,20 @@ void point_writer::write(points_view points, const element& properties) {
     if (s.result.written_as == precision::float32)
         s.result.max_displacement = std::max(
             s.result.max_displacement, detail::io::largest_move(points, s.written, s.file->name()));
-    if (s.given && s.translation->changes()) {
-        const element rows = s.translation->apply(properties);
-        s.rows.rows(points, &rows);
-    } else {
-        s.rows.rows(points, s.given ? &properties : nullptr);
+    try {
+        if (s.given && s.translation->changes()) {
+            const element rows = s.translation->apply(properties);
+            s.rows.rows(points, &rows);
+        } else {
+            s.rows.rows(points, s.given ? &properties : nullptr);
+        }
+    } catch (const detail::io::unfit_point& unfit) {
+        s.refuse_point(unfit);
     }
     s.written += points.size();
 }
 
-void point_writer::write(const detail::io::row_block& block) {
+void point_writer::write(const row_block& block) {
     state_->check(block);
     state_->rows.behind(block);
 }

@@ -231,9 +231,15 @@ void put_by_pieces(const write_job& job, std::size_t rows, const Put& put) {
 [[nodiscard]] std::array<bool, 3> outgrown_axes(const element& declared,
                                                 std::span<const point3> points);
 
+/// A point of a block that the declared types cannot represent.
+struct unfit_point {
+    std::size_t point = 0;  ///< within the block
+    std::string reason{};
+};
+
 /// Checks points written in blocks, whose types were chosen before the points were known.
 ///
-/// \throws std::invalid_argument if a point does not fit
+/// \throws unfit_point for the first one
 void check_axes(const write_job& job, bool text, const element& declared,
                 std::span<const point3> points);
 

@@ -187,9 +187,8 @@ offset_result offset(const mesh_ref& given, double distance, const offset_option
                       outward ? wanted_side::outside : wanted_side::inside, outward, asked);
 }
 
-offset_result hollow(const mesh_ref& given, double wall,
-                     std::span<const std::pair<point3, double>> drains,
-                     const offset_options& options) {
+offset_result hollow(const mesh_ref& given, double wall, const offset_options& options) {
+    const auto& drains = options.drains;
     work_progress progress(options.progress);
     const request asked{"hollow", options, progress};
     asked.require_positive(wall, "the wall");

@@ -4,7 +4,6 @@
 #include <treeform/mesh/placement.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <string>
 
@@ -57,12 +56,6 @@ std::string loose_in_words(std::size_t motions) {
 
 }  // namespace
 
-const char* name_of(mesh_relation how) {
-    constexpr std::array<const char*, 5> names{"separate", "touching", "penetrating",
-                                               "closer-than-clearance", "clear"};
-    return names[static_cast<std::size_t>(how)];
-}
-
 std::string placement::relation_in_words(const body_set& moving, const body_set& fixed) const {
     const placement& at = *this;
     std::string how = name_of(at.relation);
@@ -109,12 +102,6 @@ std::string placement::message(std::span<const std::string> names) const {
         default:
             return certificate ? "" : "there is no valid placement";
     }
-}
-
-const char* name_of(align_end end) {
-    constexpr std::array<const char*, 4> names{"converged", "out-of-iterations", "doubtful",
-                                               "nothing-to-align"};
-    return names[static_cast<std::size_t>(end)];
 }
 
 std::size_t align_result::undetermined() const {

@@ -116,7 +116,7 @@ std::optional<io::record_index> survey_in_turn(const std::filesystem::path& path
 }  // namespace
 
 std::vector<io::row_place> rows_in_turn(const communicator& all, const file_of_rows& of,
-                                        const std::function<void(const io::row_block&)>& take,
+                                        const std::function<void(const row_block&)>& take,
                                         const std::function<void(const io::point_blocks&)>& done) {
     std::vector<io::row_place> places;  // where the shares so far begin
     io::row_place next;                 // and where the last of them ends
@@ -128,7 +128,7 @@ std::vector<io::row_place> rows_in_turn(const communicator& all, const file_of_r
         const std::uint64_t end =
             end_of_share(of.path, places.empty() ? first.byte : places.front().byte, all);
         const std::size_t most = rows_at_once(reader.header(), all);
-        for (io::row_block block; last.byte < end && reader.read(block, most);) {
+        for (row_block block; last.byte < end && reader.read(block, most);) {
             take(block);
             last = reader.next_row();
         }

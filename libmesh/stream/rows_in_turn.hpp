@@ -32,7 +32,7 @@ struct file_of_rows {
 /// \throws io_error, and exceptions of `take`
 [[nodiscard]] std::vector<io::row_place> rows_in_turn(
     const communicator& all, const file_of_rows& of,
-    const std::function<void(const io::row_block&)>& take,
+    const std::function<void(const row_block&)>& take,
     const std::function<void(const io::point_blocks&)>& done = {});
 
 /// Looks at files before any rank can read its share: at the lines of a text that begin in its

@@ -106,7 +106,7 @@ void tile_faces::each_block(bool whole, const Take& take) {
     if (in_parts) reader.go_to(parts_[first]);
     std::uint64_t left =
         in_parts ? parts_[last].row - parts_[first].row : std::numeric_limits<std::uint64_t>::max();
-    io::row_block block;
+    row_block block;
     while (left > 0 && reader.read(block, rows_of_next(left, rows_at_once_))) {
         left -= block.rows.rows + block.left_out;
         take(block);
@@ -202,8 +202,8 @@ void tile_faces::carry_all() {
         after_.emplace(folder_.file(places_after_name), kept_places_, memory);
     }
     counts_now_ = true;
-    io::row_block carried;
-    each_block(false, [&](const io::row_block& block) {
+    row_block carried;
+    each_block(false, [&](const row_block& block) {
         if (block.rows.name != "face") return;
         carry(block, carried);
         made_.faces += carried.rows.rows;
@@ -238,7 +238,7 @@ void tile_faces::share_counts() {
 
 /// As `weld` and `rejoin_polygons` do in memory: of the fans of polygons, triangles that collapse
 /// are left out, and the others are polygons again where they are still one fan.
-void tile_faces::carry(const io::row_block& from, io::row_block& to) {
+void tile_faces::carry(const row_block& from, row_block& to) {
     rows_.clear();
     to.corners.clear();
     to.first_corner.assign(1, 0);
@@ -260,7 +260,7 @@ void tile_faces::look_up(std::span<const std::uint32_t> corners) {
     rows_at_once_ = std::max(rows_a_block, static_cast<std::size_t>(most));
 }
 
-void tile_faces::carry_face(const io::row_block& from, std::uint32_t row, io::row_block& to) {
+void tile_faces::carry_face(const row_block& from, std::uint32_t row, row_block& to) {
     const auto first = static_cast<std::size_t>(from.first_corner[row]);
     const auto end = static_cast<std::size_t>(from.first_corner[row + 1]);
     const std::vector<std::uint32_t>& corners = from.corners;
@@ -309,7 +309,7 @@ bool tile_faces::is_flipped(const corners_of_block& at) const {
     return weld::is_flipped(places(places_before_), places(places_after_));
 }
 
-void tile_faces::renumber(io::row_block& block) {
+void tile_faces::renumber(row_block& block) {
     const std::uint64_t points = steps_.survey().points;
     for (column& c : block.rows.columns)
         if (weld::numbers_points(c))
@@ -336,9 +336,9 @@ void tile_faces::drop_blank(element& faces) const {
 
 void tile_faces::give(point_writer& to, bool all, bool whole) {
     open_numbers();
-    io::row_block carried;
+    row_block carried;
     std::uint64_t faces = 0;
-    each_block(whole, [&](io::row_block& block) {
+    each_block(whole, [&](row_block& block) {
         if (block.rows.name == "face") drop_blank(block.rows);
         if (all) return to.write(block);
         if (block.rows.name == "face") {

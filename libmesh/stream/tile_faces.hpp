@@ -28,7 +28,7 @@ inline constexpr std::size_t rows_a_block = std::size_t{1} << 15;
 }
 
 /// The largest number of corners of a face.
-[[nodiscard]] std::size_t longest_face(const io::row_block& block);
+[[nodiscard]] std::size_t longest_face(const row_block& block);
 
 /// Whether a file has rows after its points.
 [[nodiscard]] bool has_rows_behind(const mesh_file& header);
@@ -81,7 +81,7 @@ class tile_faces {
     [[nodiscard]] bool survey_part(cloud_survey& survey);
     void survey_whole(cloud_survey& survey);
     void survey_in_turn(cloud_survey& survey);
-    void survey_rows(const io::row_block& block, cloud_survey& survey);
+    void survey_rows(const row_block& block, cloud_survey& survey);
     void end_survey(const io::point_blocks& reader, cloud_survey& survey) const;
     [[nodiscard]] bool share_survey(cloud_survey& survey, bool seen);
     void number_points(tiles_welded& welded, kept_rows* rows, bool has_moves);
@@ -90,10 +90,10 @@ class tile_faces {
     void share_counts();
     void look_at_corners(const io::point_block& block, std::uint64_t point);
     void drop_blank(element& faces) const;
-    void carry(const io::row_block& from, io::row_block& to);
+    void carry(const row_block& from, row_block& to);
     void look_up(std::span<const std::uint32_t> corners);
-    void carry_face(const io::row_block& from, std::uint32_t row, io::row_block& to);
-    void renumber(io::row_block& block);
+    void carry_face(const row_block& from, std::uint32_t row, row_block& to);
+    void renumber(row_block& block);
     [[nodiscard]] bool is_kept(const face& before, const face& after, const corners_of_block& at);
     [[nodiscard]] bool is_flipped(const corners_of_block& at) const;
     [[nodiscard]] std::uint32_t number_of(std::uint64_t point) {

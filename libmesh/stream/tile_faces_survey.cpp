@@ -19,7 +19,7 @@ bool are_zeros(const element& e) {
 
 }  // namespace
 
-std::size_t longest_face(const io::row_block& block) {
+std::size_t longest_face(const row_block& block) {
     std::size_t most = 0;
     for (std::size_t f = 0; f < block.rows.rows; ++f)
         most = std::max<std::size_t>(most, block.first_corner[f + 1] - block.first_corner[f]);
@@ -78,7 +78,7 @@ bool tile_faces::survey_part(cloud_survey& survey) {
         const io::row_place& first = parts_[steps_.all().rank()];
         reader.go_to(first);
         std::uint64_t left = parts_[steps_.all().rank() + 1].row - first.row;
-        io::row_block block;
+        row_block block;
         while (left > 0 && reader.read(block, rows_of_next(left))) {
             left -= block.rows.rows + block.left_out;
             survey_rows(block, survey);
@@ -94,7 +94,7 @@ bool tile_faces::survey_part(cloud_survey& survey) {
 
 void tile_faces::survey_whole(cloud_survey& survey) {
     io::point_blocks reader = open();
-    for (io::row_block block; reader.read(block, rows_a_block); pace_.check())
+    for (row_block block; reader.read(block, rows_a_block); pace_.check())
         survey_rows(block, survey);
     end_survey(reader, survey);
 }
@@ -102,14 +102,14 @@ void tile_faces::survey_whole(cloud_survey& survey) {
 void tile_faces::survey_in_turn(cloud_survey& survey) {
     parts_ = rows_in_turn(
         steps_.all(), file(),
-        [&](const io::row_block& block) {
+        [&](const row_block& block) {
             survey_rows(block, survey);
             pace_.check();
         },
         [&](const io::point_blocks& reader) { end_survey(reader, survey); });
 }
 
-void tile_faces::survey_rows(const io::row_block& block, cloud_survey& survey) {
+void tile_faces::survey_rows(const row_block& block, cloud_survey& survey) {
     if (block.rows.name != "face") return;
     survey.faces += block.rows.rows;
     left_out_ += block.left_out;

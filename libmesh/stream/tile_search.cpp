@@ -249,7 +249,7 @@ bool tile_search::share_rows(const io::face_rows& rows, bool in_turn,
         parts = rows_in_turn(
             all_,
             {.path = input_, .format = options_.format, .use = io::row_use::read, .known = known},
-            [&](const io::row_block&) { pace_.check(); });
+            [&](const row_block&) { pace_.check(); });
     const std::size_t next = all_.rank() + 1;
     rows.go_to(parts[next - 1],
                next == all_.size() ? std::nullopt : std::optional(parts[next].row));

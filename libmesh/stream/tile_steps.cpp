@@ -308,12 +308,17 @@ void tile_steps::weld_one(std::size_t t) {
     step_done();
 }
 
-void tile_steps::check_finished() {
+std::vector<std::size_t> tile_steps::unfinished() {
     std::vector<std::size_t> missing;
     for (std::size_t t = 0; t < tiles_.size(); ++t)
         if (task_.options.shared ? !load_tile(t, true)
                                  : !tiles_[t].finished && !load_tile(t, false))
             missing.push_back(t);
+    return missing;
+}
+
+void tile_steps::check_finished() {
+    const std::vector<std::size_t> missing = unfinished();
     if (!missing.empty()) folder_.fail_unfinished(missing);
 }
 

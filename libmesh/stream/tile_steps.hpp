@@ -150,6 +150,8 @@ class tile_steps {
     /// Welds a tile, unless it is finished. Two processes that weld the same tile write the same
     /// bytes.
     void weld_one(std::size_t tile);
+    [[nodiscard]] std::size_t tiles() const { return tiles_.size(); }
+    [[nodiscard]] std::vector<std::size_t> unfinished();
     /// \throws io_error naming the tiles that are not finished
     void check_finished();
     /// \throws io_error with the memory that would suffice, if there is not enough

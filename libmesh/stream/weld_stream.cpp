@@ -68,6 +68,7 @@ detail::stream::tile_task task_of(cloud_inputs inputs, weld_stream_options optio
         throw std::invalid_argument(
             "treeform::weld_stream: the tolerance must be finite and not negative");
     inputs = named(std::move(inputs));
+    options.shared = options.shared && options.communicator.size <= 1;
     if (options.memory == 0) options.memory = weld_stream_options::default_memory();
     const std::uint64_t memory = options.memory;
     options.memory = detail::stream::left_for_points(memory);
@@ -105,6 +106,12 @@ work_folder::use use_of(const weld_stream_options& o, const detail::stream::comm
     if (o.shared) return work_folder::use::shared;
     if (!all.is_root()) all.barrier();  // the first one makes the folder
     return all.is_root() ? work_folder::use::alone : work_folder::use::member;
+}
+
+weld_stream_outputs welded_to(const fs::path& output) {
+    weld_stream_outputs outputs;
+    outputs.welded = {output, {}};
+    return outputs;
 }
 
 }  // namespace
@@ -203,12 +210,10 @@ struct shared_weld::state {
 
     [[nodiscard]] static weld_stream_result run(shared_weld& work,
                                                 const weld_stream_outputs& outputs) {
-        treeform::status ended = work.take_survey();
-        if (ended == status::ok) ended = work.scatter();
-        if (ended == status::ok) ended = work.weld();
-        if (ended == status::ok) ended = work.write(outputs);
-        if (ended == status::ok) work.remove_folder();
-        return work.result();
+        if (work.scatter() != status::ok) return work.result();
+        weld_stream_result result = work.finish(outputs);
+        if (result.status == status::ok) work.remove_folder();
+        return result;
     }
 
     detail::stream::tile_task task;
@@ -223,6 +228,7 @@ struct shared_weld::state {
     std::optional<detail::stream::tile_faces> faces{};  ///< of a mesh
     std::optional<detail::stream::tiles_welded> welded{};
     std::optional<detail::stream::kept_rows> rows{};
+    bool surveyed = false;
     weld_stream_result made{};  ///< all fields except the survey
 };
 
@@ -231,6 +237,8 @@ shared_weld::shared_weld(cloud_inputs inputs, weld_stream_options options)
     if (state_->all.is_root() && !state_->task.options.shared)
         detail::stream::remove_leftovers(state_->folder);
 }
+shared_weld::shared_weld(const fs::path& input, weld_stream_options options)
+    : shared_weld(cloud_inputs{.paths = {input}}, std::move(options)) {}
 shared_weld::~shared_weld() = default;
 shared_weld::shared_weld(shared_weld&&) noexcept = default;
 shared_weld& shared_weld::operator=(shared_weld&&) noexcept = default;
@@ -245,18 +253,28 @@ status shared_weld::take_survey() {
         }
         s.steps.take_survey();
         if (s.faces) s.faces->take_survey(s.steps.survey());
+        s.surveyed = true;
     });
 }
 
 const cloud_survey& shared_weld::survey() const { return state_->steps.survey(); }
 
 status shared_weld::scatter() {
-    const status ended = state_->until_cancelled([&] { state_->steps.scatter(); });
+    status ended = state_->surveyed ? status::ok : take_survey();
+    if (ended == status::ok) ended = state_->until_cancelled([&] { state_->steps.scatter(); });
     state_->alone.reset();
     return ended;
 }
 
-void shared_weld::check_tiles() { state_->check_tiles(); }
+std::size_t shared_weld::tiles() {
+    state_->check_tiles();
+    return state_->steps.tiles();
+}
+
+std::vector<std::size_t> shared_weld::unfinished() {
+    state_->check_tiles();
+    return state_->steps.unfinished();
+}
 
 status shared_weld::weld_tile(std::size_t tile) {
     state_->check_tiles();
@@ -296,6 +314,19 @@ status shared_weld::write(const weld_stream_outputs& outputs) {
     });
 }
 
+weld_stream_result shared_weld::finish(const weld_stream_outputs& outputs) {
+    status ended = status::ok;
+    if (!state_->surveyed) {
+        state_->check_tiles();
+        ended = take_survey();
+    }
+    if (ended == status::ok) ended = weld();
+    if (ended == status::ok) static_cast<void>(write(outputs));
+    return result();
+}
+
+weld_stream_result shared_weld::finish(const fs::path& output) { return finish(welded_to(output)); }
+
 weld_stream_result shared_weld::result() const {
     weld_stream_result known = state_->made;
     known.survey = survey();
@@ -309,15 +340,15 @@ void shared_weld::remove_folder() {
 
 weld_stream_result weld_stream(const cloud_inputs& inputs, const weld_stream_outputs& outputs,
                                const weld_stream_options& options) {
-    shared_weld work(inputs, options);
+    weld_stream_options alone = options;
+    alone.shared = false;
+    shared_weld work(inputs, std::move(alone));
     return shared_weld::state::run(work, outputs);
 }
 
 weld_stream_result weld_stream(const fs::path& input, const fs::path& output,
                                const weld_stream_options& options) {
-    weld_stream_outputs outputs;
-    outputs.welded = {output, {}};
-    return weld_stream(cloud_inputs{.paths = {input}}, outputs, options);
+    return weld_stream(cloud_inputs{.paths = {input}}, welded_to(output), options);
 }
 
 std::uint64_t weld_stream_options::default_memory() {

@@ -129,7 +129,7 @@ void test_search(void) {
     treeform_stream_search_result* result = NULL;
     treeform_shared_search* search = NULL;
     treeform_indices* unfinished = NULL;
-    size_t tiles = 0, t;
+    size_t tiles = 0, again = 0, t;
     int32_t is_searched = 0;
     int calls = 0;
     treeform_stream_search_options_init(&options, sizeof options);
@@ -147,6 +147,8 @@ void test_search(void) {
     treeform_free(search); /* a step too early ends the search */
     OK(treeform_shared_search_create(path, &options, &search));
     OK(treeform_shared_search_scatter(search, &tiles));
+    OK(treeform_shared_search_tiles(search, &again));
+    CHECK(again == tiles);
     CHECK(tiles > 1);
     INVALID("", treeform_shared_search_tile(search, tiles));
     OK(treeform_shared_search_unfinished(search, &unfinished));

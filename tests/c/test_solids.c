@@ -82,6 +82,10 @@ static void test_booleans(void) {
     has_volume(result, 0.875 - 0.015625);
     OK(treeform_unite_all(all, 3, NULL, &result));
     has_volume(result, 1.875);
+    OK(treeform_subtract_all(all[0], all + 1, 2, &options, &result));
+    has_volume(result, 0.875 - 0.015625);
+    OK(treeform_subtract_all(all[0], NULL, 0, NULL, &result));
+    has_volume(result, 1.0);
     options.min_volume = 0.5;
     OK(treeform_intersection(a, b, &options, &result));
     CHECK(result->small_parts == 1 && near(result->small_volume, 0.125));

@@ -44,7 +44,7 @@ std::string points_of(io::point_rows& rows) {
 /// Of each row the element, and of faces the corners.
 std::string rows_of(io::point_rows& rows, std::uint64_t count) {
     std::string bytes;
-    tf::detail::io::row_block block;
+    tf::row_block block;
     const auto next = [&] {
         const auto most = static_cast<std::size_t>(std::min<std::uint64_t>(count, 3));
         return count > 0 && rows.behind(block, most, rows.head.warnings);

@@ -142,7 +142,7 @@ TEST_CASE("real solids grow, shrink and are hollowed") {
               [&](const tf::point3& p, double away) { return within(p) || away < d; });
         check(tf::offset(solid, -d, how), mesh, false,
               [&](const tf::point3& p, double away) { return within(p) && away > d; });
-        check(tf::hollow(solid, d, {}, how), mesh, true,
+        check(tf::hollow(solid, d, how), mesh, true,
               [&](const tf::point3& p, double away) { return within(p) && away < d; });
         ++models;
     });

@@ -114,7 +114,7 @@ class Language:
         if type == "array<point3,3>":
             return [Member(f"double {name}[3][3]", one.doc,
                            f"std::memcpy({to}, {source}.data(), sizeof {to});")]
-        if found := re.fullmatch(r"array<uint64_t,(\w+)>", type):
+        if found := re.fullmatch(r"(?:array<uint64_t|counts_by<\w+),(\w+)>", type):
             size = {"pair_kind_count": "7"}.get(found.group(1), found.group(1))
             return [Member(f"uint64_t {name}[{size}]", one.doc,
                            f"std::copy({source}.begin(), {source}.end(), {to});")]

@@ -95,7 +95,7 @@ BOUND = [
     Bound("cut_result", counts={"pieces": "count"}),
     Bound("mesh_part", kind="part"),
     # shapes.h
-    Bound("offset_options"),
+    Bound("offset_options", leave="drains"),
     Bound("offset_result"),
     Bound("simplify_options"),
     Bound("simplify_result"),

@@ -458,7 +458,7 @@ OPTIONS = {
     "cloud_inputs": "format names", "read_options": "", "write_options": "keep_names",
     "boolean_options": "face_groups", "cut_options": "keep_cuts",
     "resolve_options": "removal_rounds", "repair_options": "as_one",
-    "offset_options": "", "simplify_options": "face_groups corner_groups",
+    "offset_options": "drains", "simplify_options": "face_groups corner_groups",
     "feature_options": "", "intersection_options": "component_of_face between within",
     "stream_search_options": "box communicator",
     "weld_options": "label may_merge", "weld_stream_options": "communicator shared "

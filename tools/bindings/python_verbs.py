@@ -205,7 +205,8 @@ FUNCTIONS = [
              leave="offset shift"),
     Function("hollow(mesh: Mesh, wall: float, *, drains: Drains = (), options: offset_options) "
              "-> OffsetResult",
-             "tf::hollow($mesh, wall, $drains, options)", kind="long_work", check="solid",
+             "tf::hollow($mesh, wall, with_drains(options, $drains))", kind="long_work",
+             check="solid",
              leave="offset shift",
              docs={"drains": "(n, 4) drain holes through the wall: for each, a point and a "
                              "diameter. The hole is at the surface point nearest to that point."}),

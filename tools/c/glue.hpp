@@ -212,6 +212,9 @@ template <class Row, class T>
                                                      const char* name) {
     return rows_of<tf::face>(data, count, name);
 }
+[[nodiscard]] inline std::vector<std::uint32_t> numbers_of(const std::vector<std::size_t>& all) {
+    return {all.begin(), all.end()};
+}
 /// The same, copied.
 template <class Row, class T>
 [[nodiscard]] std::vector<Row> copied_as(const T* data, std::size_t count, const char* name) {

@@ -96,17 +96,19 @@ inline tf::shared_search shared_search_create(const std::filesystem::path& path,
     return {path, options};
 }
 
-/// Writes the faces of each tile, unless already done; `result` is the number of tiles. Called by
-/// one process.
-inline std::size_t shared_search_scatter(tf::shared_search& search) {
+/// Writes the faces of each tile, unless already done. `result`, which may be null, is the number
+/// of tiles. Called by one process.
+inline void shared_search_scatter(tf::shared_search& search, std::size_t* result) {
     check(search.scatter());
-    return search.tiles();
+    if (result) *result = search.tiles();
 }
+
+/// Number of tiles; an error if no process has completed `scatter`.
+inline std::size_t shared_search_tiles(tf::shared_search& search) { return search.tiles(); }
 
 /// Numbers of the tiles that are not finished.
 inline std::vector<std::uint32_t> shared_search_unfinished(tf::shared_search& search) {
-    const auto found = search.unfinished();
-    return {found.begin(), found.end()};
+    return numbers_of(search.unfinished());
 }
 
 /// Searches a tile, unless it is finished. Each process calls it for its share of the tiles.

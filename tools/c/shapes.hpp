@@ -1,13 +1,29 @@
 #pragma once
 /// \file
-/// Isolines in C.
+/// Hollow solids and isolines in C.
 
 #include <treeform/mesh/cut.hpp>
+#include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/section.hpp>
 
 #include <tools/c/made/structs.hpp>
 
 namespace glue {
+
+/// Hollows the solid: its points deeper inside than `wall` become cavities; the outer surface stays
+/// bit for bit. The status is `vanished` if there is no cavity.
+///
+/// `drains` are holes through the wall: a point and a diameter. Each runs from the nearest point of
+/// the surface along the shortest segment to a cavity, as a regular prism of 32 sides; the diameter
+/// is that of the circle through its corners. It extends beyond both ends by its diameter, but at
+/// most half of the way to the next surface.
+inline tf::offset_result hollow(const tf::mesh_ref& mesh, double wall,
+                                std::span<const std::pair<tf::point3, double>> drains,
+                                const tf::offset_options& options) {
+    tf::offset_options how = options;
+    how.drains.assign(drains.begin(), drains.end());
+    return tf::hollow(mesh, wall, how);
+}
 
 /// Checks that there is one value for each point.
 inline std::span<const double> values_of(const tf::mesh_ref& mesh, const double* values) {

@@ -33,10 +33,22 @@ inline std::vector<std::string> names_in(const std::string& expression) {
     return tf::boolean_expression::names_in(expression);
 }
 
+/// Points in `a` but not in `b`.
+inline tf::boolean_result subtract(const tf::mesh_ref& a, const tf::mesh_ref& b,
+                                   const tf::boolean_options& options) {
+    return tf::subtract(a, b, options);
+}
+
 /// The union of all `operands` [count], without a formula.
 inline tf::boolean_result unite_all(const tf::mesh_refs& operands,
                                     const tf::boolean_options& options) {
-    return tf::boolean(operands, tf::boolean_expression::union_of(operands.size()), options);
+    return tf::unite(operands, options);
+}
+
+/// Points in `a` but in none of `others` [count].
+inline tf::boolean_result subtract_all(const tf::mesh_ref& a, const tf::mesh_refs& others,
+                                       const tf::boolean_options& options) {
+    return tf::subtract(a, others, options);
 }
 
 /// An open surface cut by solids: the pieces of operand number `sheet` for which `expression` is

@@ -13,13 +13,6 @@ namespace glue {
 struct shared_weld {
     tf::shared_weld steps;
     tf::weld_stream_outputs outputs;
-    bool has_survey = false;
-
-    tf::shared_weld& with_survey() {
-        if (!has_survey) check(steps.take_survey());
-        has_survey = true;
-        return steps;
-    }
 };
 
 }  // namespace glue
@@ -82,15 +75,22 @@ inline tf::weld_stream_result weld_stream(const char* const* inputs, std::size_t
 inline shared_weld shared_weld_create(const char* const* inputs, std::size_t count,
                                       const treeform_weld_stream_options* options) {
     const auto o = chosen(options, treeform_weld_stream_options_init);
-    tf::weld_stream_options how = read(o);
-    how.shared = true;
-    return {tf::shared_weld(inputs_of(inputs, count, o), how), outputs_of(o, "")};
+    return {tf::shared_weld(inputs_of(inputs, count, o), read(o)), outputs_of(o, "")};
 }
 
-/// Writes the points of each tile, unless already done; `result` is the number of tiles.
-inline std::size_t shared_weld_scatter(shared_weld& weld) {
-    check(weld.with_survey().scatter());
-    return weld.steps.survey().tiles;
+/// Writes the points of each tile, unless already done. `result`, which may be null, is the number
+/// of tiles.
+inline void shared_weld_scatter(shared_weld& weld, std::size_t* result) {
+    check(weld.steps.scatter());
+    if (result) *result = weld.steps.tiles();
+}
+
+/// Number of tiles; an error if no process has completed `scatter`.
+inline std::size_t shared_weld_tiles(shared_weld& weld) { return weld.steps.tiles(); }
+
+/// Numbers of the tiles that are not finished.
+inline std::vector<std::uint32_t> shared_weld_unfinished(shared_weld& weld) {
+    return numbers_of(weld.steps.unfinished());
 }
 
 /// Welds a tile, unless it is finished.
@@ -99,15 +99,16 @@ inline void shared_weld_tile(shared_weld& weld, std::size_t tile) {
 }
 
 /// Welds the points along the borders of tiles, and writes `output`, completely or not at all. All
-/// tiles must be finished, and all other processes must have freed their handles.
-inline tf::weld_stream_result shared_weld_finish(shared_weld& weld, const std::string& output) {
+/// tiles must be finished, and all other processes must have freed their handles. `result` may be
+/// null.
+inline void shared_weld_finish(shared_weld& weld, const std::string& output,
+                               treeform_weld_stream_result** result) {
+    if (result) *result = nullptr;
     tf::weld_stream_outputs to = weld.outputs;
     to.welded->first = output;
-    weld.steps.check_tiles();
-    tf::shared_weld& steps = weld.with_survey();
-    check(steps.weld());
-    check(steps.write(to));
-    return steps.result();
+    tf::weld_stream_result made = weld.steps.finish(to);
+    check(made.status);
+    if (result) (void)give(std::move(made), result);
 }
 
 /// Removes the folder of the tiles.

@@ -57,12 +57,12 @@ cut_off shape_of(job& work, const cut_settings& s, const usable_input& input,
     }
     const tf::offset_options options{.resolution = s.shape.resolution,
                                      .shift = s.shape.shift * distance,
+                                     .drains = s.shape.drains,
                                      .precision = precision,
                                      .progress = work.progress(s.mode_text)};
-    tf::offset_result made = s.mode == cut_mode::offset ? tf::offset(mesh, distance, options)
-                             : s.mode == cut_mode::hollow
-                                 ? tf::hollow(mesh, distance, s.shape.drains, options)
-                                 : tf::thicken(mesh, distance, options);
+    tf::offset_result made = s.mode == cut_mode::offset   ? tf::offset(mesh, distance, options)
+                             : s.mode == cut_mode::hollow ? tf::hollow(mesh, distance, options)
+                                                          : tf::thicken(mesh, distance, options);
     work.call_ended(made.certificate.status == tf::status::cancelled);
     work.entry["distances"] =
         distances_entry(s, distance, made.resolution, made.least_distance, made.greatest_distance);

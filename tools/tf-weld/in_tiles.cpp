@@ -216,8 +216,7 @@ welding in_words_of_memory(const tf::weld_stream_result& result) {
 
 tf::status weld_tile(job& work, tf::shared_weld& weld, const tile_options& options) {
     const std::uint64_t tile = *options.tile;
-    weld.check_tiles();
-    const std::size_t tiles = weld.survey().tiles;
+    const std::size_t tiles = weld.tiles();
     if (tile >= tiles)
         throw failure(bad_usage, "usage",
                       "--tile " + std::to_string(tile) + ": there are only " +
@@ -254,7 +253,7 @@ exit_status weld_in_tiles(job& work, const weld_request& request, const tile_opt
         take(work, "read", [&] {
             weld.emplace(inputs, options);
             if (tiles.tile) return weld_tile(work, *weld, tiles);
-            if (tiles.finish) weld->check_tiles();
+            if (tiles.finish) static_cast<void>(weld->tiles());
             return weld->take_survey();
         });
     } catch (const tf::weld_property_error& error) {

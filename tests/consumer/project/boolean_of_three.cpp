@@ -10,8 +10,9 @@ int main() {
     const tf::mesh b = tf::read_mesh("data/cube.stl").mesh;
     const tf::mesh c = tf::read_mesh("data/sphere.ply").mesh;
     const tf::boolean_result made = tf::boolean({a, b, c}, "(a-b)*c");
+    const double all = tf::signed_volume(tf::unite({a, b, c}).value());
     std::puts(made.certificate.message().c_str());
     const double volume = tf::signed_volume(made.value());  // throws unless it is certified
     std::printf("volume %.3f\n", volume);
-    return volume > 0 && volume < tf::signed_volume(c) ? 0 : 1;
+    return volume > 0 && volume < tf::signed_volume(c) && all > tf::signed_volume(b) ? 0 : 1;
 }

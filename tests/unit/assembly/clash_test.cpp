@@ -117,7 +117,7 @@ TEST_CASE("clash: a clearance is kept by what is exactly as far") {
 TEST_CASE("clash: rings, L shapes and chains whose boxes overlap are clear when they do not meet") {
     const auto chain = clash_of(test::chain(30));
     CHECK(chain.pairs.empty());
-    CHECK(chain.counts[0] == 29);  // neighbors, by their boxes
+    CHECK(chain.counts[tf::mesh_relation::separate] == 29);  // neighbors, by their boxes
     const tf::mesh hook = moved(test::turned(test::l_bracket(3, 3), {0, 0, 1}, 3.1), {5, 4.9, 0});
     CHECK(clash_of({test::l_bracket(4, 4), hook}).pairs.empty());
     CHECK(clash_of({test::ring(3, 0.5, 32, 8), test::ring(1.5, 0.5, 32, 8)}).pairs.empty());

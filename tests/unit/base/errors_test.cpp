@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <limits>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -94,4 +95,15 @@ TEST_CASE("errors name the face that is not finite as the caller numbers it") {
     CHECK(said_by([&] { (void)tf::intersects(bad, good); }) == "treeform::intersects: a: " + face);
     CHECK(said_by([&] { (void)tf::distance(good, bad); }) == "treeform::distance: b: " + face);
     CHECK(said_by([&] { (void)tf::relation(good, bad); }) == "treeform::relation: b: " + face);
+}
+
+TEST_CASE("name_of: every status has its own name") {
+    std::set<std::string> names;
+    for (int i = 0; i <= static_cast<int>(tf::status::cancelled); ++i)
+        names.insert(tf::name_of(static_cast<tf::status>(i)));
+    CHECK(names.size() == 10);
+    CHECK(tf::name_of(tf::status::ok) == std::string("ok"));
+    CHECK(tf::name_of(tf::status::open_input) == std::string("open-input"));
+    CHECK(tf::name_of(tf::status::no_placement) == std::string("no-placement"));
+    CHECK(tf::name_of(tf::status::cancelled) == std::string("cancelled"));
 }

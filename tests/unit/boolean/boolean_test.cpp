@@ -495,3 +495,26 @@ TEST_CASE("boolean: the order of points and faces does not change the solid") {
         CHECK(std::abs(volume_of(other, "a-b") - volume) <= 0x1p-48);
     }
 }
+
+TEST_CASE("boolean: functions of two meshes take many, as a list in braces or a vector") {
+    const tf::mesh a = box(4, 1, 1), b = moved(box(4, 1, 1), {1, 0, 0}),
+                   c = moved(box(4, 1, 1), {2, 0, 0});
+    const std::vector<tf::mesh> parts{a, b, c};
+    const auto volume = [](const tf::boolean_result& made) {
+        return tf::signed_volume(made.value());
+    };
+    CHECK(volume(tf::unite(parts)) == 6.0);
+    CHECK(volume(tf::unite({a, b, c})) == 6.0);
+    CHECK(volume(tf::unite({a, c})) == 6.0);
+    CHECK(volume(tf::unite({a, b}, {.simplify = true})) == 5.0);
+    CHECK(tf::unite(a, b).mesh == tf::unite({a, b}).mesh);
+    CHECK(tf::unite(a, b, {.simplify = true}).mesh == tf::unite({a, b}, {.simplify = true}).mesh);
+    CHECK(volume(tf::intersection(parts)) == 2.0);
+    CHECK(volume(tf::subtract(a, {b, c})) == 1.0);
+    CHECK(volume(tf::subtract(a, b)) == 1.0);
+    CHECK(volume(tf::subtract(a, parts[2])) == 2.0);
+    CHECK(tf::subtract(a, parts).mesh.faces.empty());
+    CHECK(volume(tf::subtract(a, {})) == 4.0);
+    CHECK(tf::unite(std::vector<tf::mesh>{}).mesh.faces.empty());
+    CHECK(volume(tf::unite(a)) == 4.0);
+}

@@ -27,6 +27,8 @@ TEST_CASE("solid: a formula has the volume of its set operations, and is arrange
     CHECK(tf::signed_volume((a * b).mesh()) == 1.0);
     CHECK(tf::signed_volume((a - b).mesh()) == 1.0);
     CHECK(tf::signed_volume((a ^ b).mesh()) == 2.0);
+    CHECK((a | b).mesh() == (a + b).mesh());
+    CHECK((a & b).mesh() == (a * b).mesh());
     const tf::solid all = (a + b) - a * b + c;
     const tf::boolean_result& first = all.result();
     CHECK(tf::signed_volume(first.value()) == 4.0);

@@ -327,6 +327,7 @@ TEST_CASE("mesh_intersections: kinds that are not wanted are not counted, and th
     std::erase_if(crossings, [](const auto& p) { return p.kind != tf::pair_kind::crossing; });
     REQUIRE(crossings.size() > 5);
     CHECK(some.counts[0] == crossings.size());
+    CHECK(some.counts[tf::pair_kind::crossing] == crossings.size());
     CHECK(some.pairs == pairs(crossings.begin(), crossings.begin() + 5));
 }
 

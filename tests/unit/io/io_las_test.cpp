@@ -1,5 +1,6 @@
 // LAS and LAZ files: what is read, what is written, what is refused.
 
+#include <libmesh/io/point_rows.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/read.hpp>

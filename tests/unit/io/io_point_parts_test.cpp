@@ -1,6 +1,7 @@
 /// \file
 /// Files of points of which several write a part each.
 
+#include <libmesh/io/point_rows.hpp>
 #include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>

@@ -1,3 +1,4 @@
+#include <libmesh/io/point_rows.hpp>
 #include <treeform/mesh/point_stream.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/write.hpp>
@@ -256,8 +257,13 @@ TEST_CASE("point streams: a writer takes what was announced, and leaves nothing 
         other.properties.rows = 1;
         CHECK_THROWS_AS(writer.write(other.points, other.properties), std::invalid_argument);
         other = block;
-        other.points[0].x = 0.1;  // no float32, as the header promises
-        CHECK_THROWS_AS(writer.write(other.points, other.properties), std::invalid_argument);
+        other.points[1].x = 0.1;  // no float32, as the header promises
+        const std::string said =
+            (here.folder / "a.ply").string() +
+            ": point 1: a coordinate is not a float32 value, as the header declares; "
+            "write_options::precision says how to write it";
+        CHECK_THROWS_WITH_AS(writer.write(other.points, other.properties), said.c_str(),
+                             std::invalid_argument);
     }
     CHECK(fs::is_empty(here.folder));
     tf::point_writer rounding(here.folder / "a.ply", file, 2,
@@ -288,7 +294,7 @@ void copy_by(std::size_t most, const fs::path& from, const fs::path& to, bool as
     tf::detail::io::point_block points;
     while (with_points && reader.read(points.points, points.properties, most))
         writer.write(points.points, points.properties);
-    for (tf::detail::io::row_block rows; reader.read(rows, most);) writer.write(rows);
+    for (tf::row_block rows; reader.read(rows, most);) writer.write(rows);
     writer.commit();
 }
 
@@ -331,7 +337,7 @@ TEST_CASE("point streams: of a file in parts, each has some points, and some of 
             tf::detail::io::point_block points;
             REQUIRE(reader.read(points.points, points.properties, first == 0 ? 3 : 2));
             writer.write(points.points, points.properties);
-            tf::detail::io::row_block rows;
+            tf::row_block rows;
             REQUIRE(reader.read(rows, 3));  // three faces for the first part
             if (first > 0) REQUIRE(reader.read(rows, 3));
             CHECK_THROWS_AS(writer.write(rows), std::invalid_argument);  // points are missing
@@ -359,7 +365,7 @@ TEST_CASE("point streams: of a file in parts, each has some points, and some of 
     tf::point_reader reader(text, {}, 5, true);
     tf::point_writer writer(here.folder / "part.ply", reader.header(), 5, {}, 5);
     writer.end_part();
-    tf::detail::io::row_block rows;
+    tf::row_block rows;
     while (reader.read(rows, 100))
         if (rows.rows.name == "edge") writer.write(rows);
     rows.rows.name = "face";
@@ -371,7 +377,7 @@ TEST_CASE("point streams: rows behind the points can be read alone, and are chec
     const fs::path text = here.put("text.ply", mesh_text);
     tf::point_reader reader(text, {}, 5, true);
     CHECK(reader.header().attributes.elements.at(1).rows == 4);
-    tf::detail::io::row_block rows;
+    tf::row_block rows;
     REQUIRE(reader.read(rows, 3));
     CHECK(rows.rows.name == "face");
     CHECK(rows.corners == std::vector<std::uint32_t>{0, 1, 2, 3, 1, 4, 2, 0, 0, 1});

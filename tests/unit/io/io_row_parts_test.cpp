@@ -39,7 +39,7 @@ tf::mesh_file triangles_and_edges(std::uint32_t count) {
 /// All rows: the name of the element, the corners, and bytes of columns, one after the other.
 std::string rows_from(point_blocks& reader, std::uint64_t count, std::size_t most) {
     std::string all;
-    tf::detail::io::row_block block;
+    tf::row_block block;
     while (count > 0 && reader.read(block, std::min<std::uint64_t>(count, most))) {
         count -= block.rows.rows;
         for (std::size_t r = 0; r < block.rows.rows; ++r) {
@@ -125,7 +125,7 @@ TEST_CASE("row parts: parts of rows that cannot be alike, or are not, are not ta
         std::ofstream(own.path / "a.ply", std::ios::binary) << bytes << more;
         return own.path / "a.ply";
     };
-    tf::detail::io::row_block block;
+    tf::row_block block;
     point_blocks alike(polygons({4, 4, 4}, ""), {}, 0, row_use::copied);
     CHECK(alike.row_parts(3).size() == 4);
     REQUIRE(alike.read(block, 9));

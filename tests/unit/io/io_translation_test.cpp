@@ -1,3 +1,4 @@
+#include <libmesh/io/point_rows.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/mesh_file.hpp>

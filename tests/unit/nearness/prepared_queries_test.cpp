@@ -49,6 +49,12 @@ TEST_CASE(
         [&] { return tf::raycast(a, rays) == tf::raycast(cube, rays); },
         [&] { return tf::raycast(a, rays[0])->t == 1.0 && !tf::raycast(cube, rays[1]); },
         [&] {
+            const auto all = tf::raycast_all(cube, rays);
+            for (std::size_t r = 0; r < all.size(); ++r) {
+                const std::vector<tf::mesh_hit> hits = tf::raycast_all(a, rays[r]);
+                if (!std::ranges::equal(hits, all[r])) return false;
+                if (tf::raycast_any(a, rays[r]) == hits.empty()) return false;
+            }
             return tf::raycast_any(a, rays) == std::vector<std::uint8_t>{1, 0};
         },
         [&] { return tf::raycast_all(a, rays).begin == tf::raycast_all(cube, rays).begin; },

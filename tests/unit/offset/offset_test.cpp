@@ -30,7 +30,6 @@
 namespace {
 
 constexpr double pi = std::numbers::pi;
-using drain = std::pair<tf::point3, double>;
 
 /// What holds of every surface at a distance.
 tf::mesh checked(const tf::offset_result& made) {
@@ -127,13 +126,13 @@ TEST_CASE(
 
 TEST_CASE("a hollow cube keeps its surface, and drains lead into it") {
     const tf::mesh cube = test::box(10, 10, 10);
-    const auto closed = tf::hollow(cube, 1, {}, {.resolution = 0.25});
+    const auto closed = tf::hollow(cube, 1, {.resolution = 0.25});
     REQUIRE(closed.certificate);
     CHECK(test::is_clean_solid(closed.mesh));
     CHECK(tf::signed_volume(closed.mesh) == doctest::Approx(1000 - 512).epsilon(0.01));
     for (std::size_t v = 0; v < 8; ++v) CHECK(closed.mesh.points[v] == cube.points[v]);
-    const std::array<drain, 2> drains{{{{5, 5, 10}, 2}, {{5, 5, -3}, 1}}};
-    const auto drained = tf::hollow(cube, 1, drains, {.resolution = 0.25});
+    const auto drained =
+        tf::hollow(cube, 1, {.resolution = 0.25, .drains = {{{5, 5, 10}, 2}, {{5, 5, -3}, 1}}});
     REQUIRE(drained.certificate);
     CHECK(test::is_clean_solid(drained.mesh));
     CHECK(tf::count_topology(drained.mesh.points.size(), drained.mesh.faces).components_by_point ==
@@ -146,15 +145,16 @@ TEST_CASE("a hollow cube keeps its surface, and drains lead into it") {
 TEST_CASE("a drain ends in the cavity, and what none leads into is counted") {
     const tf::mesh slab = test::box(10, 10, 3);
     const tf::offset_options how{.resolution = 0.3};
-    const auto drained = tf::hollow(slab, 1, std::array{drain{{5, 5, 3}, 4}}, how);
+    const auto drained = tf::hollow(slab, 1, {.resolution = 0.3, .drains = {{{5, 5, 3}, 4}}});
     REQUIRE(drained.certificate);
     CHECK(tf::contains(drained.mesh, {5, 5, 0.5}));  // the wall across is whole
     CHECK(!tf::contains(drained.mesh, {5, 5, 2.5}));
     CHECK(drained.blind_drains.empty());
     CHECK(drained.sealed_cavities == 0);
-    CHECK(tf::hollow(slab, 1, {}, how).sealed_cavities == 1);
+    CHECK(tf::hollow(slab, 1, how).sealed_cavities == 1);
     const std::array two{slab, test::moved(slab, {20, 0, 0})};
-    const auto half = tf::hollow(tf::concatenate(two), 1, std::array{drain{{25, 5, 9}, 1}}, how);
+    const auto half =
+        tf::hollow(tf::concatenate(two), 1, {.resolution = 0.3, .drains = {{{25, 5, 9}, 1}}});
     REQUIRE(half.certificate);
     CHECK(half.blind_drains.empty());
     CHECK(half.sealed_cavities == 1);
@@ -162,7 +162,8 @@ TEST_CASE("a drain ends in the cavity, and what none leads into is counted") {
     const tf::mesh slotted =
         tf::subtract(test::box(10, 10, 10), test::moved(test::box(12, 12, 1), {-1, -1, 4.5}))
             .value();
-    const auto into_slot = tf::hollow(slotted, 1, std::array{drain{{5, 5, 4.6}, 3}}, how);
+    const auto into_slot =
+        tf::hollow(slotted, 1, {.resolution = 0.3, .drains = {{{5, 5, 4.6}, 3}}});
     REQUIRE(into_slot.certificate);
     CHECK(into_slot.blind_drains.empty());
     CHECK(!tf::contains(into_slot.mesh, {5, 5, 4}));
@@ -176,8 +177,9 @@ TEST_CASE("a drain whose axis passes by the cavity is named") {
     const tf::mesh wedge{
         {{0, 0, 0}, {20, 0, -high}, {20, 0, high}, {0, 10, 0}, {20, 10, -high}, {20, 10, high}},
         {{0, 1, 2}, {3, 5, 4}, {0, 3, 4}, {0, 4, 1}, {1, 4, 5}, {1, 5, 2}, {2, 5, 3}, {2, 3, 0}}};
-    const std::array drains{drain{{20, 5, 0}, 1}, drain{{at, 5, at * high / 20}, 0.1}};
-    const auto made = tf::hollow(wedge, 0.5, drains, {.resolution = 0.1});
+    const auto made = tf::hollow(
+        wedge, 0.5,
+        {.resolution = 0.1, .drains = {{{20, 5, 0}, 1}, {{at, 5, at * high / 20}, 0.1}}});
     REQUIRE(made.certificate);
     CHECK(made.blind_drains == std::vector<std::uint32_t>{1});
 }
@@ -250,7 +252,7 @@ TEST_CASE("what makes no sense is refused, with what would do") {
     for (const double r : {0.0, -1.0, 0.06, 1e-13, inf})
         CHECK_THROWS_AS((void)tf::offset(cube, 0.1, {.resolution = r}), std::invalid_argument);
     CHECK_THROWS_AS((void)tf::hollow(cube, -0.1), std::invalid_argument);
-    CHECK_THROWS_AS((void)tf::hollow(cube, 0.1, std::array{drain{{0, 0, 0}, 0.0}}),
+    CHECK_THROWS_AS((void)tf::hollow(cube, 0.1, {.drains = {{{0, 0, 0}, 0.0}}}),
                     std::invalid_argument);
     CHECK_THROWS_AS((void)tf::thicken(tf::mesh{}, 0.1), std::invalid_argument);
     CHECK_THROWS_AS((void)tf::thicken(cube, 0.1, {.shift = inf}), std::invalid_argument);
@@ -269,14 +271,13 @@ TEST_CASE("what makes no sense is refused, with what would do") {
 TEST_CASE("it stops when it is told to, whenever that is") {
     const tf::mesh ball = test::ball(2, 1.0);
     int heard = 0;
-    (void)tf::hollow(ball, 0.2, {},
+    (void)tf::hollow(ball, 0.2,
                      {.resolution = 0.1, .progress = [&](double) { return ++heard > 0; }});
     CHECK(heard > 12);
     for (int stop = 0; stop < heard; stop += 3) {
         int calls = 0;
-        const auto made =
-            tf::hollow(ball, 0.2, {},
-                       {.resolution = 0.1, .progress = [&](double) { return ++calls <= stop; }});
+        const auto made = tf::hollow(
+            ball, 0.2, {.resolution = 0.1, .progress = [&](double) { return ++calls <= stop; }});
         CHECK(made.certificate.status == tf::status::cancelled);
         CHECK(made.mesh.faces.empty());
         CHECK(calls == stop + 1);
@@ -296,9 +297,7 @@ TEST_CASE("each verb says its own name") {
     for (const double r : {1.0, 1e-4, 1e-15}) {
         const tf::offset_options how{.resolution = r};
         CHECK(message([&] { (void)tf::offset(cube, 0.1, how); }).starts_with("treeform::offset: "));
-        CHECK(message([&] {
-                  (void)tf::hollow(cube, 0.1, {}, how);
-              }).starts_with("treeform::hollow: "));
+        CHECK(message([&] { (void)tf::hollow(cube, 0.1, how); }).starts_with("treeform::hollow: "));
         CHECK(
             message([&] { (void)tf::thicken(cube, 0.1, how); }).starts_with("treeform::thicken: "));
     }

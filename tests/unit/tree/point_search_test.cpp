@@ -1,3 +1,4 @@
+#include <treeform/mesh/mesh.hpp>
 #include <treeform/tf.hpp>
 #include <treeform/tree/point_search.hpp>
 
@@ -203,4 +204,40 @@ TEST_CASE("point search: a projection says where an element is") {
     CHECK(by_member.nearest({3, 0, 0}) == tf::near_point{2, 1.0});
     CHECK(by_function.nearest({-1.5, 0, 0}) == tf::near_point{1, 0.5});
     CHECK(by_member.k_nearest({0, 0, 0}, 2).back() == tf::near_point{1, 1.0});
+}
+
+namespace {
+
+struct place {
+    float x, y;
+};
+struct place_in_space {
+    float x, y, z;
+};
+template <std::size_t D, class Query>
+concept is_query = requires(const tf::point_search<D>& search, const Query& query) {
+    search.nearest(query);
+};
+
+}  // namespace
+
+TEST_CASE("point_search: points and queries may be of any type with x, y, z or with []") {
+    const std::vector<tf::point3> points{{0, 0, 0}, {1, 0, 0}, {4, 4, 4}};
+    const tf::point_search<3> search(points);
+    CHECK(search.nearest(tf::point3{3, 3, 3})->id == 2);
+    CHECK(search.nearest({3, 3, 3})->id == 2);
+    CHECK(search.nearest(std::array{0.9F, 0.0F, 0.0F})->id == 1);
+    CHECK(search.nearest(place_in_space{3, 3, 3}, 1.0) == std::nullopt);
+    CHECK(search.k_nearest(points[1], 2) == search.k_nearest({1, 0, 0}, 2));
+    CHECK(search.all_within(points[1], 1.0) == search.all_within({1, 0, 0}, 1.0));
+    const std::vector<std::array<double, 3>> arrays{{0, 0, 0}, {1, 0, 0}, {4, 4, 4}};
+    CHECK(search.k_nearest(points, 2).answers == search.k_nearest(arrays, 2).answers);
+    CHECK(search.all_within(points, 1.5).begin == search.all_within(arrays, 1.5).begin);
+    const std::vector<place> plane{{0, 0}, {5, 1}};
+    const tf::point_search<2> flat(plane);
+    CHECK(flat.nearest(tf::point2{4, 4})->id == 1);
+    CHECK(flat.nearest(plane[1])->distance == 0.0);
+    static_assert(is_query<3, tf::point3> && is_query<2, tf::point2>);
+    static_assert(!is_query<3, tf::point2> && !is_query<2, tf::point3>);
+    static_assert(!is_query<3, std::array<float, 2>> && !is_query<3, place>);
 }

@@ -271,3 +271,16 @@ TEST_CASE("tree: at most 32 bytes a primitive, at powers of the width and behind
         CHECK(bytes <= 32 * size + tree.levels() * sizeof(tf::wide_node<3>));
     }
 }
+
+TEST_CASE("aabb: from one point it is the box of that point, and by default it is empty") {
+    constexpr tf::aabb<double, 3> at{{1, 2, 3}};
+    CHECK(at == tf::aabb<double, 3>{{1, 2, 3}, {1, 2, 3}});
+    CHECK(!at.empty());
+    CHECK(tf::overlaps(at, tf::aabb<double, 3>{{0, 2, 0}, {1, 2, 9}}));
+    CHECK(tf::aabb<float, 2>{.min = {-1, 5}}.max == std::array{-1.0F, 5.0F});
+    constexpr tf::aabb<double, 2> none;
+    CHECK(none.empty());
+    CHECK(none.max[0] == -std::numeric_limits<double>::infinity());
+    CHECK(none == tf::aabb<double, 2>{});
+    CHECK(tf::aabb<double, 2>{{std::numeric_limits<double>::quiet_NaN(), 0}}.empty());
+}

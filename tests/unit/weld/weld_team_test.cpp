@@ -74,14 +74,15 @@ std::optional<tf::weld_stream_result> weld_as_team(const job& work, std::size_t 
 
 /// As processes that do not know of each other.
 tf::weld_stream_result weld_shared(const job& work, test::random& random) {
-    tf::weld_stream_options options = work.options;
-    options.shared = true;
+    const tf::weld_stream_options& options = work.options;
     std::size_t tiles = 0;
     for (int twice = 0; twice < 2; ++twice) {
         tf::shared_weld one(work.inputs, options);
-        CHECK(one.take_survey() == tf::status::ok);
+        if (twice == 1) CHECK(one.take_survey() == tf::status::ok);
         CHECK(one.scatter() == tf::status::ok);
-        tiles = one.survey().tiles;
+        tiles = one.tiles();
+        CHECK(one.survey().tiles == tiles);
+        CHECK(one.unfinished().size() == tiles);
     }
     std::vector<std::size_t> order;
     for (std::size_t t = 0; t < 2 * tiles; ++t) order.push_back(t / 2);
@@ -94,11 +95,11 @@ tf::weld_stream_result weld_shared(const job& work, test::random& random) {
         });
     for (std::thread& t : threads) t.join();
     tf::shared_weld last(work.inputs, options);
-    CHECK(last.take_survey() == tf::status::ok);
-    CHECK(last.weld() == tf::status::ok);
-    CHECK(last.write(work.outputs()) == tf::status::ok);
+    CHECK(last.unfinished().empty());
+    const tf::weld_stream_result result = last.finish(work.outputs());
+    CHECK(result.status == tf::status::ok);
     last.remove_folder();
-    return last.result();
+    return result;
 }
 
 /// Clouds that are hard in one way each.
@@ -462,7 +463,6 @@ TEST_CASE("weld_team: what is not there, or of another job, is refused in words"
     job work = folder.work("ply");
     work.options.tolerance = 0.05;
     work.options.points_per_tile = 60;
-    work.options.shared = true;
     const auto says = [](const std::function<void()>& step) -> std::string {
         try {
             step();
@@ -476,8 +476,12 @@ TEST_CASE("weld_team: what is not there, or of another job, is refused in words"
     };
     {
         tf::shared_weld early(work.inputs, work.options);
-        CHECK(
-            has(says([&] { static_cast<void>(early.weld_tile(0)); }), "contains no tiles of this"));
+        for (const auto& step :
+             std::vector<std::function<void()>>{[&] { static_cast<void>(early.weld_tile(0)); },
+                                                [&] { static_cast<void>(early.tiles()); },
+                                                [&] { static_cast<void>(early.unfinished()); },
+                                                [&] { early.finish(work.outputs()); }})
+            CHECK(has(says(step), "contains no tiles of this"));
     }
     CHECK_FALSE(fs::exists(work.options.folder));
     {
@@ -485,8 +489,9 @@ TEST_CASE("weld_team: what is not there, or of another job, is refused in words"
         REQUIRE(one.take_survey() == tf::status::ok);
         CHECK(has(says([&] { tf::shared_weld(work.inputs, work.options); }), "is in use"));
         REQUIRE(one.scatter() == tf::status::ok);
-        CHECK_THROWS_AS(static_cast<void>(one.weld_tile(one.survey().tiles)), std::out_of_range);
+        CHECK_THROWS_AS(static_cast<void>(one.weld_tile(one.tiles())), std::out_of_range);
         CHECK(has(says([&] { static_cast<void>(one.weld()); }), "tiles 0, 1, 2"));
+        CHECK(has(says([&] { one.finish(work.outputs()); }), "tiles 0, 1, 2"));
     }
     work.options.tolerance = 0.06;
     tf::shared_weld other(work.inputs, work.options);

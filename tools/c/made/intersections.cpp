@@ -247,9 +247,14 @@ treeform_code treeform_shared_search_create(const char* path,
 }
 
 treeform_code treeform_shared_search_scatter(treeform_shared_search* search, size_t* result) {
+    return glue::guard(
+        [&] { glue::shared_search_scatter(glue::content(search, "search"), result); });
+}
+
+treeform_code treeform_shared_search_tiles(treeform_shared_search* search, size_t* result) {
     return glue::guard([&] {
         (void)glue::need(result, "result");
-        *result = glue::shared_search_scatter(glue::content(search, "search"));
+        *result = glue::shared_search_tiles(glue::content(search, "search"));
     });
 }
 

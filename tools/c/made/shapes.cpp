@@ -148,8 +148,8 @@ treeform_code treeform_hollow(const treeform_mesh* mesh, double wall, const doub
     return glue::guard([&] {
         glue::start(result);
         return glue::give(
-            tf::hollow(glue::ref(mesh, "mesh"), wall,
-                       glue::points_and_numbers(drains, count, "drains"), glue::read(options)),
+            glue::hollow(glue::ref(mesh, "mesh"), wall,
+                         glue::points_and_numbers(drains, count, "drains"), glue::read(options)),
             result);
     });
 }

@@ -276,7 +276,7 @@ treeform_code treeform_subtract(const treeform_mesh* a, const treeform_mesh* b,
                                 treeform_boolean_result** result) {
     return glue::guard([&] {
         glue::start(result);
-        return glue::give(tf::subtract(glue::ref(a, "a"), glue::ref(b, "b"), glue::read(options)),
+        return glue::give(glue::subtract(glue::ref(a, "a"), glue::ref(b, "b"), glue::read(options)),
                           result);
     });
 }
@@ -309,6 +309,17 @@ treeform_code treeform_unite_all(const treeform_mesh* const* operands, size_t co
         glue::start(result);
         return glue::give(
             glue::unite_all(glue::refs(operands, count, "operands"), glue::read(options)), result);
+    });
+}
+
+treeform_code treeform_subtract_all(const treeform_mesh* a, const treeform_mesh* const* others,
+                                    size_t count, const treeform_boolean_options* options,
+                                    treeform_boolean_result** result) {
+    return glue::guard([&] {
+        glue::start(result);
+        return glue::give(glue::subtract_all(glue::ref(a, "a"), glue::refs(others, count, "others"),
+                                             glue::read(options)),
+                          result);
     });
 }
 

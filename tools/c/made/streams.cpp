@@ -88,9 +88,21 @@ treeform_code treeform_shared_weld_create(const char* const* inputs, size_t coun
 }
 
 treeform_code treeform_shared_weld_scatter(treeform_shared_weld* weld, size_t* result) {
+    return glue::guard([&] { glue::shared_weld_scatter(glue::content(weld, "weld"), result); });
+}
+
+treeform_code treeform_shared_weld_tiles(treeform_shared_weld* weld, size_t* result) {
     return glue::guard([&] {
         (void)glue::need(result, "result");
-        *result = glue::shared_weld_scatter(glue::content(weld, "weld"));
+        *result = glue::shared_weld_tiles(glue::content(weld, "weld"));
+    });
+}
+
+treeform_code treeform_shared_weld_unfinished(treeform_shared_weld* weld,
+                                              treeform_indices** indices) {
+    return glue::guard([&] {
+        glue::start(indices);
+        return glue::give(glue::shared_weld_unfinished(glue::content(weld, "weld")), indices);
     });
 }
 
@@ -101,10 +113,8 @@ treeform_code treeform_shared_weld_tile(treeform_shared_weld* weld, size_t tile)
 treeform_code treeform_shared_weld_finish(treeform_shared_weld* weld, const char* output,
                                           treeform_weld_stream_result** result) {
     return glue::guard([&] {
-        glue::start(result);
-        return glue::give(glue::shared_weld_finish(glue::content(weld, "weld"),
-                                                   std::string(&glue::need(output, "output"))),
-                          result);
+        glue::shared_weld_finish(glue::content(weld, "weld"),
+                                 std::string(&glue::need(output, "output")), result);
     });
 }
 

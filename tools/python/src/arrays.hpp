@@ -44,6 +44,12 @@ inline std::vector<std::pair<tf::point3, double>> points_and_numbers(
     });
 }
 
+inline tf::offset_options with_drains(tf::offset_options options,
+                                      std::vector<std::pair<tf::point3, double>> drains) {
+    options.drains = std::move(drains);
+    return options;
+}
+
 inline std::array<double, 3> numbers(const tf::point3& p) { return {p.x, p.y, p.z}; }
 
 /// A row of an array: a number, or equal numbers.

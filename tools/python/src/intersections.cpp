@@ -62,8 +62,7 @@ void add_intersections(py::module_& module) {
     module.attr("KINDS") = py::cast(kind_words);  // -> list[str]
     add_job(module, "self_intersections_of_file", &self_intersections_of_file,
             job_kind::long_work);  // -> FilePairs
-    add_steps<search_steps>(module, "SearchInSteps", &search_steps::finish)
-        .def("unfinished", step_of<search_steps>(&search_steps::unfinished));
+    add_steps<search_steps>(module, "SearchInSteps", &search_steps::finish);
     add_job(module, "search_of", &search_of, job_kind::long_work);
 }
 

@@ -112,16 +112,16 @@ auto step_of(Result (Of::*method)(Arguments...)) {
 
 /// The class for a `Work`, with the common steps and `finish`.
 template <class Work, class Finish>
-auto add_steps(py::module_& module, const char* name, const Finish& finish) {
+void add_steps(py::module_& module, const char* name, const Finish& finish) {
     py::class_<work_in_steps<Work>> made(module, name);
     made.def("scatter", step_of<Work>(&Work::scatter))
         .def("tiles", step_of<Work>(&Work::tiles))
+        .def("unfinished", step_of<Work>(&Work::unfinished))
         .def("do_tile", step_of<Work>(&Work::do_tile))
         .def("finish", step_of<Work>(finish))
         .def("remove_folder", step_of<Work>(&Work::remove_folder))
         .def("close", &work_in_steps<Work>::close);
     make_jobs(made, {"scatter", "do_tile", "finish"}, job_kind::writes);
-    return made;
 }
 
 }  // namespace binding

@@ -38,36 +38,17 @@ py::object weld_stream(const tf::cloud_inputs& inputs, tf::weld_stream_options o
 
 // ---- step by step, by many processes ----
 
-struct weld_steps {
-    tf::shared_weld work;
-    bool looked = false;
-
-    [[nodiscard]] tf::status take_survey() {
-        if (looked) return tf::status::ok;
-        const tf::status ended = work.take_survey();
-        looked = ended == tf::status::ok;
-        return ended;
-    }
+struct weld_steps : tf::shared_weld {
+    using tf::shared_weld::shared_weld;
     /// The number of tiles.
     [[nodiscard]] std::size_t scatter() {
-        if (take_survey() != tf::status::ok || work.scatter() != tf::status::ok) return 0;
-        return work.survey().tiles;
+        return tf::shared_weld::scatter() == tf::status::ok ? tiles() : 0;
     }
-    [[nodiscard]] std::size_t tiles() {
-        work.check_tiles();
-        return work.survey().tiles;
-    }
-    [[nodiscard]] tf::status do_tile(std::size_t tile) { return work.weld_tile(tile); }
-    void remove_folder() { work.remove_folder(); }
+    [[nodiscard]] tf::status do_tile(std::size_t tile) { return weld_tile(tile); }
     [[nodiscard]] tf::weld_stream_result finish(const std::filesystem::path& output,
                                                 const std::string& removed,
                                                 const std::string& label, bool withhold) {
-        work.check_tiles();
-        tf::status ended = take_survey();
-        if (ended == tf::status::ok) ended = work.weld();
-        if (ended == tf::status::ok)
-            static_cast<void>(work.write(outputs_of(output, removed, label, withhold)));
-        return work.result();
+        return tf::shared_weld::finish(outputs_of(output, removed, label, withhold));
     }
 };
 
@@ -75,11 +56,10 @@ using weld_in_steps = work_in_steps<weld_steps>;
 
 std::unique_ptr<weld_in_steps> weld_of(const tf::cloud_inputs& inputs,
                                        tf::weld_stream_options options) {
-    options.shared = true;
     return run([&](const tf::progress_callback&) {
         return std::make_unique<weld_in_steps>([&](const step_progress& progress) {
             options.progress = std::ref(progress);
-            return weld_steps{tf::shared_weld(inputs, options)};
+            return weld_steps(inputs, options);
         });
     });
 }

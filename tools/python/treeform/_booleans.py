@@ -100,14 +100,13 @@ def union(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str = "flo
         joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
         coordinate. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
-        merged, exactly and before rounding, which removes vertices inside a flat region, and on a
-        straight edge between two flat regions. Uncut faces are not changed. `split` keeps all cuts.
+        merged, before rounding, which removes vertices inside a flat region, and on a straight edge
+        between two. Uncut faces are not changed. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
-        are dropped, and small voids are filled, with all that is in them. A part is a component
-        connected by edges; its volume is the volume that it encloses. For solids only. Finite and
-        not negative.
+        are dropped, and small voids are filled, with all that is in them. A part is connected by
+        edges; its volume is the volume that it encloses. For solids only. Finite and not negative.
     gap: fill gaps of at most this width between faces of different solids that face each other. The
         faces that bound a filled gap come last; their `face_source` is the face at the end of the
         gap, or the one opposite. `filled_faces` of `statistics` counts the faces at filled gaps.
@@ -148,14 +147,13 @@ def intersection(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str
         joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
         coordinate. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
-        merged, exactly and before rounding, which removes vertices inside a flat region, and on a
-        straight edge between two flat regions. Uncut faces are not changed. `split` keeps all cuts.
+        merged, before rounding, which removes vertices inside a flat region, and on a straight edge
+        between two. Uncut faces are not changed. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
-        are dropped, and small voids are filled, with all that is in them. A part is a component
-        connected by edges; its volume is the volume that it encloses. For solids only. Finite and
-        not negative.
+        are dropped, and small voids are filled, with all that is in them. A part is connected by
+        edges; its volume is the volume that it encloses. For solids only. Finite and not negative.
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
@@ -192,14 +190,13 @@ def difference(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str =
         joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
         coordinate. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
-        merged, exactly and before rounding, which removes vertices inside a flat region, and on a
-        straight edge between two flat regions. Uncut faces are not changed. `split` keeps all cuts.
+        merged, before rounding, which removes vertices inside a flat region, and on a straight edge
+        between two. Uncut faces are not changed. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
-        are dropped, and small voids are filled, with all that is in them. A part is a component
-        connected by edges; its volume is the volume that it encloses. For solids only. Finite and
-        not negative.
+        are dropped, and small voids are filled, with all that is in them. A part is connected by
+        edges; its volume is the volume that it encloses. For solids only. Finite and not negative.
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
@@ -236,14 +233,13 @@ def symmetric_difference(*meshes: MeshesLike, fill_rule: str = "nonzero",
         joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
         coordinate. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
-        merged, exactly and before rounding, which removes vertices inside a flat region, and on a
-        straight edge between two flat regions. Uncut faces are not changed. `split` keeps all cuts.
+        merged, before rounding, which removes vertices inside a flat region, and on a straight edge
+        between two. Uncut faces are not changed. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
-        are dropped, and small voids are filled, with all that is in them. A part is a component
-        connected by edges; its volume is the volume that it encloses. For solids only. Finite and
-        not negative.
+        are dropped, and small voids are filled, with all that is in them. A part is connected by
+        edges; its volume is the volume that it encloses. For solids only. Finite and not negative.
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
@@ -295,14 +291,13 @@ def boolean(expression: str, *operands: MeshesLike, fill_rule: str = "nonzero",
         joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
         coordinate. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
-        merged, exactly and before rounding, which removes vertices inside a flat region, and on a
-        straight edge between two flat regions. Uncut faces are not changed. `split` keeps all cuts.
+        merged, before rounding, which removes vertices inside a flat region, and on a straight edge
+        between two. Uncut faces are not changed. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
-        are dropped, and small voids are filled, with all that is in them. A part is a component
-        connected by edges; its volume is the volume that it encloses. For solids only. Finite and
-        not negative.
+        are dropped, and small voids are filled, with all that is in them. A part is connected by
+        edges; its volume is the volume that it encloses. For solids only. Finite and not negative.
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
@@ -338,8 +333,8 @@ def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", fill_rule:
         joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
         coordinate. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
-        merged, exactly and before rounding, which removes vertices inside a flat region, and on a
-        straight edge between two flat regions. Uncut faces are not changed. `split` keeps all cuts.
+        merged, before rounding, which removes vertices inside a flat region, and on a straight edge
+        between two. Uncut faces are not changed. `split` keeps all cuts.
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
@@ -384,9 +379,8 @@ def split(*meshes: MeshesLike, precision: str = "float64", max_displacement: flo
 
 
 def check_solid(mesh: MeshLike, *, progress: Progress = None) -> Certificate:
-    """Whether a mesh bounds a solid, as operands of `boolean` must. The certificate is ok, or lists
-    where the surface is open. If edges do not match as they are, the mesh is cut along itself
-    first, since they may still match piece by piece.
+    """Whether a mesh bounds a solid, as operands of `boolean` must; else where it is open. If edges
+    do not match as they are, the mesh is first cut along itself: they may still match in pieces.
 
     Raises ValueError as `boolean`.
 

@@ -131,11 +131,6 @@ class SharedSearch(InSteps[_core.SearchInSteps]):
         how = options(_core.StreamSearchOptions, given)
         return _core.search_of(path_of(given["path"]), how, progress=progress)
 
-    @property
-    def unfinished(self) -> list[int]:
-        """The tiles that have not been searched yet."""
-        return self._work.unfinished()
-
     def search_tile(self, tile: int, *, progress: Progress = None) -> None:
         """Searches a tile, numbered from 0, unless this is done."""
         self._do_tile(tile, progress)

@@ -120,6 +120,11 @@ class InSteps(Generic[_Work]):
         """The number of tiles, after `scatter`."""
         return self._work.tiles()
 
+    @property
+    def unfinished(self) -> list[int]:
+        """The tiles that are not finished, after `scatter`."""
+        return self._work.unfinished()
+
     def remove_folder(self) -> None:
         """Removes the folder with the tiles."""
         self._work.remove_folder()

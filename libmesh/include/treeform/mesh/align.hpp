@@ -91,8 +91,9 @@ enum class align_end : std::uint8_t {
     doubtful,
     nothing_to_align,  ///< there are no points, or no point has a partner
 };
-/// "converged", "out-of-iterations", "doubtful", "nothing-to-align"
-[[nodiscard]] TREEFORM_API const char* name_of(align_end end);
+template <>
+inline constexpr auto detail::names_of<align_end> =
+    std::array{"converged", "out-of-iterations", "doubtful", "nothing-to-align"};
 
 /// A small motion of the moving points, and how well the distances determine it. It is a rotation
 /// about `align_result::pivot_moved` and a shift, scaled so that the root mean square of the motion

@@ -51,8 +51,7 @@ class TREEFORM_API boolean_expression {
     [[nodiscard]] bool operator()(std::span<const bool> in_operand) const;
 
     /// True if no point outside this operand can belong to the result: in `a-b` for a, in `a+b` for
-    /// neither. Conservative: computed in one pass, it may be false for a long formula that needs
-    /// the operand.
+    /// neither. It may be false for a long formula that needs the operand.
     [[nodiscard]] bool needs(std::size_t operand) const;
 
     /// The formula in postfix notation: operands as numbers from 0, and these operations.
@@ -83,8 +82,8 @@ struct boolean_options {
     /// negative.
     double max_displacement = std::numeric_limits<double>::infinity();
     /// Do not merge coplanar faces that were cut, or that overlap. By default they are merged,
-    /// exactly and before rounding, which removes vertices inside a flat region, and on a straight
-    /// edge between two flat regions. Uncut faces are not changed. `split` keeps all cuts.
+    /// before rounding, which removes vertices inside a flat region, and on a straight edge between
+    /// two. Uncut faces are not changed. `split` keeps all cuts.
     bool keep_cuts = false;
     bool simplify = false;  ///< merge all coplanar faces of the result, also those not cut
     /// [faces of all operands, one after the other] or empty: only faces with equal numbers are
@@ -93,9 +92,8 @@ struct boolean_options {
     /// Compute `boolean_result::volumes`; only for two operands, without filled gaps.
     bool volumes = false;
     /// Parts of the result with a smaller volume, in cubic units, are removed: small solids are
-    /// dropped, and small voids are filled, with all that is in them. A part is a component
-    /// connected by edges; its volume is the volume that it encloses. For solids only. Finite and
-    /// not negative.
+    /// dropped, and small voids are filled, with all that is in them. A part is connected by edges;
+    /// its volume is the volume that it encloses. For solids only. Finite and not negative.
     double min_volume = 0.0;
     /// In a union, fills gaps of at most this width, in the mesh's length unit, between faces of
     /// different operands that face each other across the gap, at an angle of at most 45 degrees.
@@ -116,8 +114,7 @@ struct operand_volumes {
     double both = 0.0;    ///< in the first and in the second
 };
 
-/// Counts of the steps of a set operation, for reports. If a `gap` was filled, counts of pairs and
-/// cut faces include the filling.
+/// Counts of the steps, for reports. Pairs and cut faces include those of a filled `gap`.
 struct boolean_statistics {
     std::uint64_t pairs = 0;          ///< pairs of tested faces that meet beyond shared corners
     std::uint64_t cut_faces = 0;      ///< input faces that were cut or covered by others
@@ -156,8 +153,7 @@ struct TREEFORM_API boolean_result {
     /// inside is behind every face: the surface winds once around points just behind the face, and
     /// not around those in front.
     treeform::certificate certificate{};
-    /// Components of the exact result (faces linked by vertices) that have no face left, since they
-    /// are too thin for the coordinates.
+    /// Components of the exact result that have no face left, being too thin for the coordinates.
     std::uint64_t vanished_components = 0;
     /// The largest distance from `mesh` of a vertex of the exact result that was removed. It is
     /// large if a component lost a part too thin for the coordinates.
@@ -200,15 +196,20 @@ struct TREEFORM_API boolean_result {
                                                   const boolean_options& options = {});
 
 /// Points in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
-/// exactly one of them (symmetric_difference). See `boolean`.
+/// exactly one of them (symmetric_difference). `b` of `subtract` may be several: `{b, c}`.
 [[nodiscard]] TREEFORM_API boolean_result unite(const mesh_ref& a, const mesh_ref& b,
                                                 const boolean_options& options = {});
 [[nodiscard]] TREEFORM_API boolean_result intersection(const mesh_ref& a, const mesh_ref& b,
                                                        const boolean_options& options = {});
-[[nodiscard]] TREEFORM_API boolean_result subtract(const mesh_ref& a, const mesh_ref& b,
+[[nodiscard]] TREEFORM_API boolean_result subtract(const mesh_ref& a, const mesh_refs& b,
                                                    const boolean_options& options = {});
 [[nodiscard]] TREEFORM_API boolean_result symmetric_difference(const mesh_ref& a, const mesh_ref& b,
                                                                const boolean_options& options = {});
+/// Points in any mesh (unite), in all of them (intersection): `unite(parts)`, `unite({a, b, c})`.
+[[nodiscard]] TREEFORM_API boolean_result unite(const mesh_refs& meshes,
+                                                const boolean_options& options = {});
+[[nodiscard]] TREEFORM_API boolean_result intersection(const mesh_refs& meshes,
+                                                       const boolean_options& options = {});
 
 /// An open surface cut by solids: the pieces of operand `sheet` for which `expression` is true. A
 /// piece on the surface of a solid counts as inside, so the sheet minus a solid and the sheet
@@ -238,9 +239,8 @@ struct TREEFORM_API boolean_result {
 [[nodiscard]] TREEFORM_API boolean_result split(const mesh_refs& operands,
                                                 const boolean_options& options = {});
 
-/// Whether a mesh bounds a solid, as operands of `boolean` must. The certificate is ok, or lists
-/// where the surface is open. If edges do not match as they are, the mesh is cut along itself
-/// first, since they may still match piece by piece.
+/// Whether a mesh bounds a solid, as operands of `boolean` must; else where it is open. If edges do
+/// not match as they are, the mesh is first cut along itself: they may still match in pieces.
 ///
 /// \throws std::invalid_argument as `boolean`
 /// \same   on any number of threads

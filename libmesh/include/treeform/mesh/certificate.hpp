@@ -9,6 +9,7 @@
 #include <treeform/tree/parallel.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
@@ -16,6 +17,29 @@
 #include <vector>
 
 namespace treeform {
+
+namespace detail {
+template <class Kind>
+inline constexpr std::array<const char*, 0> names_of{};
+}
+
+/// The name of an enumerator of `status`, `mesh_relation` or `align_end`: "open-input".
+template <class Kind>
+requires(detail::names_of<Kind>.size() > 0) [[nodiscard]] constexpr const char* name_of(Kind kind) {
+    return detail::names_of<Kind>[static_cast<std::size_t>(kind)];
+}
+
+/// Counts by kind: `counts[pair_kind::crossing]`; also an array, by the numbers of enumerators.
+template <class Kind, std::size_t N>
+struct counts_by : std::array<std::uint64_t, N> {
+    using std::array<std::uint64_t, N>::operator[];
+    [[nodiscard]] constexpr std::uint64_t operator[](Kind kind) const {
+        return (*this)[static_cast<std::size_t>(kind)];
+    }
+    [[nodiscard]] constexpr std::uint64_t& operator[](Kind kind) {
+        return (*this)[static_cast<std::size_t>(kind)];
+    }
+};
 
 /// The outcome of an operation that makes a mesh.
 enum class status : std::uint8_t {
@@ -33,6 +57,10 @@ enum class status : std::uint8_t {
     no_placement,  ///< a placement found no position; `placement::end` has the reason
     cancelled      ///< stopped by `progress`; there is no result
 };
+template <>
+inline constexpr auto detail::names_of<status> = std::array{
+    "ok",       "open-input",   "sheet",        "excessive-loss", "not-manifold", "not-certified",
+    "vanished", "out-of-range", "no-placement", "cancelled"};
 
 /// The work of a bounded search, in pairs of faces tested. It depends on the input alone. A result
 /// is valid even if the bound was reached.

@@ -128,8 +128,13 @@ struct mesh_hit {
 [[nodiscard]] TREEFORM_API answer_lists<mesh_hit> raycast_all(const mesh_ref& mesh,
                                                               std::span<const ray3> rays);
 
+/// The same for a single ray.
+[[nodiscard]] TREEFORM_API std::vector<mesh_hit> raycast_all(const mesh_ref& mesh, const ray3& ray);
+
 /// [R] 1 if a ray hits any face, else 0.
 [[nodiscard]] TREEFORM_API std::vector<std::uint8_t> raycast_any(const mesh_ref& mesh,
                                                                  std::span<const ray3> rays);
+/// Whether a single ray hits any face.
+[[nodiscard]] TREEFORM_API bool raycast_any(const mesh_ref& mesh, const ray3& ray);
 
 }  // namespace treeform

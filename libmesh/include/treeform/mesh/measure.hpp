@@ -26,6 +26,9 @@ enum class mesh_relation : std::uint8_t {
     closer_than_clearance,
     clear  ///< separate, by at least the clearance
 };
+template <>
+inline constexpr auto detail::names_of<mesh_relation> =
+    std::array{"separate", "touching", "penetrating", "closer-than-clearance", "clear"};
 
 /// Options of `relation`, `measure` and `penetration_depth`. Each ignores those that do not concern
 /// it.

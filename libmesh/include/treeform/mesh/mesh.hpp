@@ -14,6 +14,9 @@
 #include <optional>
 #include <ranges>
 #include <span>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
 #include <vector>
 
 #ifdef __clang__
@@ -54,6 +57,25 @@ using points_view = std::span<const point3>;  ///< [V]
 /// The corners of a triangle: numbers of points, counter-clockwise seen from outside.
 using face = std::array<std::uint32_t, 3>;
 
+namespace detail {
+template <class Rows, class Row, class... Number>
+concept array_of_rows = std::ranges::contiguous_range<const Rows> &&
+    (std::same_as<std::ranges::range_value_t<const Rows>, Row> || ... ||
+     (std::same_as<std::ranges::range_value_t<const Rows>, Number> ||
+      std::same_as<std::ranges::range_value_t<const Rows>, std::array<Number, 3>>));
+
+template <class Row, class Rows>
+[[nodiscard]] std::span<const Row> as_rows(const Rows& rows) {
+    constexpr std::size_t per_row = sizeof(Row) / sizeof(std::ranges::range_value_t<const Rows>);
+    static_assert(std::is_standard_layout_v<Row> && sizeof(Row) == sizeof(Row{}[0]) * 3);
+    const std::size_t count = std::ranges::size(rows);
+    if (count % per_row != 0)
+        throw std::invalid_argument("treeform::mesh_view::of: " + std::to_string(count) +
+                                    " numbers are not rows of three");
+    return {reinterpret_cast<const Row*>(std::ranges::data(rows)), count / per_row};
+}
+}  // namespace detail
+
 /// A mesh that refers to the caller's arrays. Every corner is less than `points.size()`.
 ///
 /// Points without faces are a point cloud. It can be measured, moved, welded and aligned like a
@@ -63,6 +85,18 @@ using face = std::array<std::uint32_t, 3>;
 struct mesh_view {
     std::span<const point3> points{};  ///< [V]
     std::span<const face> faces{};     ///< [F]
+
+    /// Refers to other arrays of the same bytes: x, y, z, x, y, z, ... as doubles, and three point
+    /// numbers for each face, as 32-bit integers; or rows `std::array` of three of them.
+    ///
+    /// \throws std::invalid_argument for a number of numbers that is not a multiple of 3
+    template <
+        detail::array_of_rows<point3, double> Points,
+        detail::array_of_rows<face, std::uint32_t, std::int32_t> Faces = std::span<const face>>
+    [[nodiscard]] static mesh_view of(const Points& points TREEFORM_LIFETIMEBOUND,
+                                      const Faces& faces TREEFORM_LIFETIMEBOUND = {}) {
+        return {detail::as_rows<point3>(points), detail::as_rows<face>(faces)};
+    }
 };
 
 /// The floating-point format of coordinates.

@@ -2,7 +2,7 @@
 /// \file
 /// Offset surfaces: solids grown, shrunk and hollowed; surfaces thickened.
 ///
-///     tf::offset_result shell = tf::hollow(solid, 2.0);
+///     tf::offset_result shell = tf::hollow(solid, 2.0, {.drains = {{{0, 0, 5}, 1.0}}});
 ///
 /// Alpha wrapping: a closed surface around any mesh.
 ///
@@ -15,7 +15,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -37,6 +36,8 @@ struct offset_options {
     /// unit; if negative, toward its back. With half of the thickness, the input surface becomes
     /// the back of the solid.
     double shift = 0.0;
+    /// `hollow`: holes through the wall, a point and a diameter each: `{{{0, 0, 5}, 2}}`.
+    std::vector<std::pair<point3, double>> drains{};
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
     progress_callback progress{};
@@ -105,9 +106,8 @@ struct TREEFORM_API offset_result {
 ///         not finite, or with a diameter that is not positive
 /// \cost   as `offset` and `subtract`
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API offset_result
-hollow(const mesh_ref& mesh, double wall, std::span<const std::pair<point3, double>> drains = {},
-       const offset_options& options = {});
+[[nodiscard]] TREEFORM_API offset_result hollow(const mesh_ref& mesh, double wall,
+                                                const offset_options& options = {});
 
 /// A solid around any surface: all points at most half of `thickness` away. Its rim is round.
 ///

@@ -202,7 +202,4 @@ struct TREEFORM_API body_set {
     std::vector<body> bodies_{};  ///< [B]
 };
 
-/// "separate", "closer-than-clearance".
-[[nodiscard]] TREEFORM_API const char* name_of(mesh_relation how);
-
 }  // namespace treeform

@@ -21,14 +21,6 @@
 
 namespace treeform {
 
-namespace detail::io {
-
-/// Consecutive points with their properties.
-struct point_block {
-    std::vector<point3> points{};
-    element properties{.name = "vertex"};  ///< one row for each point
-};
-
 /// Consecutive rows of an element that follows the points, such as faces.
 struct row_block {
     element rows{};  ///< values, under the element's name
@@ -40,8 +32,6 @@ struct row_block {
     /// counts them.
     std::uint64_t left_out = 0;
 };
-
-}  // namespace detail::io
 
 /// Reads PLY without faces, PCD, LAS, LAZ, XYZ and CSV from the first point to the last. All blocks
 /// together equal the result of `read` for the whole file.
@@ -86,7 +76,7 @@ class TREEFORM_API point_reader {
     /// file. Points that have not been read are skipped. Returns false if no row is left.
     ///
     /// \throws io_error as `read`
-    bool read(detail::io::row_block& block, std::size_t most);
+    bool read(row_block& block, std::size_t most);
 
   private:
     struct state;
@@ -138,12 +128,13 @@ class TREEFORM_API point_writer {
     /// Writes the next points; `properties` has one row for each.
     ///
     /// \throws io_error if the file cannot be written; std::invalid_argument for columns that
-    ///         differ from the header, for more than `count` points, or for a coordinate that the
-    ///         header's types cannot represent, unless `options.precision` requests rounding
+    ///         differ from the header, for more than `count` points, or naming the file and the
+    ///         first point with a coordinate that the header's types cannot represent, unless
+    ///         `options.precision` requests rounding
     void write(points_view points, const element& properties);
     /// Writes rows of the other elements, after all points, in the order of the header.
     /// \throws io_error; std::invalid_argument for other columns or more rows than in the header
-    void write(const detail::io::row_block& block);
+    void write(const row_block& block);
     /// Finishes the file. Without this call, the file is removed.
     /// \throws io_error, also if fewer than `count` points, or fewer rows than in the header, were
     ///         written

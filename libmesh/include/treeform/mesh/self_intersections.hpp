@@ -102,7 +102,7 @@ struct intersection_options {
 struct intersection_result {
     /// ascending by (a, b); for two meshes, `a` is a face of the first
     std::vector<face_pair> pairs;
-    std::array<std::uint64_t, pair_kind_count> counts{};  ///< by kind
+    counts_by<pair_kind, pair_kind_count> counts{};  ///< by kind
     std::uint64_t box_pairs = 0;      ///< pairs of faces whose boxes overlap, as moved
     std::uint64_t exact_pairs = 0;    ///< box pairs that the filter left undecided
     predicate_counters predicates{};  ///< predicate calls for the undecided pairs

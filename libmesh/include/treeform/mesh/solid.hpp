@@ -10,8 +10,9 @@
 
 namespace treeform {
 
-/// A solid bounded by a mesh, or made from others by `+` (union), `*` (intersection), `-`
-/// (difference) and `^` (symmetric difference).
+/// A solid bounded by a mesh, or made from others by `+` or `|` (union), `*` or `&` (intersection),
+/// `-` (difference) and `^` (symmetric difference). As for numbers, `*` binds tighter than `+` and
+/// `-`, these than `&`, then `^`, then `|`; in formulas of `boolean`, `&` binds as `*`.
 ///
 /// Cheap to copy: copies share their data. Operators only build a formula. The first call of
 /// `result` or `mesh` evaluates all of it at once, exactly, and caches the result. Const functions
@@ -31,6 +32,8 @@ class TREEFORM_API solid {
     friend TREEFORM_API solid operator*(const solid& a, const solid& b);
     friend TREEFORM_API solid operator-(const solid& a, const solid& b);
     friend TREEFORM_API solid operator^(const solid& a, const solid& b);
+    friend solid operator|(const solid& a, const solid& b) { return a + b; }
+    friend solid operator&(const solid& a, const solid& b) { return a * b; }
 
     /// The result of `boolean` for the formula, certified or not. For a single mesh, the solid that
     /// it winds around. In sources, the meshes of the formula are numbered from left to right; a

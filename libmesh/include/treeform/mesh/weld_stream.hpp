@@ -57,7 +57,9 @@ struct weld_stream_options {
     std::filesystem::path folder{};     ///< for the tiles; empty: the input's name and ".tiles"
     std::uint64_t points_per_tile = 0;  ///< approximate limit; 0: as the memory allows
     treeform::communicator communicator{};
-    bool shared = false;  ///< see `shared_weld`
+    /// `shared_weld`: whether other processes share the folder; not together with a communicator of
+    /// several ranks.
+    bool shared = true;
     /// Called with the step ("survey", "scatter", "weld", "borders", "write") and its completed
     /// share, 0 to 1. Returning false cancels.
     std::function<bool(std::string_view, double)> progress{};
@@ -169,42 +171,57 @@ TREEFORM_API weld_stream_result weld_stream(const std::filesystem::path& input,
                                             const std::filesystem::path& output,
                                             const weld_stream_options& options);
 
-/// `weld_stream` step by step, for callers who report or decide between steps. Call `take_survey`,
-/// `scatter`, `weld` and `write` once each, in this order, as long as they return status::ok.
+/// `weld_stream` step by step, for many processes on one or more machines that share the folder:
+/// one process calls `scatter`; then each calls `weld_tile` for its share of the tiles; after all
+/// have ended, one calls `finish` and `remove_folder`. Steps are idempotent: finished tiles are
+/// skipped, and two processes that weld the same tile write the same bytes. `finish` locks the
+/// folder for one process.
 ///
-/// With `weld_stream_options::shared`, many processes that share the folder divide the work: one
-/// calls `take_survey` and `scatter`; then each calls `weld_tile` for its share of the tiles; after
-/// all have ended, one calls `check_tiles`, `weld`, `write` and `remove_folder`. Steps are
-/// idempotent: finished tiles are skipped, and two processes that weld the same tile write the same
-/// bytes. `weld` locks the folder for one process.
+/// All processes must use the same inputs and options. Steps throw as `weld_stream`. They return
+/// status::cancelled if `progress` returned false, else status::ok.
+///
+/// For callers who report between steps, `scatter` is `take_survey`, then `scatter`; `finish` is
+/// `take_survey`, `weld` and `write`. Call each once, as long as they return status::ok. Without
+/// `weld_stream_options::shared`, one process calls all of them, and `weld` welds the tiles.
 class TREEFORM_API shared_weld {
   public:
     /// Creates and locks the folder. Unless it is shared, also removes
     /// `weld_stream_outputs::unfinished` of a killed run.
     shared_weld(cloud_inputs inputs, weld_stream_options options);
+    /// The same for one file.
+    shared_weld(const std::filesystem::path& input, weld_stream_options options);
     ~shared_weld();
     shared_weld(shared_weld&&) noexcept;
     shared_weld& operator=(shared_weld&&) noexcept;
 
+    /// Writes the points of each tile, unless already done.
+    [[nodiscard]] status scatter();
+    /// Number of tiles.
+    ///
+    /// \throws io_error if no process has completed `scatter`; so do the functions below
+    [[nodiscard]] std::size_t tiles();
+    [[nodiscard]] std::vector<std::size_t> unfinished();  ///< tiles
+    /// \throws std::out_of_range for a tile out of range
+    [[nodiscard]] status weld_tile(std::size_t tile);
+    /// Welds the points along the borders of tiles, and writes the outputs, each completely or not
+    /// at all. If `result.status` is cancelled, nothing is written.
+    ///
+    /// \throws io_error naming tiles that are not finished, at most a hundred
+    weld_stream_result finish(const weld_stream_outputs& outputs);
+    /// The same for one output file, the welded cloud or mesh.
+    weld_stream_result finish(const std::filesystem::path& output);
+    /// Removes the folder. Call it last, when all outputs are complete.
+    void remove_folder();
+
     /// Reads the cloud, or the stored survey of an earlier run, and plans the tiles.
     [[nodiscard]] status take_survey();
     [[nodiscard]] const cloud_survey& survey() const;
-    /// Writes the points of each tile.
-    [[nodiscard]] status scatter();
-    /// With `shared`: reads the plan of the tiles.
-    /// \throws io_error if no process has completed `scatter`
-    void check_tiles();
-    /// \throws io_error as `check_tiles`; std::out_of_range for a tile out of range
-    [[nodiscard]] status weld_tile(std::size_t tile);
-    /// Welds the tiles that are not finished, and the points along the borders of tiles.
-    /// \throws io_error with `shared`, naming tiles that are not finished
+    /// Welds the points along the borders of tiles; if not `shared`, first all tiles.
     [[nodiscard]] status weld();
-    /// Writes the outputs, each completely or not at all.
+    /// Writes the outputs.
     [[nodiscard]] status write(const weld_stream_outputs& outputs);
     /// The result so far; cancelled if a step was.
     [[nodiscard]] weld_stream_result result() const;
-    /// Removes the folder. Call it last, when all outputs are complete.
-    void remove_folder();
 
   private:
     friend weld_stream_result weld_stream(const cloud_inputs&, const weld_stream_outputs&,

@@ -13,14 +13,15 @@
 namespace treeform {
 
 /// A closed box [min, max] of D dimensions. By default the box is empty (min = +inf, max = -inf):
-/// it overlaps nothing, and including it changes nothing.
+/// it overlaps nothing, and including it changes nothing. With `min` alone, as in
+/// `aabb<double, 3>{{x, y, z}}`, it is the box of that point.
 template <std::floating_point T, std::size_t D>
 struct aabb {
     using scalar = T;
     static constexpr std::size_t dimensions = D;
 
     std::array<T, D> min = filled(std::numeric_limits<T>::infinity());
-    std::array<T, D> max = filled(-std::numeric_limits<T>::infinity());
+    std::array<T, D> max = point_or_empty(min);
 
     /// Grows to contain `point`, anything with []. Coordinates are rounded to T, so a box of floats
     /// may miss a point of doubles by a rounding error. A NaN coordinate makes the box empty
@@ -57,6 +58,13 @@ struct aabb {
         std::array<T, D> result{};
         result.fill(value);
         return result;
+    }
+
+    static constexpr std::array<T, D> point_or_empty(const std::array<T, D>& min) {
+        std::array<T, D> max = min;
+        for (T& x : max)
+            if (x == std::numeric_limits<T>::infinity()) x = -x;
+        return max;
     }
 };
 

@@ -21,6 +21,7 @@
 #include <optional>
 #include <ranges>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace treeform {
@@ -32,7 +33,52 @@ struct near_point {
     friend bool operator==(const near_point&, const near_point&) = default;
 };
 
+namespace detail {
+
+template <class Point>
+concept has_xy = requires(const Point& p) {
+    static_cast<double>(p.x);
+    static_cast<double>(p.y);
+};
+template <class Point>
+concept has_xyz = has_xy<Point> && requires(const Point& p) {
+    static_cast<double>(p.z);
+};
+
+template <class Point, std::size_t D>
+concept indexed = requires(const Point& p) {
+    static_cast<double>(p[D - 1]);
+}
+&&!requires { requires std::tuple_size<Point>::value != D; };
+/// A position in D dimensions: members x, y (and z), or D numbers by [].
+template <class Point, std::size_t D>
+concept position = (has_xy<Point> && D == (has_xyz<Point> ? 3 : 2)) ||
+                   (!has_xy<Point> && indexed<Point, D>);
+
+template <std::size_t D, class Point>
+[[nodiscard]] constexpr std::array<double, D> coordinates_of(const Point& p) {
+    std::array<double, D> all{};
+    if constexpr (has_xy<Point>) {
+        all[0] = static_cast<double>(p.x);
+        all[1] = static_cast<double>(p.y);
+        if constexpr (D == 3) all[2] = static_cast<double>(p.z);
+    } else {
+        for (std::size_t k = 0; k < D; ++k) all[k] = static_cast<double>(p[k]);
+    }
+    return all;
+}
+
+/// Many positions, other than an array of `point_search::point`.
+template <class Points, std::size_t D>
+concept positions = std::ranges::sized_range<const Points> &&
+    position<std::ranges::range_value_t<const Points>, D> &&
+    !std::convertible_to<const Points&, std::span<const std::array<double, D>>>;
+
+}  // namespace detail
+
 /// A tree over N points, with a copy of their coordinates in leaf order.
+///
+/// Points and queries are of any type with members x, y (and z), or with [].
 ///
 /// Distances are computed in double. The relative error of a squared distance is at most 2^-50; a
 /// distance below 1e-150 times the largest coordinate of the query and the cloud may be wrong by
@@ -53,7 +99,7 @@ class TREEFORM_API point_search {
     point_search() = default;
 
     /// Copies the coordinates of the points of any range. `position_of` returns the position of an
-    /// element, anything with []. It is a function or a pointer to a member, as in
+    /// element. It is a function or a pointer to a member, as in
     /// `point_search<3>(stars, &star::at)`.
     ///
     /// \throws std::invalid_argument naming the first point that is not finite
@@ -62,11 +108,8 @@ class TREEFORM_API point_search {
     requires(!std::same_as<Points, point_search>) explicit point_search(
         const Points& points, const Position& position_of = {})
         : tree_(build(points, [&](const auto& element) {
-              const auto& p = std::invoke(position_of, element);
-              aabb<double, D> box;
-              for (std::size_t k = 0; k < D; ++k)
-                  box.min[k] = box.max[k] = static_cast<double>(p[k]);
-              return box;
+              const point p = detail::coordinates_of<D>(std::invoke(position_of, element));
+              return aabb<double, D>{p, p};
           })) {
         copy(points, position_of);
     }
@@ -84,6 +127,20 @@ class TREEFORM_API point_search {
                                                     double radius = any_distance) const;
     /// All points within `radius`, nearest first.
     [[nodiscard]] std::vector<near_point> all_within(const point& query, double radius) const;
+    template <detail::position<D> Query>
+    [[nodiscard]] std::optional<near_point> nearest(const Query& query,
+                                                    double radius = any_distance) const {
+        return nearest(detail::coordinates_of<D>(query), radius);
+    }
+    template <detail::position<D> Query>
+    [[nodiscard]] std::vector<near_point> k_nearest(const Query& query, std::size_t k,
+                                                    double radius = any_distance) const {
+        return k_nearest(detail::coordinates_of<D>(query), k, radius);
+    }
+    template <detail::position<D> Query>
+    [[nodiscard]] std::vector<near_point> all_within(const Query& query, double radius) const {
+        return all_within(detail::coordinates_of<D>(query), radius);
+    }
 
     /// [Q] The same for many queries in parallel, in the order of the queries, with the same
     /// results as single searches.
@@ -91,6 +148,15 @@ class TREEFORM_API point_search {
                                                      double radius = any_distance) const;
     [[nodiscard]] answer_lists<near_point> all_within(std::span<const point> queries,
                                                       double radius) const;
+    template <detail::positions<D> Queries>
+    [[nodiscard]] answer_lists<near_point> k_nearest(const Queries& queries, std::size_t k,
+                                                     double radius = any_distance) const {
+        return k_nearest(std::span<const point>(points_of(queries)), k, radius);
+    }
+    template <detail::positions<D> Queries>
+    [[nodiscard]] answer_lists<near_point> all_within(const Queries& queries, double radius) const {
+        return all_within(std::span<const point>(points_of(queries)), radius);
+    }
 
     /// All pairs of points within `radius` of each other, ascending, each once with the lower
     /// number first. None if `progress` returned false; it is always called with 0, since the
@@ -103,6 +169,13 @@ class TREEFORM_API point_search {
                                                     const progress_callback& progress = {}) const;
 
   private:
+    template <class Queries>
+    [[nodiscard]] static std::vector<point> points_of(const Queries& queries) {
+        std::vector<point> all;
+        all.reserve(std::ranges::size(queries));
+        for (const auto& query : queries) all.push_back(detail::coordinates_of<D>(query));
+        return all;
+    }
     template <class Points, class Position>
     void copy(const Points& points, const Position& position_of);
 
@@ -127,8 +200,9 @@ void point_search<D>::copy(const Points& points, const Position& position_of) {
                 if (place >= tree_.size()) continue;
                 const auto id =
                     static_cast<std::ranges::range_difference_t<Points>>(tree_.ids()[place]);
-                const auto& p = std::invoke(position_of, std::ranges::begin(points)[id]);
-                slot[k * 8] = static_cast<double>(p[k]);
+                const auto p = detail::coordinates_of<D>(
+                    std::invoke(position_of, std::ranges::begin(points)[id]));
+                slot[k * 8] = p[k];
                 largest[chunk] = std::max(largest[chunk], std::abs(slot[k * 8]));
             }
         }

@@ -43,7 +43,7 @@ py::object hollow(const held_mesh& mesh, double wall, const array_of<double>& dr
                   tf::offset_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
         options.progress = report;
-        return tf::hollow(mesh.ref(), wall, points_and_numbers(drains), options);
+        return tf::hollow(mesh.ref(), wall, with_drains(options, points_and_numbers(drains)));
     }));
 }
 

@@ -256,17 +256,22 @@ TREEFORM_C_API treeform_code treeform_is_searched_in_tiles(const char* path, con
 /// The search of a file step by step, for many processes that share a folder.
 typedef struct treeform_shared_search treeform_shared_search;
 // made of the headers of C++:
-//   shared_search_create() shared_search_scatter() shared_search_unfinished()
-//   shared_search_tile() shared_search_finish() shared_search_remove_folder()
+//   shared_search_create() shared_search_scatter() shared_search_tiles()
+//   shared_search_unfinished() shared_search_tile() shared_search_finish()
+//   shared_search_remove_folder()
 /// Begins a search. All processes must pass the same input and options, except for `progress`.
 TREEFORM_C_API treeform_code
 treeform_shared_search_create(const char* path, const treeform_stream_search_options* options,
                               treeform_shared_search** search);
 
-/// Writes the faces of each tile, unless already done; `result` is the number of tiles. Called by
-/// one process.
+/// Writes the faces of each tile, unless already done. `result`, which may be null, is the number
+/// of tiles. Called by one process.
 TREEFORM_C_API treeform_code treeform_shared_search_scatter(treeform_shared_search* search,
                                                             size_t* result);
+
+/// Number of tiles; an error if no process has completed `scatter`.
+TREEFORM_C_API treeform_code treeform_shared_search_tiles(treeform_shared_search* search,
+                                                          size_t* result);
 
 /// Numbers of the tiles that are not finished.
 TREEFORM_C_API treeform_code treeform_shared_search_unfinished(treeform_shared_search* search,

@@ -39,9 +39,9 @@ TREEFORM_C_API treeform_code treeform_bounds(const treeform_mesh* mesh, treeform
 /// Whether the mesh bounds a solid, as operands of `treeform_boolean` must.
 TREEFORM_C_API treeform_code treeform_is_solid(const treeform_mesh* mesh, int32_t* result);
 
-/// Whether a mesh bounds a solid, as operands of `treeform_boolean` must. The certificate is ok,
-/// or lists where the surface is open. If edges do not match as they are, the mesh is cut along
-/// itself first, since they may still match piece by piece.
+/// Whether a mesh bounds a solid, as operands of `treeform_boolean` must; else where it is open.
+/// If edges do not match as they are, the mesh is first cut along itself: they may still match in
+/// pieces.
 TREEFORM_C_API treeform_code treeform_check_solid(const treeform_mesh* mesh,
                                                   treeform_progress progress, void* progress_data,
                                                   treeform_certificate** certificate);

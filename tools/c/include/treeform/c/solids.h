@@ -9,8 +9,8 @@
 
 // made of the headers of C++:
 //   fill_rule boolean_options operand_volumes boolean_result boolean() boolean_named()
-//   names_in() unite() subtract() intersection() symmetric_difference() unite_all() clip()
-//   split() resolve_mode resolve_options repair_statistics repair_result
+//   names_in() unite() subtract() intersection() symmetric_difference() unite_all()
+//   subtract_all() clip() split() resolve_mode resolve_options repair_statistics repair_result
 //   resolve_self_intersections() repair_options repair() repair_file() solid_defects
 //   find_solid_defects() find_solid_defects_of_file()
 /// Which points are inside an operand, by how often its surface winds around them.
@@ -36,8 +36,8 @@ typedef struct treeform_boolean_options {
     /// Not negative; default infinite
     double max_displacement;
     /// Do not merge coplanar faces that were cut, or that overlap. By default they are merged,
-    /// exactly and before rounding, which removes vertices inside a flat region, and on a straight
-    /// edge between two flat regions. Uncut faces are not changed. `split` keeps all cuts.
+    /// before rounding, which removes vertices inside a flat region, and on a straight edge
+    /// between two. Uncut faces are not changed. `split` keeps all cuts.
     int32_t keep_cuts;
     int32_t simplify;  ///< merge all coplanar faces of the result, also those not cut
     /// Compute `treeform_boolean_result::volumes`; only for two operands, without filled gaps.
@@ -49,9 +49,8 @@ typedef struct treeform_boolean_options {
     treeform_progress progress;
     void* progress_data;
     /// Parts of the result with a smaller volume, in cubic units, are removed: small solids are
-    /// dropped, and small voids are filled, with all that is in them. A part is a component
-    /// connected by edges; its volume is the volume that it encloses. For solids only. Finite and
-    /// not negative.
+    /// dropped, and small voids are filled, with all that is in them. A part is connected by
+    /// edges; its volume is the volume that it encloses. For solids only. Finite and not negative.
     double min_volume;
     /// In a union, fills gaps of at most this width, in the mesh's length unit, between faces of
     /// different operands that face each other across the gap, at an angle of at most 45 degrees.
@@ -93,8 +92,7 @@ typedef struct treeform_boolean_result {
     /// the inside is behind every face: the surface winds once around points just behind the face,
     /// and not around those in front.
     const treeform_certificate* certificate;
-    /// Components of the exact result (faces linked by vertices) that have no face left, since
-    /// they are too thin for the coordinates.
+    /// Components of the exact result that have no face left, being too thin for the coordinates.
     uint64_t vanished_components;
     /// The largest distance from `mesh` of a vertex of the exact result that was removed. It is
     /// large if a component lost a part too thin for the coordinates.
@@ -142,25 +140,27 @@ TREEFORM_C_API treeform_code treeform_boolean_named(const treeform_mesh* const* 
 TREEFORM_C_API treeform_code treeform_names_in(const char* expression, treeform_strings** strings);
 
 /// Points in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
-/// exactly one of them (symmetric_difference). See `treeform_boolean`.
+/// exactly one of them (symmetric_difference). `b` of `treeform_subtract` may be several: `{b,
+/// c}`.
 TREEFORM_C_API treeform_code treeform_unite(const treeform_mesh* a, const treeform_mesh* b,
                                             const treeform_boolean_options* options,
                                             treeform_boolean_result** result);
 
-/// Points in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
-/// exactly one of them (symmetric_difference). See `treeform_boolean`.
+/// Points in `a` but not in `b`.
 TREEFORM_C_API treeform_code treeform_subtract(const treeform_mesh* a, const treeform_mesh* b,
                                                const treeform_boolean_options* options,
                                                treeform_boolean_result** result);
 
 /// Points in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
-/// exactly one of them (symmetric_difference). See `treeform_boolean`.
+/// exactly one of them (symmetric_difference). `b` of `treeform_subtract` may be several: `{b,
+/// c}`.
 TREEFORM_C_API treeform_code treeform_intersection(const treeform_mesh* a, const treeform_mesh* b,
                                                    const treeform_boolean_options* options,
                                                    treeform_boolean_result** result);
 
 /// Points in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
-/// exactly one of them (symmetric_difference). See `treeform_boolean`.
+/// exactly one of them (symmetric_difference). `b` of `treeform_subtract` may be several: `{b,
+/// c}`.
 TREEFORM_C_API treeform_code treeform_symmetric_difference(const treeform_mesh* a,
                                                            const treeform_mesh* b,
                                                            const treeform_boolean_options* options,
@@ -170,6 +170,12 @@ TREEFORM_C_API treeform_code treeform_symmetric_difference(const treeform_mesh* 
 TREEFORM_C_API treeform_code treeform_unite_all(const treeform_mesh* const* operands, size_t count,
                                                 const treeform_boolean_options* options,
                                                 treeform_boolean_result** result);
+
+/// Points in `a` but in none of `others` [count].
+TREEFORM_C_API treeform_code treeform_subtract_all(const treeform_mesh* a,
+                                                   const treeform_mesh* const* others, size_t count,
+                                                   const treeform_boolean_options* options,
+                                                   treeform_boolean_result** result);
 
 /// An open surface cut by solids: the pieces of operand number `sheet` for which `expression` is
 /// true.
