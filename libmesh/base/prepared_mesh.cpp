@@ -16,6 +16,8 @@ struct prepared_mesh::state {
     };
 
     mesh owned{};
+    detail::once made_faces{};
+    std::vector<face> point_faces{};  // of a cloud, once a query needs them
     std::array<slot, static_cast<std::size_t>(detail::base::slot_name::count)> places{};
     std::atomic<std::uint64_t> built{0};
 };
@@ -25,29 +27,26 @@ prepared_mesh::~prepared_mesh() = default;
 
 prepared_mesh::prepared_mesh(mesh&& owned) : prepared_mesh() {
     state_->owned = std::move(owned);
-    see(state_->owned);
+    view_ = state_->owned;
 }
 
 prepared_mesh prepared_mesh::borrow(mesh_view view) {
     prepared_mesh result;
-    result.see(view);
+    result.view_ = view;
     return result;
 }
 
-void prepared_mesh::see(mesh_view given) {
-    cloud_ = given.faces.empty() && !given.points.empty();
-    if (cloud_) state_->owned.faces = detail::base::point_faces(given.points.size());
-    view_ = {given.points, cloud_ ? state_->owned.faces : given.faces};
+mesh_view prepared_mesh::view_of_cloud() const {
+    state_->made_faces.call(
+        [&] { state_->point_faces = detail::base::point_faces(view_.points.size()); });
+    return {view_.points, state_->point_faces};
 }
 
 prepared_mesh::prepared_mesh(prepared_mesh&& other) noexcept
-    : view_(std::exchange(other.view_, {})),
-      cloud_(other.cloud_),
-      state_(std::move(other.state_)) {}
+    : view_(std::exchange(other.view_, {})), state_(std::move(other.state_)) {}
 
 prepared_mesh& prepared_mesh::operator=(prepared_mesh&& other) noexcept {
     view_ = std::exchange(other.view_, {});
-    cloud_ = other.cloud_;
     state_ = std::move(other.state_);
     return *this;
 }
@@ -57,7 +56,6 @@ std::uint64_t prepared_mesh::indexes_built() const { return state_->built.load()
 prepared_mesh detail::base::prepared_slots::shared(const prepared_mesh& mesh) {
     prepared_mesh result;
     result.view_ = mesh.view_;
-    result.cloud_ = mesh.cloud_;
     result.state_ = mesh.state_;
     return result;
 }

@@ -172,21 +172,21 @@ class TREEFORM_API prepared_mesh {
     prepared_mesh& operator=(prepared_mesh&&) noexcept;
 
     /// The mesh that queries see: a cloud has a degenerate face for each point.
-    [[nodiscard]] mesh_view view() const { return view_; }
+    [[nodiscard]] mesh_view view() const { return is_cloud() ? view_of_cloud() : view_; }
     /// Whether the mesh has points and no faces.
-    [[nodiscard]] bool is_cloud() const { return cloud_; }
+    [[nodiscard]] bool is_cloud() const { return view_.faces.empty() && !view_.points.empty(); }
 
     /// Number of indexes built so far. It does not grow when a query reuses its indexes.
     [[nodiscard]] std::uint64_t indexes_built() const;
 
   private:
     friend class detail::base::prepared_slots;
+    friend class mesh_ref;
     struct state;
 
-    void see(mesh_view given);
+    [[nodiscard]] mesh_view view_of_cloud() const;
 
-    mesh_view view_{};
-    bool cloud_ = false;
+    mesh_view view_{};  // as given
     std::shared_ptr<state> state_;
 };
 
@@ -207,7 +207,7 @@ class mesh_ref {
         const Points& points TREEFORM_LIFETIMEBOUND)
         : view_{points, {}} {}                                  // NOLINT
     mesh_ref(const prepared_mesh& mesh TREEFORM_LIFETIMEBOUND)  // NOLINT
-        : view_(mesh.is_cloud() ? mesh_view{mesh.view().points} : mesh.view()), prepared_(&mesh) {}
+        : view_(mesh.view_), prepared_(&mesh) {}
     TREEFORM_API mesh_ref(const usable_mesh& mesh TREEFORM_LIFETIMEBOUND);  // NOLINT
 
     [[nodiscard]] mesh_view view() const { return view_; }
