@@ -114,7 +114,7 @@ std::vector<part_pair> sorted_pairs(const char* function, std::span<const part_p
 resting_part::resting_part(const prepared_mesh& mesh, vertex_identity vertices)
     : shape_(mesh, vertices),
       box_(place::box_of_faces(mesh.view())),
-      solid_(box_ && !mesh.is_cloud() && shape_.closed()) {
+      solid_(box_ && shape_.closed()) {
     if (!box_) return;
     const mesh_view joined = shape_.joined();
     const auto component = face_components(joined.points.size(), joined.faces);

@@ -28,9 +28,16 @@ prepared_mesh::~prepared_mesh() = default;
 prepared_mesh::prepared_mesh(mesh&& owned) : prepared_mesh() {
     state_->owned = std::move(owned);
     view_ = state_->owned;
+    cloud_ = mesh_ref(view_).is_cloud();
 }
 
 prepared_mesh prepared_mesh::borrow(mesh_view view) {
+    prepared_mesh result = detail::base::prepared_slots::of_faces(view);
+    result.cloud_ = mesh_ref(view).is_cloud();
+    return result;
+}
+
+prepared_mesh detail::base::prepared_slots::of_faces(mesh_view view) {
     prepared_mesh result;
     result.view_ = view;
     return result;
@@ -43,10 +50,13 @@ mesh_view prepared_mesh::view_of_cloud() const {
 }
 
 prepared_mesh::prepared_mesh(prepared_mesh&& other) noexcept
-    : view_(std::exchange(other.view_, {})), state_(std::move(other.state_)) {}
+    : view_(std::exchange(other.view_, {})),
+      cloud_(other.cloud_),
+      state_(std::move(other.state_)) {}
 
 prepared_mesh& prepared_mesh::operator=(prepared_mesh&& other) noexcept {
     view_ = std::exchange(other.view_, {});
+    cloud_ = other.cloud_;
     state_ = std::move(other.state_);
     return *this;
 }
@@ -56,6 +66,7 @@ std::uint64_t prepared_mesh::indexes_built() const { return state_->built.load()
 prepared_mesh detail::base::prepared_slots::shared(const prepared_mesh& mesh) {
     prepared_mesh result;
     result.view_ = mesh.view_;
+    result.cloud_ = mesh.cloud_;
     result.state_ = mesh.state_;
     return result;
 }

@@ -15,7 +15,7 @@ namespace treeform::detail::base {
 /// outlives this
 class prepared_ref {
   public:
-    explicit prepared_ref(const mesh_ref& given) : given_(given.prepared()) {
+    explicit prepared_ref(const mesh_ref& given) : given_(given.prepared_) {
         if (given_ == nullptr) own_ = prepared_mesh::borrow(given.view());
     }
     [[nodiscard]] const prepared_mesh& operator*() const {
@@ -29,6 +29,11 @@ class prepared_ref {
     const prepared_mesh* given_;
     std::optional<prepared_mesh> own_{};
 };
+
+/// Whether a query of both needs prepared meshes: those keep indexes, and give faces to a cloud.
+[[nodiscard]] inline bool is_prepared_or_cloud(const mesh_ref& a, const mesh_ref& b) {
+    return a.prepared() != nullptr || a.is_cloud() || b.prepared() != nullptr || b.is_cloud();
+}
 
 /// The same for several, contiguous in memory.
 class prepared_refs {

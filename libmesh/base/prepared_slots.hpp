@@ -47,6 +47,9 @@ class prepared_slots {
     /// Another prepared mesh with the same slots and arrays. \pre `mesh` outlives it
     [[nodiscard]] static prepared_mesh shared(const prepared_mesh& mesh);
 
+    /// Refers to arrays of which only the faces count, as those of a solid: never a cloud.
+    [[nodiscard]] static prepared_mesh of_faces(mesh_view view);
+
   private:
     static const void* get(const prepared_mesh& mesh, slot_name name,
                            function_ref<std::shared_ptr<const void>()> build);

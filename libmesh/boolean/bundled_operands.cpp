@@ -1,6 +1,7 @@
 #include <libmesh/arrange/arrange_pairs.hpp>
 #include <libmesh/base/parallel_invoke.hpp>
 #include <libmesh/base/part_of_progress.hpp>
+#include <libmesh/base/prepared_slots.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/boolean/bundled_operands.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -18,7 +19,8 @@ bundled_operands::bundled_operands(std::span<const mesh_ref> operands) {
     for (std::size_t k = 0; k < 2; ++k) {
         meshes[k] = k < operands.size() ? operands[k].prepared() : nullptr;
         if (meshes[k] != nullptr) continue;
-        own_[k] = prepared_mesh::borrow(k < operands.size() ? operands[k].view() : mesh_view{});
+        own_[k] =
+            base::prepared_slots::of_faces(k < operands.size() ? operands[k].view() : mesh_view{});
         meshes[k] = &own_[k];
         has_single_use_index_ |= k < operands.size();
     }
@@ -32,14 +34,15 @@ bundled_operands::bundled_operands(std::span<const mesh_view> operands)
     const bool join = operands.size() > 2;
     if (join) take_joined(0, join_operands(operands), true);
     for (std::size_t k = join ? 1 : 0; k < 2; ++k) {
-        own_[k] = prepared_mesh::borrow(!join && k < operands.size() ? operands[k] : mesh_view{});
+        own_[k] = base::prepared_slots::of_faces(!join && k < operands.size() ? operands[k]
+                                                                              : mesh_view{});
         take(k, cut_operand_of(own_[k]), own_[k]);
     }
 }
 
 bundled_operands::bundled_operands(std::span<const mesh_view> operands, std::uint32_t sheet)
     : has_single_use_index_(true) {
-    own_[0] = prepared_mesh::borrow(operands[sheet]);
+    own_[0] = base::prepared_slots::of_faces(operands[sheet]);
     take(0, cut_operand_of(own_[0]), own_[0]);
     all_[0].operand = sheet;
     std::vector<mesh_view> others(operands.begin(), operands.end());

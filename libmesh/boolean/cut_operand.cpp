@@ -128,7 +128,7 @@ cut_operand cut_operand_of(joined_operands&& joined, bool is_closed) {
         leave_out(degenerate, result.joined);
         result.without_fan = topology::points_without_fan(all);
     }
-    result.own = prepared_mesh::borrow(mesh_view(all));
+    result.own = base::prepared_slots::of_faces(all);
     return result;
 }
 

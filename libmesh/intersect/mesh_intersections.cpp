@@ -189,7 +189,7 @@ intersection_result between_prepared(const prepared_mesh& a, const prepared_mesh
 
 intersection_result mesh_intersections(const mesh_ref& a, const mesh_ref& b,
                                        const intersection_options& options) {
-    if (a.prepared() != nullptr || b.prepared() != nullptr)
+    if (detail::base::is_prepared_or_cloud(a, b))
         return between_prepared(detail::base::prepared_ref(a), detail::base::prepared_ref(b),
                                 options);
     const auto [tree_a, tree_b] = detail::intersect::overlap_trees(
@@ -203,10 +203,10 @@ bool detail::intersect::intersects(mesh_view a, const tree<3>& tree_a, mesh_view
 }
 
 bool intersects(const mesh_ref& a, const mesh_ref& b, const mesh_positions& positions) {
-    if (a.prepared() != nullptr || b.prepared() != nullptr) {
+    if (detail::base::is_prepared_or_cloud(a, b)) {
         const detail::base::prepared_ref of_a(a), of_b(b);
-        return detail::intersect::intersects(a.view(), build_face_tree(of_a, "intersects: a"),
-                                             b.view(), build_face_tree(of_b, "intersects: b"),
+        return detail::intersect::intersects(of_a.view(), build_face_tree(of_a, "intersects: a"),
+                                             of_b.view(), build_face_tree(of_b, "intersects: b"),
                                              positions);
     }
     const auto [tree_a, tree_b] =

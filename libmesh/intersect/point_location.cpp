@@ -188,6 +188,7 @@ void detail::intersect::check_closed(const char* function, mesh_view mesh) {
 
 bool detail::intersect::is_closed(const prepared_mesh& mesh) {
     constexpr base::slot<bool> slot{base::slot_name::closed};
+    if (mesh.is_cloud()) return false;
     return base::prepared_slots::get(
         mesh, slot, [&] { return !find_open_edge(weld::join_faces(mesh).of(mesh.view())); });
 }

@@ -267,7 +267,7 @@ std::optional<closest_points_result> find(const std::string& function, const pre
 std::optional<closest_points_result> find_between(const char* function, const mesh_ref& a,
                                                   const mesh_ref& b,
                                                   const mesh_positions& options) {
-    if (a.prepared() == nullptr && b.prepared() == nullptr)
+    if (!detail::base::is_prepared_or_cloud(a, b))
         return find(function, a.view(), b.view(), options);
     return find(function, *detail::base::prepared_ref(a), *detail::base::prepared_ref(b), options);
 }

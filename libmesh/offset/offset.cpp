@@ -1,6 +1,7 @@
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/base/prepared_slots.hpp>
 #include <libmesh/base/words.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/offset/cell_grid.hpp>
@@ -129,7 +130,7 @@ offset_result surface_at(mesh_view given, double distance, wanted_side side, boo
     const offset_options& options = asked.options;
     work_progress& progress = asked.progress;
     const double step = resolution_for(given, distance, side, asked);
-    const prepared_mesh around = prepared_mesh::borrow(given);
+    const prepared_mesh around = detail::base::prepared_slots::of_faces(given);
     offset_result result;
     result.certificate.precision = options.precision;
     result.distance = distance;

@@ -242,9 +242,9 @@ std::optional<deviation_result> deviation(const mesh_ref& given_a, const mesh_re
     const detail::base::prepared_ref a(given_a);
     const detail::base::prepared_refs all_fixed(given_fixed);
     const std::span<const prepared_mesh> fixed = all_fixed;
-    if (fixed.size() == 1) return deviation_from(a, fixed[0], !fixed[0].is_cloud(), options);
     const bool solid = std::any_of(fixed.begin(), fixed.end(),
                                    [](const prepared_mesh& one) { return !one.is_cloud(); });
+    if (fixed.size() == 1) return deviation_from(a, fixed[0], solid, options);
     return deviation_from(a, prepared_mesh(joined(fixed)), solid, options);
 }
 

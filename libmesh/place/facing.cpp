@@ -100,7 +100,7 @@ inside_sides sides_beside(const shape& of, std::uint32_t face) {
 }
 
 bool looks_inward(const shape& of, std::uint32_t face) {
-    if (of.prepared().is_cloud() || !of.closed()) return false;
+    if (!of.closed()) return false;
     const inside_sides sides = sides_beside(of, face);
     return sides.front && !sides.behind;
 }
@@ -112,8 +112,7 @@ namespace treeform {
 std::uint64_t count_inside_out(const mesh_ref& given_mesh) {
     const detail::base::prepared_ref mesh(given_mesh);
     detail::place::check_operand("count_inside_out", "mesh", mesh);
-    if (mesh.is_cloud() || mesh.view().faces.empty() || !detail::intersect::is_closed(mesh))
-        return 0;
+    if (mesh.view().faces.empty() || !detail::intersect::is_closed(mesh)) return 0;
     return detail::place::facing_of(mesh).inside_out();
 }
 

@@ -22,7 +22,8 @@ mesh_view shape::joined() const {
 }
 
 bool shape::closed() const {
-    if (vertices_ == vertex_identity::by_index) return !find_open_edge(mesh());
+    if (vertices_ == vertex_identity::by_index)
+        return !prepared_->is_cloud() && !find_open_edge(mesh());
     return intersect::is_closed(*prepared_);
 }
 

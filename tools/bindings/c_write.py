@@ -16,6 +16,8 @@ INCLUDE = ROOT / "tools/c/include/treeform/c"
 MADE = ROOT / "tools/c/made"
 #: Phrases of C++ docstrings, and those of C.
 IN_C = {"operand_element::none": "TREEFORM_NONE", "carry_sources": "treeform_carry",
+        "mesh_intersections": "treeform_intersections", "shared_search": "treeform_shared_search",
+        "shared_weld": "treeform_shared_weld", "relation": "treeform_relate",
         "convex_hull_result::faces": "treeform_hull::faces"}
 _BLOCK = re.compile(r"^// made of [^\n]+:\n((?://   [^\n]+\n)+).*?^// end\n", re.M | re.S)
 _STRUCT = re.compile(r"^typedef struct (treeform_\w+) \{\n(.*?)^\} \1;", re.M | re.S)
@@ -53,7 +55,6 @@ class Writer:
         self.values = {name for one in language.enums.values() for name, _ in one.values}
         self.known = {name for path in INCLUDE.glob("*.h")
                       for name in re.findall(r"\b(treeform_\w+)\(", path.read_text())}
-        self.known |= {one.c for one in language.bound.values()}
 
     # ---- words ----
 

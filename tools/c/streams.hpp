@@ -101,12 +101,13 @@ inline void shared_weld_tile(shared_weld& weld, std::size_t tile) {
 /// Welds the points along the borders of tiles, and writes `output`, completely or not at all. All
 /// tiles must be finished, and all other processes must have freed their handles. `result` may be
 /// null.
-inline void shared_weld_finish(shared_weld& weld, const std::string& output,
+inline void shared_weld_finish(treeform_shared_weld* weld, const char* output,
                                treeform_weld_stream_result** result) {
     if (result) *result = nullptr;
-    tf::weld_stream_outputs to = weld.outputs;
-    to.welded->first = output;
-    tf::weld_stream_result made = weld.steps.finish(to);
+    shared_weld& all = content(weld, "weld");
+    tf::weld_stream_outputs to = all.outputs;
+    to.welded->first = std::string(&need(output, "output"));
+    tf::weld_stream_result made = all.steps.finish(to);
     check(made.status);
     if (result) (void)give(std::move(made), result);
 }

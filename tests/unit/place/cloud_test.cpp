@@ -7,10 +7,18 @@
 #include <libmesh/geometry/contact_order.hpp>
 #include <libmesh/intersect/point_locator.hpp>
 #include <libmesh/nearness/closest_point_query.hpp>
+#include <treeform/mesh/boolean.hpp>
+#include <treeform/mesh/clash.hpp>
+#include <treeform/mesh/deviation.hpp>
 #include <treeform/mesh/distance.hpp>
+#include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/measure.hpp>
+#include <treeform/mesh/offset.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/repair.hpp>
+#include <treeform/mesh/self_intersections.hpp>
 #include <treeform/mesh/slide.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
 #include <treeform/tf.hpp>
@@ -180,6 +188,50 @@ TEST_CASE("clouds: what has been slid or separated penetrates nothing as written
         CHECK(out.end == tf::placement_end::moved_apart);
         CHECK(relation_by_points(cloud(out.points), solid) != mesh_relation::penetrating);
     }
+}
+
+TEST_CASE("clouds: points without faces are a cloud in every query, prepared or not") {
+    const tf::mesh solid = box(2, 2, 2);
+    const std::vector<tf::point3> points{{1, 1, 3}, {5, 5, 5}}, within{{1, 1, 1}}, on{{1, 1, 2}};
+    const auto prepared = tf::prepared_mesh::borrow({points});
+    for (const tf::mesh_ref& given : {tf::mesh_ref(points), tf::mesh_ref(prepared)}) {
+        CHECK(tf::distance(given, solid) == 1.0);
+        CHECK(tf::closest_points(solid, given)->face_b == 0);
+        CHECK(tf::closest_point(given, {4, 5, 5})->face == 1);
+        CHECK_FALSE(tf::intersects(given, solid));
+        CHECK(tf::mesh_intersections(given, solid).pairs.empty());
+        CHECK(tf::relation(given, solid).relation == mesh_relation::separate);
+        CHECK(tf::slide(given, solid, {0, 0, -1}).travel == 1.0);
+        CHECK(tf::deviation(given, solid)->distances[0] == 1.0);
+    }
+    const auto prepared_on = tf::prepared_mesh::borrow({on});
+    CHECK(tf::intersects(on, solid));
+    CHECK(tf::intersects(solid, prepared_on));
+    CHECK(tf::mesh_intersections(on, solid).pairs ==
+          tf::mesh_intersections(prepared_on, solid).pairs);
+    CHECK(tf::relation(within, solid).relation == mesh_relation::penetrating);
+    const auto clashes = tf::clash({solid, within});
+    REQUIRE(clashes.pairs.size() == 1);
+    CHECK_FALSE(clashes.pairs[0].volume.has_value());
+}
+
+TEST_CASE("clouds: they bound nothing, and add nothing to a solid") {
+    const tf::mesh solid = box(2, 2, 2);
+    const std::vector<tf::point3> points{{1, 1, 1}, {9, 9, 9}};
+    const auto prepared = tf::prepared_mesh::borrow({points});
+    const auto prepared_solid = tf::prepared_mesh::borrow(solid);
+    for (const tf::mesh_ref& given : {tf::mesh_ref(points), tf::mesh_ref(prepared)})
+        for (const tf::mesh_ref& other : {tf::mesh_ref(solid), tf::mesh_ref(prepared_solid)}) {
+            CHECK(tf::unite(given, other).value().faces.size() == solid.faces.size());
+            CHECK(tf::subtract(other, given).value().faces.size() == solid.faces.size());
+            CHECK(tf::unite({given, other, given}).value().faces.size() == solid.faces.size());
+            CHECK(tf::self_intersections(given).pairs.empty());
+            CHECK(tf::resolve_self_intersections(given).mesh.faces.empty());
+            CHECK(tf::hollow(given, 0.1, {}).mesh.faces.empty());
+            CHECK(tf::find_defects(given).degenerate_faces.empty());
+        }
+    const tf::mesh collapsed{{{0, 0, 0}, {1, 1, 1}}, {{0, 1, 1}}};  // its only face has no area
+    CHECK(tf::unite(solid, collapsed).value().faces.size() == solid.faces.size());
 }
 
 TEST_CASE("clouds: the same answers on any number of threads") {

@@ -112,10 +112,7 @@ treeform_code treeform_shared_weld_tile(treeform_shared_weld* weld, size_t tile)
 
 treeform_code treeform_shared_weld_finish(treeform_shared_weld* weld, const char* output,
                                           treeform_weld_stream_result** result) {
-    return glue::guard([&] {
-        glue::shared_weld_finish(glue::content(weld, "weld"),
-                                 std::string(&glue::need(output, "output")), result);
-    });
+    return glue::guard([&] { glue::shared_weld_finish(weld, output, result); });
 }
 
 treeform_code treeform_shared_weld_remove_folder(treeform_shared_weld* weld) {

@@ -169,9 +169,9 @@ class NearestPoints(NamedTuple):
 def closest_points(a: Body, b: Body, *, move_a: ArrayLike | None = None,
                    move_b: ArrayLike | None = None, radius: float = np.inf,
                    progress: Progress = None) -> NearestPoints | None:
-    """The nearest points of the surfaces `a` and `b`; None if one has no faces, or if they are
-    further apart than the radius. Surfaces count, not solids: inside a closed mesh, the distance is
-    that to its surface.
+    """The nearest points of the surfaces `a` and `b`; none if one is empty, or if they are further
+    apart than the radius. Surfaces count, not solids: inside a closed mesh, the distance is that to
+    its surface.
 
     Whether the meshes meet is decided exactly, on the coordinates as given or as moved. If not, the
     error of the distance is at most 16 u L, where u = 2^-53 and L is the largest distance of two
@@ -261,9 +261,9 @@ def clash(parts: Iterable[Body], clearance: float = 0.0, *, volumes: bool = True
     """The relations of all pairs of parts of an assembly.
 
     Exact, like `measure`: parts penetrate, touch, or are separate. Boxes only exclude pairs: linked
-    rings are clear if they do not meet, although their boxes overlap. Parts without faces are clear
-    of all. Distances are those of `distance`, and only computed with a clearance. A part is only
-    indexed if its box is near that of another.
+    rings are clear if they do not meet, although their boxes overlap. Empty parts are clear of all.
+    Distances are those of `distance`, and only computed with a clearance. A part is only indexed if
+    its box is near that of another.
 
     clearance: Parts nearer than this are too close; not squared.
     volumes: Compute the volume of the intersection of closed parts.

@@ -330,7 +330,7 @@ def deviation(a: Body, b: Body, *, band: tuple[float, float] | None = None, bins
     distances have no sign. Magnitudes have the error bound of `closest_point`, 16 u L; a distance
     may round to 0.
 
-    Raises ValueError if `a` has no points or `b` has no faces.
+    Raises ValueError if `a` or `b` is empty.
 
     `a` and `b` are each a mesh or a cloud (n, 3).
 

@@ -652,8 +652,8 @@ def pack(parts: Iterable[Body], size: ArrayLike, *, corner: ArrayLike = (0.0, 0.
     on while more plates are used than the area requires. The result is the try with the most parts
     placed, then with the least area unplaced, then with the fewest plates, then the earliest.
 
-    Parts without faces occupy no space: they are placed at their present position. Points without
-    faces move along with their part and are otherwise ignored. Equal parts are prepared once.
+    Empty parts occupy no space: they are placed at their present position. Points that no face uses
+    move along with their part and are otherwise ignored. Equal parts are prepared once.
 
     size: (2,) or (3,) the width, depth and height of a plate.
     corner: (3,) The corner of the first plate with the lowest x and y; its z is the bed.

@@ -104,7 +104,8 @@ class pose_run {
             work_.call_ended(found.status == tf::status::cancelled);
             clashing += found.clashing;
             boxes_apart += found.boxes_apart;
-            for (const auto& one : found.poses) enter(one, results);
+            for (std::size_t p = 0; p < found.poses.size(); ++p)
+                enter(found.poses[p], found.in_collision[p], results);
             some.clear();
         }
         if (results) results->write(text_);
@@ -114,11 +115,8 @@ class pose_run {
     std::optional<std::uint64_t> first{};
 
   private:
-    void enter(const std::vector<tf::pose_clash>& clashes, output_file* results) {
+    void enter(const std::vector<tf::pose_clash>& clashes, bool clash, output_file* results) {
         const json list = clashes_entry(all_, clashes);
-        const bool clash = std::any_of(clashes.begin(), clashes.end(), [&](const auto& one) {
-            return one.relation != tf::mesh_relation::touching || options_.clearance > 0.0;
-        });
         const json entry{{"pose", count}, {"clash", clash}, {"pairs", list}};
         if (clash && !first) first = count;
         if (!clashes.empty() && work_.entry["poses"]["list"].size() < most_listed)

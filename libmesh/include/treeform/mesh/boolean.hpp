@@ -196,7 +196,7 @@ struct TREEFORM_API boolean_result {
                                                   const boolean_options& options = {});
 
 /// Points in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
-/// exactly one of them (symmetric_difference). `b` of `subtract` may be several: `{b, c}`.
+/// exactly one of them (symmetric_difference).
 [[nodiscard]] TREEFORM_API boolean_result unite(const mesh_ref& a, const mesh_ref& b,
                                                 const boolean_options& options = {});
 [[nodiscard]] TREEFORM_API boolean_result intersection(const mesh_ref& a, const mesh_ref& b,
@@ -205,7 +205,7 @@ struct TREEFORM_API boolean_result {
                                                    const boolean_options& options = {});
 [[nodiscard]] TREEFORM_API boolean_result symmetric_difference(const mesh_ref& a, const mesh_ref& b,
                                                                const boolean_options& options = {});
-/// Points in any mesh (unite), in all of them (intersection): `unite(parts)`, `unite({a, b, c})`.
+/// The same of many meshes: `unite(parts)`, `unite({a, b, c})`; above, `subtract(a, {b, c})`.
 [[nodiscard]] TREEFORM_API boolean_result unite(const mesh_refs& meshes,
                                                 const boolean_options& options = {});
 [[nodiscard]] TREEFORM_API boolean_result intersection(const mesh_refs& meshes,

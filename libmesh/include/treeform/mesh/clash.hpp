@@ -88,7 +88,7 @@ struct clash_result {
 /// The relations of all pairs of parts of an assembly.
 ///
 /// Exact, like `relation`: parts penetrate, touch, or are separate. Boxes only exclude pairs:
-/// linked rings are clear if they do not meet, although their boxes overlap. Parts without faces
+/// linked rings are clear if they do not meet, although their boxes overlap. Empty parts
 /// are clear of all. Distances are those of `distance`, and only computed with a clearance. A part
 /// is only indexed if its box is near that of another.
 ///

@@ -88,7 +88,7 @@ struct deviation_result {
 /// distances have no sign. Magnitudes have the error bound of `closest_point`, 16 u L; a distance
 /// may round to 0.
 ///
-/// None if `a` has no points or `b` has no faces.
+/// None if `a` or `b` is empty.
 ///
 /// \throws std::invalid_argument for a point of `a` that is not finite; a face of `b` as in
 ///         `closest_point`; a band that is NaN or reversed; more than 2^20 bins

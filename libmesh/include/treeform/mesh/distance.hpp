@@ -36,7 +36,7 @@ struct closest_points_result {
     friend bool operator==(const closest_points_result&, const closest_points_result&) = default;
 };
 
-/// The nearest points of the surfaces `a` and `b`; none if one has no faces, or if they are further
+/// The nearest points of the surfaces `a` and `b`; none if one is empty, or if they are further
 /// apart than the radius. Surfaces count, not solids: inside a closed mesh, the distance is that to
 /// its surface.
 ///
@@ -70,7 +70,7 @@ struct closest_point_result {
     friend bool operator==(const closest_point_result&, const closest_point_result&) = default;
 };
 
-/// The point of the surface of `mesh` nearest to `query`; none if the mesh has no faces, or if all
+/// The point of the surface of `mesh` nearest to `query`; none if the mesh is empty, or if all
 /// faces are further away than `radius` (inclusive).
 ///
 /// The error of the distance is at most 16 u L, where u = 2^-53 and L is the larger of the distance

@@ -118,7 +118,7 @@ struct mesh_measure {
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::uint64_t count_inside_out(const mesh_ref& mesh);
 
-/// The relation of `a` and `b`, their distance and their nearest points. None if one has no faces,
+/// The relation of `a` and `b`, their distance and their nearest points. None if one is empty,
 /// or if they are separate and further apart than `options.radius`.
 ///
 /// The relation is exact (see `relation`), and so is whether a distance is 0. Other distances are

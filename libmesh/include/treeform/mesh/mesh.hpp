@@ -59,10 +59,10 @@ using face = std::array<std::uint32_t, 3>;
 
 namespace detail {
 template <class Rows, class Row, class... Number>
-concept array_of_rows = std::ranges::contiguous_range<const Rows> &&
-    (std::same_as<std::ranges::range_value_t<const Rows>, Row> || ... ||
-     (std::same_as<std::ranges::range_value_t<const Rows>, Number> ||
-      std::same_as<std::ranges::range_value_t<const Rows>, std::array<Number, 3>>));
+concept array_of_rows = std::ranges::contiguous_range<Rows> && std::ranges::borrowed_range<Rows> &&
+    (std::same_as<std::ranges::range_value_t<Rows>, Row> || ... ||
+     (std::same_as<std::ranges::range_value_t<Rows>, Number> ||
+      std::same_as<std::ranges::range_value_t<Rows>, std::array<Number, 3>>));
 
 template <class Row, class Rows>
 [[nodiscard]] std::span<const Row> as_rows(const Rows& rows) {
@@ -93,8 +93,7 @@ struct mesh_view {
     template <
         detail::array_of_rows<point3, double> Points,
         detail::array_of_rows<face, std::uint32_t, std::int32_t> Faces = std::span<const face>>
-    [[nodiscard]] static mesh_view of(const Points& points TREEFORM_LIFETIMEBOUND,
-                                      const Faces& faces TREEFORM_LIFETIMEBOUND = {}) {
+    [[nodiscard]] static mesh_view of(Points&& points, Faces&& faces = {}) {
         return {detail::as_rows<point3>(points), detail::as_rows<face>(faces)};
     }
 };
@@ -143,7 +142,9 @@ struct usable_mesh;
 
 namespace detail::base {
 class prepared_slots;
-}
+class prepared_ref;
+class prepared_refs;
+}  // namespace detail::base
 
 /// A mesh for many queries. Every function of meshes takes a prepared mesh as well, with the same
 /// results. The first query that needs an index (a tree over the faces, triangles in the order of
@@ -174,7 +175,7 @@ class TREEFORM_API prepared_mesh {
     /// The mesh that queries see: a cloud has a degenerate face for each point.
     [[nodiscard]] mesh_view view() const { return is_cloud() ? view_of_cloud() : view_; }
     /// Whether the mesh has points and no faces.
-    [[nodiscard]] bool is_cloud() const { return view_.faces.empty() && !view_.points.empty(); }
+    [[nodiscard]] bool is_cloud() const { return cloud_; }
 
     /// Number of indexes built so far. It does not grow when a query reuses its indexes.
     [[nodiscard]] std::uint64_t indexes_built() const;
@@ -187,6 +188,7 @@ class TREEFORM_API prepared_mesh {
     [[nodiscard]] mesh_view view_of_cloud() const;
 
     mesh_view view_{};  // as given
+    bool cloud_ = false;
     std::shared_ptr<state> state_;
 };
 
@@ -210,11 +212,17 @@ class mesh_ref {
         : view_(mesh.view_), prepared_(&mesh) {}
     TREEFORM_API mesh_ref(const usable_mesh& mesh TREEFORM_LIFETIMEBOUND);  // NOLINT
 
+    /// The mesh as given: a cloud has no faces.
     [[nodiscard]] mesh_view view() const { return view_; }
-    /// Null if the mesh is not prepared.
-    [[nodiscard]] const prepared_mesh* prepared() const { return prepared_; }
+    /// Whether the mesh has points and no faces.
+    [[nodiscard]] bool is_cloud() const { return view_.faces.empty() && !view_.points.empty(); }
+    /// Null if the mesh is not prepared, or a cloud.
+    [[nodiscard]] const prepared_mesh* prepared() const { return is_cloud() ? nullptr : prepared_; }
 
   private:
+    friend class detail::base::prepared_ref;
+    friend class detail::base::prepared_refs;
+
     mesh_view view_;
     const prepared_mesh* prepared_ = nullptr;
 };

@@ -186,8 +186,8 @@ struct packing {
 /// on while more plates are used than the area requires. The result is the try with the most parts
 /// placed, then with the least area unplaced, then with the fewest plates, then the earliest.
 ///
-/// Parts without faces occupy no space: they are placed at their present position. Points without
-/// faces move along with their part and are otherwise ignored. Equal parts are prepared once.
+/// Empty parts occupy no space: they are placed at their present position. Points that no face uses
+/// move along with their part and are otherwise ignored. Equal parts are prepared once.
 ///
 /// \throws std::invalid_argument naming the part with a corner out of range or not finite; for
 ///         options that are negative, NaN, or (except for the height and the seconds) not finite

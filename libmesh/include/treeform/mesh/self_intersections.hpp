@@ -83,7 +83,7 @@ struct intersection_options {
     /// For `self_intersections`: which corners count as shared.
     vertex_identity vertices = vertex_identity::by_coordinates;
     /// `mesh_intersections`: applied to each mesh first. The answer is exact for the moved corners,
-    /// which `transform::operator()` rounds to double. A prepared mesh is not changed.
+    /// which are rounded to double. A prepared mesh is not changed.
     transform<3> move_a{};
     transform<3> move_b{};
     bool first_only = false;  ///< only the first pair; the same on any number of threads

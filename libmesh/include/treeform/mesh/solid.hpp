@@ -11,8 +11,8 @@
 namespace treeform {
 
 /// A solid bounded by a mesh, or made from others by `+` or `|` (union), `*` or `&` (intersection),
-/// `-` (difference) and `^` (symmetric difference). As for numbers, `*` binds tighter than `+` and
-/// `-`, these than `&`, then `^`, then `|`; in formulas of `boolean`, `&` binds as `*`.
+/// `-` (difference) and `^` (symmetric difference). Put `&`, `^` and `|` in parentheses: C++
+/// evaluates them after `+` and `-`.
 ///
 /// Cheap to copy: copies share their data. Operators only build a formula. The first call of
 /// `result` or `mesh` evaluates all of it at once, exactly, and caches the result. Const functions

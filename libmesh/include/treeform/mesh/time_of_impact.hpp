@@ -22,9 +22,8 @@ namespace treeform {
 
 /// Start positions of the meshes, and limits.
 struct impact_options {
-    /// Applied to each mesh before the motion. Moved corners are computed by
-    /// `transform::operator()` and rounded; the result is exact for these coordinates. A prepared
-    /// mesh is not changed.
+    /// Applied to each mesh before the motion. The result is exact for the moved corners,
+    /// which are rounded to double. A prepared mesh is not changed.
     transform<3> move_a{};
     transform<3> move_b{};
     /// Ignore contacts after this time.

@@ -38,10 +38,10 @@ struct weld_condition {
 /// How to weld. Most callers only set `tolerance`.
 struct weld_options {
     double tolerance = 0.0;  ///< Euclidean, inclusive; 0: equal coordinates (-0 equals +0)
-    /// The rule that forms groups. By default, the rule `first`: visits points in order, and drops
-    /// a point if an earlier kept point is within the tolerance. The dropped point joins the
-    /// nearest of these kept points, and the earliest of equally near ones. So no two kept points
-    /// are within the tolerance, no point is further than the tolerance from the kept point of its
+    /// The rule that forms groups. By default, points are visited in order, and one is dropped
+    /// if an earlier kept point is within the tolerance. The dropped point joins the nearest of
+    /// these kept points, and the earliest of equally near ones. So no two kept points are within
+    /// the tolerance, no point is further than the tolerance from the kept point of its
     /// group, and welding the kept points again changes nothing. With `chain`, all points linked by
     /// steps of at most the tolerance are one group. Its earliest point is kept. A point may be
     /// many tolerances away from that point.

@@ -57,7 +57,7 @@ struct weld_stream_options {
     std::filesystem::path folder{};     ///< for the tiles; empty: the input's name and ".tiles"
     std::uint64_t points_per_tile = 0;  ///< approximate limit; 0: as the memory allows
     treeform::communicator communicator{};
-    /// `shared_weld`: whether other processes share the folder; not together with a communicator of
+    /// `shared_weld`: whether other processes share the folder; ignored with a communicator of
     /// several ranks.
     bool shared = true;
     /// Called with the step ("survey", "scatter", "weld", "borders", "write") and its completed
@@ -180,9 +180,9 @@ TREEFORM_API weld_stream_result weld_stream(const std::filesystem::path& input,
 /// All processes must use the same inputs and options. Steps throw as `weld_stream`. They return
 /// status::cancelled if `progress` returned false, else status::ok.
 ///
-/// For callers who report between steps, `scatter` is `take_survey`, then `scatter`; `finish` is
-/// `take_survey`, `weld` and `write`. Call each once, as long as they return status::ok. Without
-/// `weld_stream_options::shared`, one process calls all of them, and `weld` welds the tiles.
+/// To report between steps, call `take_survey`, `scatter`, `weld` and `write`, once each in this
+/// order, as long as they return status::ok. Without `weld_stream_options::shared`, one process
+/// calls them, and `weld` welds the tiles.
 class TREEFORM_API shared_weld {
   public:
     /// Creates and locks the folder. Unless it is shared, also removes

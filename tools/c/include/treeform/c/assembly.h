@@ -59,7 +59,7 @@ typedef struct treeform_clash_options {
     /// [ignored_count][2] pairs of parts to skip; any order; or null
     const uint32_t* ignored;
     size_t ignored_count;
-    treeform_vertices vertices;  ///< as in `treeform_relation`
+    treeform_vertices vertices;  ///< as in `treeform_relate`
     treeform_progress progress;
     void* progress_data;
     /// Compute the volume of the intersection of closed parts; default 1
@@ -123,9 +123,9 @@ typedef struct treeform_clashes {
 
 /// The relations of all pairs of parts of an assembly.
 ///
-/// Exact, like `treeform_relation`: parts penetrate, touch, or are separate. Boxes only exclude
-/// pairs: linked rings are clear if they do not meet, although their boxes overlap. Parts without
-/// faces are clear of all. Distances are those of `treeform_distance`, and only computed with a
+/// Exact, like `treeform_relate`: parts penetrate, touch, or are separate. Boxes only exclude
+/// pairs: linked rings are clear if they do not meet, although their boxes overlap. Empty parts
+/// are clear of all. Distances are those of `treeform_distance`, and only computed with a
 /// clearance. A part is only indexed if its box is near that of another.
 TREEFORM_C_API treeform_code treeform_clash(const treeform_mesh* const* parts, size_t count,
                                             const treeform_clash_options* options,

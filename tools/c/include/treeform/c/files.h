@@ -261,18 +261,18 @@ typedef struct treeform_written {
 } treeform_written;
 
 /// Writes a file to `path`, completely or not at all; "-" is standard output. Data that the format
-/// cannot store is omitted; `treeform_written` lists it.
+/// cannot store is omitted; `written` lists it.
 TREEFORM_C_API treeform_code treeform_write(const char* path, const treeform_file* file,
                                             const treeform_write_options* options,
                                             treeform_written** written);
 
-/// The same for a mesh without attributes. `treeform_written` may be null.
+/// The same for a mesh without attributes. `written` may be null.
 TREEFORM_C_API treeform_code treeform_write_mesh(const char* path, const treeform_mesh* mesh,
                                                  const treeform_write_options* options,
                                                  treeform_written** written);
 
 /// The mesh of a result, in its certified coordinates: fails instead of rounding them. Fails also
-/// if the certificate's status is not ok. `treeform_written` may be null.
+/// if the certificate's status is not ok. `written` may be null.
 TREEFORM_C_API treeform_code treeform_write_result(const char* path, const treeform_arrays* mesh,
                                                    const treeform_certificate* certificate,
                                                    const treeform_write_options* options,

@@ -67,9 +67,8 @@ typedef struct treeform_pairs {
 /// do not concern it.
 typedef struct treeform_intersection_options {
     size_t struct_size;
-    /// [12] `mesh_intersections`: applied to each mesh first. The answer is exact for the moved
-    /// corners, which `transform::operator()` rounds to double. A prepared mesh is not changed; or
-    /// null
+    /// [12] `treeform_intersections`: applied to each mesh first. The answer is exact for the
+    /// moved corners, which are rounded to double. A prepared mesh is not changed; or null
     const double* move_a;
     const double* move_b;  ///< [12]; or null
     int32_t first_only;    ///< only the first pair; the same on any number of threads
@@ -199,7 +198,7 @@ TREEFORM_C_API treeform_code treeform_write_curves(const char* path, const treef
 TREEFORM_C_API treeform_code treeform_color_pairs(treeform_file* file, const treeform_part* part,
                                                   const treeform_face_pair* pairs, size_t count);
 
-/// Options of `treeform_self_intersections_of_file` and `shared_search`.
+/// Options of `treeform_self_intersections_of_file` and `treeform_shared_search`.
 typedef struct treeform_stream_search_options {
     size_t struct_size;
     /// none: by coordinates for STL, else by index; a `treeform_vertices`, or -1
@@ -212,7 +211,8 @@ typedef struct treeform_stream_search_options {
     uint64_t faces_per_tile;  ///< approximate limit; 0: as the memory allows
     treeform_progress progress;
     void* progress_data;
-    const treeform_communicator* communicator;  ///< not for `shared_search`; or null
+    /// not for `treeform_shared_search`; or null
+    const treeform_communicator* communicator;
 } treeform_stream_search_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_stream_search_options_init(treeform_stream_search_options* options,

@@ -179,8 +179,8 @@ typedef struct treeform_packing {
 /// on while more plates are used than the area requires. The result is the try with the most parts
 /// placed, then with the least area unplaced, then with the fewest plates, then the earliest.
 ///
-/// Parts without faces occupy no space: they are placed at their present position. Points without
-/// faces move along with their part and are otherwise ignored. Equal parts are prepared once.
+/// Empty parts occupy no space: they are placed at their present position. Points that no face
+/// uses move along with their part and are otherwise ignored. Equal parts are prepared once.
 TREEFORM_C_API treeform_code treeform_pack(const treeform_mesh* const* parts, size_t count,
                                            const treeform_pack_options* options,
                                            treeform_packing** packing);

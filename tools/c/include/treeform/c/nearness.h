@@ -127,7 +127,7 @@ TREEFORM_C_API treeform_code treeform_raycast_all(const treeform_mesh* mesh,
                                                   const treeform_ray* rays, size_t count,
                                                   treeform_hits** hits);
 
-/// The relation of two meshes; see `treeform_relation`. The last two occur only with a clearance.
+/// The relation of two meshes; see `treeform_relate`. The last two occur only with a clearance.
 typedef int32_t treeform_mesh_relation;
 enum {
     TREEFORM_RELATION_SEPARATE = 0,
@@ -163,8 +163,8 @@ typedef struct treeform_relation {
     double barycentric_b[3];  ///< barycentric coordinates of `on_b` in that face
 } treeform_relation;
 
-/// Options of `treeform_relation`, `treeform_measure` and `treeform_penetration_depth`. Each
-/// ignores those that do not concern it.
+/// Options of `treeform_relate`, `treeform_measure` and `treeform_penetration_depth`. Each ignores
+/// those that do not concern it.
 typedef struct treeform_measure_options {
     size_t struct_size;
     /// For `treeform_measure`: ignore meshes farther apart than this; inclusive, not squared;
@@ -184,11 +184,11 @@ typedef struct treeform_measure_options {
 /// Sets the defaults.
 TREEFORM_C_API void treeform_measure_options_init(treeform_measure_options* options, size_t size);
 
-/// The relation of `a` and `b`, their distance and their nearest points. None if one has no faces,
-/// or if they are separate and further apart than `options.radius`.
+/// The relation of `a` and `b`, their distance and their nearest points. None if one is empty, or
+/// if they are separate and further apart than `options.radius`.
 ///
-/// The relation is exact (see `treeform_relation`), and so is whether a distance is 0. Other
-/// distances are rounded as in `treeform_distance`. If the two faces named by `treeform_relation`
+/// The relation is exact (see `treeform_relate`), and so is whether a distance is 0. Other
+/// distances are rounded as in `treeform_distance`. If the two faces named by `treeform_relate`
 /// meet, the points are on them.
 TREEFORM_C_API treeform_code treeform_measure(const treeform_mesh* a, const treeform_mesh* b,
                                               const treeform_measure_options* options,
@@ -210,7 +210,7 @@ TREEFORM_C_API treeform_code treeform_penetration_depth(const treeform_mesh* a,
 
 /// The number of components of a closed mesh that are inside out (of negative volume) without
 /// being cavities, that is, inside no other component. Components are faces linked by edges, with
-/// corners of equal coordinates joined. 0 for an open mesh and for a cloud. `treeform_relation`,
+/// corners of equal coordinates joined. 0 for an open mesh and for a cloud. `treeform_relate`,
 /// `treeform_clash` and `treeform_locate` treat such a component as the solid that it bounds;
 /// `treeform_repair` flips it.
 TREEFORM_C_API treeform_code treeform_count_inside_out(const treeform_mesh* mesh, uint64_t* result);
@@ -286,7 +286,7 @@ typedef struct treeform_deviation_result {
 /// inside, and distances have no sign. Magnitudes have the error bound of
 /// `treeform_closest_point`, 16 u L; a distance may round to 0.
 ///
-/// None if `a` has no points or `b` has no faces.
+/// None if `a` or `b` is empty.
 TREEFORM_C_API treeform_code treeform_deviation(const treeform_mesh* a,
                                                 const treeform_mesh* const* b, size_t count,
                                                 const treeform_deviation_options* options,

@@ -120,7 +120,7 @@ typedef struct treeform_place_options {
     int32_t close_in;
     /// largest number of contacts listed; for `separate`, for each fixed mesh; default 1000
     uint64_t limit;
-    treeform_vertices vertices;  ///< as in `treeform_relation`
+    treeform_vertices vertices;  ///< as in `treeform_relate`
     /// `separate`: try at most this many normals of faces; default 24
     uint64_t normals;
     /// `separate`: take the normals from at most this many pairs of faces for each fixed mesh;
@@ -282,9 +282,8 @@ typedef struct treeform_impact {
 /// Start positions of the meshes, and limits.
 typedef struct treeform_impact_options {
     size_t struct_size;
-    /// [12] Applied to each mesh before the motion. Moved corners are computed by
-    /// `transform::operator()` and rounded; the result is exact for these coordinates. A prepared
-    /// mesh is not changed; or null
+    /// [12] Applied to each mesh before the motion. The result is exact for the moved corners,
+    /// which are rounded to double. A prepared mesh is not changed; or null
     const double* move_a;
     const double* move_b;  ///< [12]; or null
     double latest;         ///< Ignore contacts after this time; default infinite

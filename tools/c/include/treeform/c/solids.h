@@ -140,8 +140,7 @@ TREEFORM_C_API treeform_code treeform_boolean_named(const treeform_mesh* const* 
 TREEFORM_C_API treeform_code treeform_names_in(const char* expression, treeform_strings** strings);
 
 /// Points in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
-/// exactly one of them (symmetric_difference). `b` of `treeform_subtract` may be several: `{b,
-/// c}`.
+/// exactly one of them (symmetric_difference).
 TREEFORM_C_API treeform_code treeform_unite(const treeform_mesh* a, const treeform_mesh* b,
                                             const treeform_boolean_options* options,
                                             treeform_boolean_result** result);
@@ -152,15 +151,13 @@ TREEFORM_C_API treeform_code treeform_subtract(const treeform_mesh* a, const tre
                                                treeform_boolean_result** result);
 
 /// Points in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
-/// exactly one of them (symmetric_difference). `b` of `treeform_subtract` may be several: `{b,
-/// c}`.
+/// exactly one of them (symmetric_difference).
 TREEFORM_C_API treeform_code treeform_intersection(const treeform_mesh* a, const treeform_mesh* b,
                                                    const treeform_boolean_options* options,
                                                    treeform_boolean_result** result);
 
 /// Points in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
-/// exactly one of them (symmetric_difference). `b` of `treeform_subtract` may be several: `{b,
-/// c}`.
+/// exactly one of them (symmetric_difference).
 TREEFORM_C_API treeform_code treeform_symmetric_difference(const treeform_mesh* a,
                                                            const treeform_mesh* b,
                                                            const treeform_boolean_options* options,

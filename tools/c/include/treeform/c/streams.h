@@ -6,7 +6,7 @@
 
 // made of the headers of C++:
 //   weld_stream_options
-/// Options of `treeform_weld_stream` and `shared_weld`.
+/// Options of `treeform_weld_stream` and `treeform_shared_weld`.
 typedef struct treeform_weld_stream_options {
     size_t struct_size;
     double tolerance;  ///< as in `treeform_weld_options`
@@ -43,6 +43,7 @@ typedef struct treeform_weld_stream_options {
     /// this and the next two: for a mesh, as in `treeform_weld_options`
     int32_t keep_seams;
     const char* const* ignored_seams;  ///< [ignored_seam_count]
+    size_t ignored_seam_count;
     int32_t keep_degenerate;
     /// [column_count] as in `treeform_read_options`
     const treeform_named_column* columns;
@@ -50,7 +51,6 @@ typedef struct treeform_weld_stream_options {
     /// join LAS files of different coordinate systems or time types; the output then has the
     /// system and type of the first
     int32_t mixed;
-    size_t ignored_seam_count;
 } treeform_weld_stream_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_weld_stream_options_init(treeform_weld_stream_options* options,
@@ -184,7 +184,7 @@ TREEFORM_C_API treeform_code treeform_point_writer_create(const char* path,
 TREEFORM_C_API treeform_code treeform_point_writer_write(treeform_point_writer* writer,
                                                          const treeform_file* block);
 
-/// Finishes the file; without this call, the file is removed. `treeform_written` may be null.
+/// Finishes the file; without this call, the file is removed. `written` may be null.
 TREEFORM_C_API treeform_code treeform_point_writer_commit(treeform_point_writer* writer,
                                                           treeform_written** written);
 // end

@@ -37,13 +37,13 @@ typedef struct treeform_weld_condition {
 typedef struct treeform_weld_options {
     size_t struct_size;
     double tolerance;  ///< Euclidean, inclusive; 0: equal coordinates (-0 equals +0)
-    /// The rule that forms groups. By default, the rule `first`: visits points in order, and drops
-    /// a point if an earlier kept point is within the tolerance. The dropped point joins the
-    /// nearest of these kept points, and the earliest of equally near ones. So no two kept points
-    /// are within the tolerance, no point is further than the tolerance from the kept point of its
-    /// group, and welding the kept points again changes nothing. With `chain`, all points linked
-    /// by steps of at most the tolerance are one group. Its earliest point is kept. A point may be
-    /// many tolerances away from that point.
+    /// The rule that forms groups. By default, points are visited in order, and one is dropped if
+    /// an earlier kept point is within the tolerance. The dropped point joins the nearest of these
+    /// kept points, and the earliest of equally near ones. So no two kept points are within the
+    /// tolerance, no point is further than the tolerance from the kept point of its group, and
+    /// welding the kept points again changes nothing. With `chain`, all points linked by steps of
+    /// at most the tolerance are one group. Its earliest point is kept. A point may be many
+    /// tolerances away from that point.
     int32_t chain;
     /// [V] or empty: points with different labels are never merged; or null
     const uint32_t* label;
@@ -58,6 +58,7 @@ typedef struct treeform_weld_options {
     /// points must agree, except for those named in `ignored_seams`.
     int32_t keep_seams;
     const char* const* ignored_seams;  ///< [ignored_seam_count]
+    size_t ignored_seam_count;
     treeform_weld_keep keep;
     /// for `lowest` and `highest`: a property as in `treeform_weld_condition`
     const char* keep_by;
@@ -73,7 +74,6 @@ typedef struct treeform_weld_options {
     int32_t keep_degenerate;  ///< keep faces that repeat a corner
     treeform_progress progress;
     void* progress_data;
-    size_t ignored_seam_count;
 } treeform_weld_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_weld_options_init(treeform_weld_options* options, size_t size);
