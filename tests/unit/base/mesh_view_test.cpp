@@ -31,7 +31,7 @@ TEST_CASE("mesh_view::of: rows, spans, signed numbers, and points alone") {
     CHECK(tf::mesh_view::of(std::span(rows.data()->data(), 6), faces).points[1].z == 3.0);
     CHECK(tf::mesh_view::of(points, faces).points.data() == points.data());
     CHECK(tf::mesh_view::of(rows).faces.empty());
-    CHECK(tf::mesh_view::of(std::vector<double>{}).points.empty());
+    CHECK(tf::mesh_view::of(std::span<const double>{}).points.empty());
 }
 
 TEST_CASE("mesh_view::of: numbers that are not rows of three are refused") {
@@ -40,5 +40,6 @@ TEST_CASE("mesh_view::of: numbers that are not rows of three are refused") {
     CHECK_THROWS_WITH_AS((void)tf::mesh_view::of(flat),
                          "treeform::mesh_view::of: 4 numbers are not rows of three",
                          std::invalid_argument);
-    CHECK_THROWS_AS((void)tf::mesh_view::of(std::vector<double>{}, corners), std::invalid_argument);
+    CHECK_THROWS_AS((void)tf::mesh_view::of(std::span<const double>{}, corners),
+                    std::invalid_argument);
 }

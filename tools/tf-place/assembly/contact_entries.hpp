@@ -19,7 +19,8 @@ void enter_nearest(json& entry, const tf::body_set& moving, const tf::body_set& 
 [[nodiscard]] json contact_entry(const tf::body_set& moving, const tf::body_set& fixed,
                                  const tf::placement_contact& c);
 
-/// "; the search ended after 12,345 pairs of faces: a shorter way may exist", where candidates were skipped.
+/// "; the search ended after 12,345 pairs of faces: a shorter way may exist", if candidates were
+/// skipped.
 [[nodiscard]] std::string skipped_in_words(const tf::search_effort& effort);
 
 }  // namespace tools

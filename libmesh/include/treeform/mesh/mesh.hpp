@@ -77,7 +77,6 @@ template <class Row, class Rows>
 }  // namespace detail
 
 /// A mesh that refers to the caller's arrays. Every corner is less than `points.size()`.
-///
 /// Points without faces are a point cloud. It can be measured, moved, welded and aligned like a
 /// mesh. Queries take each point as a degenerate face, so face numbers are point numbers. A cloud
 /// bounds no solid: it penetrates a mesh if a point is strictly inside the solid that the mesh
@@ -88,7 +87,6 @@ struct mesh_view {
 
     /// Refers to other arrays of the same bytes: x, y, z, x, y, z, ... as doubles, and three point
     /// numbers for each face, as 32-bit integers; or rows `std::array` of three of them.
-    ///
     /// \throws std::invalid_argument for a number of numbers that is not a multiple of 3
     template <
         detail::array_of_rows<point3, double> Points,
@@ -111,8 +109,7 @@ enum class vertex_identity : std::uint8_t {
     by_index         ///< corners with the same point number
 };
 
-/// A triangle mesh that owns its arrays. Every corner is less than `points.size()`. Without faces,
-/// a point cloud, as `mesh_view`.
+/// A triangle mesh or point cloud as `mesh_view`, which owns its arrays.
 struct mesh {
     std::vector<point3> points{};  ///< [V]
     std::vector<face> faces{};     ///< [F]
@@ -152,7 +149,6 @@ class prepared_refs;
 ///
 /// Queries are const and may run on several threads at once. One thread builds an index; threads
 /// that need it meanwhile help. A build that is cancelled or throws leaves no partial index.
-///
 /// Move-only. A moved-from object may only be destroyed or assigned to.
 class TREEFORM_API prepared_mesh {
   public:
@@ -174,8 +170,7 @@ class TREEFORM_API prepared_mesh {
 
     /// The mesh that queries see: a cloud has a degenerate face for each point.
     [[nodiscard]] mesh_view view() const { return is_cloud() ? view_of_cloud() : view_; }
-    /// Whether the mesh has points and no faces.
-    [[nodiscard]] bool is_cloud() const { return cloud_; }
+    [[nodiscard]] bool is_cloud() const { return cloud_; }  ///< points without faces
 
     /// Number of indexes built so far. It does not grow when a query reuses its indexes.
     [[nodiscard]] std::uint64_t indexes_built() const;
@@ -184,7 +179,6 @@ class TREEFORM_API prepared_mesh {
     friend class detail::base::prepared_slots;
     friend class mesh_ref;
     struct state;
-
     [[nodiscard]] mesh_view view_of_cloud() const;
 
     mesh_view view_{};  // as given
@@ -195,7 +189,6 @@ class TREEFORM_API prepared_mesh {
 /// Refers to a mesh, a prepared mesh, a view, a result of `as_mesh`, or points and faces. For
 /// parameters only; arguments convert implicitly. A temporary mesh lives until the call returns, so
 /// `unite(as_mesh(f), as_mesh(g))` is safe.
-///
 /// A prepared mesh keeps the indexes that a function builds; for any other mesh they are discarded
 /// after the call.
 class mesh_ref {
@@ -214,7 +207,6 @@ class mesh_ref {
 
     /// The mesh as given: a cloud has no faces.
     [[nodiscard]] mesh_view view() const { return view_; }
-    /// Whether the mesh has points and no faces.
     [[nodiscard]] bool is_cloud() const { return view_.faces.empty() && !view_.points.empty(); }
     /// Null if the mesh is not prepared, or a cloud.
     [[nodiscard]] const prepared_mesh* prepared() const { return is_cloud() ? nullptr : prepared_; }
