@@ -73,7 +73,7 @@ TEST_CASE("deviation: points outside, inside and on a box") {
     CHECK(found.highest == 3.0);
     CHECK(found.max_bound >= 3.0);
     CHECK(found.max_bound < 3.0 + 1e-12);
-    CHECK(found.back_max.value() == doctest::Approx(1.25));  // of (1, 0, 0) from the second point
+    CHECK(found.back_max.value() == doctest::Approx(std::sqrt(1.0625)));  // of (0, 0, 0)
     CHECK(found.band_counts == std::array<std::uint64_t, 3>{0, 2, 2});
 }
 
