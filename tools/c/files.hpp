@@ -179,8 +179,7 @@ inline tf::write_result write_mesh(const std::filesystem::path& path, const tree
 
 /// The mesh of a result, in its certified coordinates: fails instead of rounding them. Fails also
 /// if the certificate's status is not ok. `written` may be null.
-inline tf::write_result write_result(const std::filesystem::path& path,
-                                     const treeform_arrays* mesh,
+inline tf::write_result write_result(const std::filesystem::path& path, const treeform_arrays* mesh,
                                      const treeform_certificate* certificate,
                                      const tf::write_options& options) {
     struct certified_mesh {  // as `write` takes one
