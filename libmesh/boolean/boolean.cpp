@@ -393,11 +393,6 @@ boolean_result boolean(const mesh_refs& operands, const boolean_expression& expr
     return evaluate("boolean", operands.all(), expression, options);
 }
 
-boolean_result boolean(const mesh_refs& operands, const char* formula,
-                       const boolean_options& options) {
-    return boolean(operands, boolean_expression(formula, operands.size()), options);
-}
-
 boolean_result unite(const mesh_ref& a, const mesh_ref& b, const boolean_options& options) {
     return unite({a, b}, options);
 }

@@ -1,5 +1,6 @@
 #include <libmesh/base/operand_name.hpp>
 #include <libmesh/boolean/check_solid.hpp>
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/solid.hpp>
 #include <treeform/tree/parallel.hpp>
 
@@ -44,6 +45,8 @@ struct solid::formula {
 
 solid::solid(treeform::mesh&& owned)
     : solid(std::make_shared<const prepared_mesh>(std::move(owned))) {}
+
+solid::solid(usable_mesh&& owned) : solid(std::move(owned.mesh)) {}
 
 solid::solid(std::shared_ptr<const prepared_mesh> shared) {
     if (certificate found = detail::boolean::check_solid("solid", shared->view()); !found) {

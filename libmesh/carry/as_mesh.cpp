@@ -61,6 +61,11 @@ void join_points(usable_mesh& part, const part_options& options) {
     part.joined = before - part.mesh.points.size();
 }
 
+/// Of a cloud, drops the points that are not finite. Returns their number.
+std::size_t drop_non_finite_points(mesh& cloud) {
+    return std::erase_if(cloud.points, [](const point3& p) { return !detail::base::is_finite(p); });
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh) {
@@ -81,6 +86,11 @@ usable_mesh read_mesh(const std::filesystem::path& path) { return as_mesh(read(p
 usable_mesh as_mesh(mesh_file file) {
     detail::base::check_faces("as_mesh", file.mesh.points.size(), file.mesh.faces);
     usable_mesh result;
+    if (file.mesh.faces.empty()) {
+        result.non_finite = drop_non_finite_points(file.mesh);
+        result.mesh = std::move(file.mesh);
+        return result;
+    }
     const std::size_t before = file.mesh.faces.size();
     result.triangle_of_face = drop_unusable_faces(file.mesh);
     result.non_finite = before - file.mesh.faces.size();
@@ -96,6 +106,10 @@ usable_mesh as_mesh(mesh_file file) {
 usable_mesh usable_part(mesh given, std::vector<std::uint32_t> stored_face,
                         const part_options& options) {
     usable_mesh part{.mesh = std::move(given), .stored_face = std::move(stored_face)};
+    if (part.mesh.faces.empty()) {
+        part.non_finite = drop_non_finite_points(part.mesh);
+        return part;
+    }
     const mesh_defects defects = find_defects(part.mesh);
     const std::vector<std::uint32_t> unusable = unusable_faces(defects);
     part.degenerate = defects.degenerate_faces.size();
@@ -113,8 +127,12 @@ mesh join_meshes(std::span<const mesh_view> meshes) {
     mesh all;
     for (const mesh_view& one : meshes) {
         const auto offset = static_cast<std::uint32_t>(all.points.size());
+        const bool is_cloud = mesh_ref(one).is_cloud();
         for (const point3& p : one.points)
-            all.points.push_back(detail::base::is_finite(p) ? p : point3{});
+            if (detail::base::is_finite(p))
+                all.points.push_back(p);
+            else if (!is_cloud)
+                all.points.emplace_back();
         for (const auto& [a, b, c] : one.faces)
             all.faces.push_back({a + offset, b + offset, c + offset});
     }

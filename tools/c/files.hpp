@@ -26,8 +26,8 @@ inline tf::mesh_file read(const std::filesystem::path& path, std::string_view fo
 }
 
 /// The mesh of the file at `path`, in one call: corners with equal coordinates are one vertex,
-/// triangles that are not finite are dropped. To know which ones, use `treeform_read` and
-/// `treeform_as_mesh`.
+/// triangles that are not finite are dropped, as are such points of a cloud. To know which ones,
+/// use `treeform_read` and `treeform_as_mesh`.
 inline answer_of<treeform_mesh> read_mesh(const std::filesystem::path& path) {
     tf::mesh own = tf::read_mesh(path).mesh;
     const std::span<const tf::face> faces = own.faces;  // stay where they are when moved

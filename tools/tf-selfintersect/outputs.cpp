@@ -15,7 +15,7 @@ json counts_entry(const findings& result, const search_settings& settings) {
     json counts = json::object();
     for (std::size_t k = 0; k < tf::pair_kind_count; ++k) {
         const auto kind = static_cast<tf::pair_kind>(k);
-        counts[name_of(kind)] =
+        counts[tf::name_of(kind)] =
             or_null(settings.looked_for().contains(kind), result.found.counts[k]);
     }
     return counts;
@@ -36,7 +36,7 @@ json list_entry(const findings& result, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         const tf::face_pair& pair = result.found.pairs[i];
         list.push_back({result.part.face_in_file(pair.a), result.part.face_in_file(pair.b),
-                        name_of(pair.kind), result.region_of(pair)});
+                        tf::name_of(pair.kind), result.region_of(pair)});
     }
     return list;
 }
@@ -78,8 +78,8 @@ void write_pairs(const job& work, const std::filesystem::path& path, const findi
         for (std::size_t i = 0; i < result.found.pairs.size(); ++i) {
             const tf::face_pair& pair = result.found.pairs[i];
             text += std::to_string(result.part.face_in_file(pair.a)) + "," +
-                    std::to_string(result.part.face_in_file(pair.b)) + "," + name_of(pair.kind) +
-                    "," + std::to_string(result.region_of(pair)) + "\n";
+                    std::to_string(result.part.face_in_file(pair.b)) + "," +
+                    tf::name_of(pair.kind) + "," + std::to_string(result.region_of(pair)) + "\n";
             file.write_full_pieces(text);
         }
         file.write(text);

@@ -14,9 +14,6 @@
 
 namespace tools {
 
-/// "crossing", as in reports and CSV files.
-[[nodiscard]] const char* name_of(tf::pair_kind kind);
-
 /// "41 self-intersecting pairs of 26,306 faces: 41 crossing, in 3 regions".
 [[nodiscard]] std::string verdict(const findings& result, const search_settings& settings);
 

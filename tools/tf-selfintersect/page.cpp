@@ -26,7 +26,7 @@ std::vector<scene_class> classes_of(const findings& result) {
     for (const tf::face_pair& pair : result.found.pairs)
         ++counts[static_cast<std::size_t>(pair.kind)];
     for (std::size_t k = 0; k < tf::pair_kind_count; ++k)
-        classes.push_back({name_of(static_cast<tf::pair_kind>(k)), tf::mark_colors[k + 1],
+        classes.push_back({tf::name_of(static_cast<tf::pair_kind>(k)), tf::mark_colors[k + 1],
                            counted(counts[k], "pair", "pairs")});
     classes.push_back({"curves", "#10131a"});
     return classes;
@@ -73,7 +73,7 @@ scene_table regions_of(const findings& result, const std::vector<tf::box3>& plac
     std::vector<std::set<std::string>> kinds(count);
     for (std::size_t r = 0; r < count; ++r)
         for (const std::uint32_t i : result.regions[r].pairs)
-            kinds[r].insert(name_of(result.found.pairs[i].kind));
+            kinds[r].insert(tf::name_of(result.found.pairs[i].kind));
     scene_table table{
         .title = "Regions",
         .columns = {"region", "kinds", "pairs", "faces", "center", "box", "components"}};

@@ -2,15 +2,7 @@
 #include "tools/tf-selfintersect/outputs.hpp"
 #include <treeform/tf.hpp>
 
-#include <array>
-
 namespace tools {
-
-const char* name_of(tf::pair_kind kind) {
-    constexpr std::array<const char*, tf::pair_kind_count> names{
-        "crossing", "overlap", "fold", "duplicate", "pierce", "touching", "degenerate"};
-    return names[static_cast<std::size_t>(kind)];
-}
 
 std::string verdict(const findings& result, const search_settings& settings) {
     const auto& counts = result.found.counts;
@@ -19,7 +11,7 @@ std::string verdict(const findings& result, const search_settings& settings) {
         const tf::face_pair& pair = result.found.pairs.front();
         return "self-intersecting: faces " + std::to_string(result.part.face_in_file(pair.a)) +
                " and " + std::to_string(result.part.face_in_file(pair.b)) + " (" +
-               name_of(pair.kind) + "); stopped at the first";
+               tf::name_of(pair.kind) + "); stopped at the first";
     }
     std::string text = "no self-intersections in ";
     if (pairs > 0)
@@ -29,7 +21,7 @@ std::string verdict(const findings& result, const search_settings& settings) {
     for (std::size_t k = 0; k < tf::pair_kind_count; ++k) {
         const auto kind = static_cast<tf::pair_kind>(k);
         if (!settings.counted().contains(kind) || counts[k] == 0) continue;
-        text += separator + grouped(counts[k]) + " " + name_of(kind);
+        text += separator + grouped(counts[k]) + " " + tf::name_of(kind);
         separator = ", ";
     }
     if (pairs > 0) text += ", in " + counted(result.regions.size(), "region", "regions");

@@ -1,6 +1,10 @@
+#include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/placement.hpp>
+#include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/self_intersections.hpp>
 #include <treeform/mesh/solid.hpp>
 #include <treeform/tf.hpp>
 
@@ -8,6 +12,7 @@
 #include <support/solids.hpp>
 
 #include <memory>
+#include <string>
 #include <utility>
 
 namespace {
@@ -34,6 +39,19 @@ TEST_CASE("solid: a formula has the volume of its set operations, and is arrange
     CHECK(tf::signed_volume(first.value()) == 4.0);
     CHECK(&tf::solid(all).result() == &first);
     CHECK(all.mesh() == tf::boolean({a.mesh(), b.mesh(), c.mesh()}, {"(a+b)-a*b+c", 3}).mesh);
+}
+
+TEST_CASE("solid: from the mesh of a file; a formula as a string; names of kinds") {
+    const tf::solid read(tf::usable_mesh{.mesh = box_at(0)});
+    CHECK(tf::signed_volume(read.mesh()) == 2.0);
+    const std::string formula = "a-b";
+    CHECK(tf::boolean({box_at(0), box_at(1)}, formula).mesh == (box(0) - box(1)).mesh());
+    const auto prepared = tf::prepared_mesh(box_at(0));
+    CHECK_FALSE(tf::find_open_edge(prepared).has_value());
+    CHECK(tf::name_of(tf::pair_kind::touching) == std::string("touching"));
+    CHECK(tf::name_of(tf::placement_end::cancelled) == std::string("cancelled"));
+    CHECK(tf::name_of(tf::placement_end::too_far) == std::string("too-far"));
+    CHECK(tf::name_of(tf::location::boundary) == std::string("boundary"));
 }
 
 TEST_CASE("solid: an open mesh is refused with the place where it is open") {

@@ -33,6 +33,16 @@ TEST_CASE("as_mesh: equal corners become the lowest of them, under the numbers o
     CHECK(m.face_in_file(1) == 1);
 }
 
+TEST_CASE("as_mesh: points of a cloud that are not finite go, and are counted") {
+    const tf::usable_mesh m =
+        tf::as_mesh(file_of({{{NAN, 0, 0}, {1, 0, 0}, {0, INFINITY, 0}, {2, 0, 0}}, {}}));
+    CHECK(m.mesh.points == std::vector<tf::point3>{{1, 0, 0}, {2, 0, 0}});
+    CHECK(m.non_finite == 2);
+    CHECK(tf::usable_part({{{NAN, 0, 0}, {1, 0, 0}}, {}}, {}).mesh.points.size() == 1);
+    const tf::mesh joined = tf::join_meshes(std::vector<tf::mesh_view>{m.mesh, {}});
+    CHECK(joined.points.size() == 2);
+}
+
 TEST_CASE(
     "as_mesh: faces that are not finite go, and the rest is known by the numbers of the file") {
     tf::mesh_file file = file_of({{{NAN, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {INFINITY, 1, 0}},

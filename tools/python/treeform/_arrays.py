@@ -179,6 +179,8 @@ def rows(values: ArrayLike, width: int, name: str) -> Floats:
 
 def points(values: ArrayLike, name: str = "vertices") -> Floats:
     """`values` as points, (n, 3)."""
+    if name != "vertices" and hasattr(values, "faces"):
+        raise ValueError(f"{name}: got a mesh; if a mesh is taken too, the order is (mesh, {name})")
     return rows(values, 3, name)
 
 

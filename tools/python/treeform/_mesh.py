@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Protocol, Tuple, TypeVar, Union
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core, _others
 from ._arrays import Floats, Ids
 from ._core import Attributes
-from ._errors import need, require
+from ._errors import require
 from ._others import arrays_of
 from ._results import Certificate, Result
 
@@ -62,6 +63,7 @@ class HasMesh(Protocol):
 
 
 _Operator = Callable[[Any, "MeshLike"], "Mesh"]
+_Take = Callable[[Any], _core.HeldMesh]
 
 
 def _operators(sign: str) -> tuple[_Operator, _Operator]:
@@ -85,7 +87,10 @@ class Mesh:
     `a | b`, `a - b`, `a & b` and `a ^ b` are exact set operations on solids (see `boolean`);
     `a + b` is `a | b`, and `a * b` is `a & b`. They are evaluated together when the result is first
     used: `(a | b) - c` is cut and rounded only once. An operand that does not bound a solid raises
-    NotSolidError.
+    NotSolidError. For a file of floats, such as STL: `boolean("a-b", a, b, precision="float32")`.
+
+    attributes: columns and other data, copied: `Attributes()`, with columns set by
+    `attributes.vertex["q"] = values`.
 
     >>> import numpy as np
     >>> import treeform
@@ -103,7 +108,9 @@ class Mesh:
     def __init__(self, vertices: ArrayLike, faces: ArrayLike = (),
                  attributes: Attributes | None = None) -> None:
         if attributes is not None:
-            need(attributes, "attributes", Attributes)
+            attributes = copy(_arrays.expect(
+                isinstance(attributes, Attributes), attributes, "attributes",
+                "Attributes (a = treeform.Attributes(); a.vertex['q'] = values)"))
         self._formula: _Formula | None = None
         self._set(_arrays.points(vertices), _arrays.faces(faces), attributes, None)
 
@@ -293,12 +300,34 @@ def held_body(body: Any) -> _core.HeldMesh:
     return held(body) if points is None else _core.HeldMesh(points)
 
 
+def each(many: Any, name: str, take: _Take = held_body) -> list[_core.HeldMesh]:
+    """Several bodies for the extension. Errors have the number of the body."""
+    pair = _is_mesh(many)
+    if pair or hasattr(many, "vertices") or hasattr(many, "mesh"):
+        what = "(vertices, faces)" if pair else f"a {type(many).__name__}"
+        raise ValueError(f"{name}: expected a list of meshes, not {what}")
+    made = []
+    for number, one in enumerate(_arrays.several(many, name)):
+        try:
+            made.append(take(one))
+        except ValueError as error:
+            error.args = (f"{name}[{number}]: {error}".replace(": mesh: ", ": "),)
+            raise
+    return made
+
+
+def _is_mesh(many: Any) -> bool:
+    """Whether `many` is (vertices, faces), not two clouds."""
+    faces = np.asarray(many[1]) if _arrays.is_pair(many) else np.empty(0)
+    return faces.dtype.kind in "iu" and 0 < faces.size and faces.max() <= max(len(many[0]), 4)
+
+
 def bodies(fixed: Any) -> list[_core.HeldMesh]:
     """One body, or a list of them."""
     if fixed is None:
         return []
     if isinstance(fixed, (list, tuple)) and not _arrays.is_pair(fixed):
-        return [held_body(one) for one in fixed]
+        return each(fixed, "fixed")
     return [held_body(fixed)]
 
 

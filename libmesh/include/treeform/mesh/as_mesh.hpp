@@ -23,7 +23,8 @@ struct usable_mesh {
     std::vector<std::uint32_t> triangle_of_face{};
     /// [triangles] number of each triangle's face in the file; empty: the same numbers.
     std::vector<std::uint32_t> stored_face{};
-    std::uint64_t non_finite = 0;  ///< triangles with a coordinate that is not finite
+    /// Triangles with a coordinate that is not finite; of a cloud, such points.
+    std::uint64_t non_finite = 0;
     /// From `usable_part`: [F] the connected component of the whole mesh that each face is in.
     std::vector<std::uint32_t> component{};
     std::uint64_t degenerate = 0;  ///< from `usable_part`: triangles that are a segment or a point
@@ -45,7 +46,8 @@ struct usable_mesh {
 
 /// The mesh of `file`. Triangles with a NaN or infinite coordinate are dropped. Corners with equal
 /// coordinates become one vertex. Vertices keep the numbers of the file; of equal vertices, faces
-/// use the lowest. Coordinates that are not finite become 0; no face uses them.
+/// use the lowest. Coordinates that are not finite become 0; no face uses them. Of a point cloud,
+/// points that are not finite are dropped; `usable_mesh::non_finite` is their number.
 ///
 /// \throws std::invalid_argument naming a face with a corner out of range
 /// \cost   O(V + F)

@@ -7,6 +7,7 @@
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/parallel.hpp>
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -20,17 +21,15 @@ namespace treeform {
 
 /// A formula over operands a, b, c, ..., z (then aa, ab, ...): `+` or `|` union, `*` or `&`
 /// intersection, `-` difference, `^` symmetric difference, and parentheses. `*` and `&` bind
-/// tighter than the others, which are evaluated from left to right. Blanks and the case of letters
-/// do not matter.
+/// tighter than the others, evaluated from left to right. Blanks and case of letters do not matter.
 class TREEFORM_API boolean_expression {
   public:
     /// \throws std::invalid_argument naming the position, from 1, of a syntax error or of an
     ///         operand beyond `operand_count`
     /// \cost   O(characters) time, for any nesting depth
     boolean_expression(std::string_view text, std::size_t operand_count);
-    /// The same with names instead of letters, "body-(bolt_1+'left bolt')": words of letters,
-    /// digits, underscores and dots, or any text in quotes. A repeated name means its first
-    /// operand.
+    /// The same with names for letters, "body-(bolt_1+'left bolt')": words of letters, digits,
+    /// underscores and dots, or any text in quotes. A repeated name means its first operand.
     boolean_expression(std::string_view text, std::span<const std::string> names);
     /// The names in a formula, each once, in the order of first use.
     [[nodiscard]] static std::vector<std::string> names_in(std::string_view text);
@@ -86,8 +85,7 @@ struct boolean_options {
     /// two. Uncut faces are not changed. `split` keeps all cuts.
     bool keep_cuts = false;
     bool simplify = false;  ///< merge all coplanar faces of the result, also those not cut
-    /// [faces of all operands, one after the other] or empty: only faces with equal numbers are
-    /// merged.
+    /// [faces of all operands in order] or empty: only faces with equal numbers are merged.
     std::span<const std::uint32_t> face_groups{};
     /// Compute `boolean_result::volumes`; only for two operands, without filled gaps.
     bool volumes = false;
@@ -192,11 +190,13 @@ struct TREEFORM_API boolean_result {
                                                   const boolean_expression& expression,
                                                   const boolean_options& options = {});
 /// The same with a formula: `boolean({a, b, c}, "(a-b)*c")`. See `boolean_expression`.
-[[nodiscard]] TREEFORM_API boolean_result boolean(const mesh_refs& operands, const char* formula,
-                                                  const boolean_options& options = {});
+template <std::convertible_to<std::string_view> Text>
+[[nodiscard]] boolean_result boolean(const mesh_refs& operands, const Text& formula,
+                                     const boolean_options& options = {}) {
+    return boolean(operands, boolean_expression(formula, operands.size()), options);
+}
 
-/// Points in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
-/// exactly one of them (symmetric_difference).
+/// In this order: points in `a` or `b`, in both, in `a` but not in `b`, in exactly one of them.
 [[nodiscard]] TREEFORM_API boolean_result unite(const mesh_ref& a, const mesh_ref& b,
                                                 const boolean_options& options = {});
 [[nodiscard]] TREEFORM_API boolean_result intersection(const mesh_ref& a, const mesh_ref& b,

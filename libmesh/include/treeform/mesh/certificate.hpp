@@ -23,7 +23,7 @@ template <class Kind>
 inline constexpr std::array<const char*, 0> names_of{};
 }
 
-/// The name of an enumerator of `status`, `mesh_relation` or `align_end`: "open-input".
+/// The name of an enumerator of results: `name_of(status::open_input)` is "open-input".
 template <class Kind>
 requires(detail::names_of<Kind>.size() > 0) [[nodiscard]] constexpr const char* name_of(Kind kind) {
     return detail::names_of<Kind>[static_cast<std::size_t>(kind)];

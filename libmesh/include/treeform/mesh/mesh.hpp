@@ -170,8 +170,8 @@ class TREEFORM_API prepared_mesh {
 
     /// The mesh that queries see: a cloud has a degenerate face for each point.
     [[nodiscard]] mesh_view view() const { return is_cloud() ? view_of_cloud() : view_; }
+    operator mesh_view() const { return view_; }            // NOLINT: as given
     [[nodiscard]] bool is_cloud() const { return cloud_; }  ///< points without faces
-
     /// Number of indexes built so far. It does not grow when a query reuses its indexes.
     [[nodiscard]] std::uint64_t indexes_built() const;
 

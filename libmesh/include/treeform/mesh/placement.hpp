@@ -39,6 +39,21 @@ enum class placement_end : std::uint8_t {
     out_of_range,        ///< no place: coordinates overflow the precision
     cancelled            ///< stopped by `progress`; the rest is invalid
 };
+template <>
+inline constexpr auto detail::names_of<placement_end> = std::array{"contact",
+                                                                   "bed",
+                                                                   "unchanged",
+                                                                   "moved-apart",
+                                                                   "nothing-met",
+                                                                   "too-far",
+                                                                   "starts-penetrating",
+                                                                   "starts-too-near",
+                                                                   "starts-touching",
+                                                                   "starts-below-bed",
+                                                                   "not-representable",
+                                                                   "too-many-steps",
+                                                                   "out-of-range",
+                                                                   "cancelled"};
 
 /// A pair of faces that meet, or are at the clearance, at the place.
 struct placement_contact {

@@ -2,6 +2,7 @@
 /// \file
 /// Whether points are inside, outside or on a closed mesh; the same for closed curves in the plane.
 
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/tree/detail/export.hpp>
 #include <treeform/tree/tree.hpp>
@@ -17,6 +18,8 @@ namespace treeform {
 
 /// The position of a point relative to a surface or curve.
 enum class location : std::uint8_t { outside, inside, boundary };
+template <>
+inline constexpr auto detail::names_of<location> = std::array{"outside", "inside", "boundary"};
 
 /// The result of `locate`.
 struct point_location {

@@ -1,7 +1,6 @@
 #pragma once
 /// \file
-/// Self-intersections: the pairs of faces that meet, and the regions that they form; for meshes,
-/// and for files larger than memory.
+/// Self-intersections: pairs of faces that meet, and their regions; also in files beyond memory.
 
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/certificate.hpp>
@@ -25,8 +24,7 @@
 
 namespace treeform {
 
-/// How two faces meet. Each pair has exactly one kind. A shared corner is a corner of both faces;
-/// see `vertex_identity`.
+/// How two faces meet, one kind a pair. A shared corner is a corner of both (`vertex_identity`).
 enum class pair_kind : std::uint8_t {
     crossing,   ///< no shared corner; the interiors pass through each other
     overlap,    ///< at most one shared corner; coplanar, with a common area
@@ -37,6 +35,9 @@ enum class pair_kind : std::uint8_t {
     degenerate  ///< the faces meet, and one of them has no area
 };
 inline constexpr std::size_t pair_kind_count = 7;
+template <>
+inline constexpr auto detail::names_of<pair_kind> =
+    std::array{"crossing", "overlap", "fold", "duplicate", "pierce", "touching", "degenerate"};
 
 /// A set of kinds: `pair_kinds::all - pair_kind::touching`.
 class pair_kinds {

@@ -23,6 +23,7 @@ class TREEFORM_API solid {
     ///         must, with the open edges; std::invalid_argument as `boolean`
     /// \cost   as `check_solid`
     explicit solid(treeform::mesh&& owned);
+    explicit solid(usable_mesh&& owned);
     /// The same for a copy.
     explicit solid(const treeform::mesh& mesh) : solid(treeform::mesh(mesh)) {}
     /// The same for a mesh that is shared with other code.

@@ -24,8 +24,8 @@ TREEFORM_C_API treeform_code treeform_read(const char* path, const char* format,
                                            treeform_file** file);
 
 /// The mesh of the file at `path`, in one call: corners with equal coordinates are one vertex,
-/// triangles that are not finite are dropped. To know which ones, use `treeform_read` and
-/// `treeform_as_mesh`.
+/// triangles that are not finite are dropped, as are such points of a cloud. To know which ones,
+/// use `treeform_read` and `treeform_as_mesh`.
 TREEFORM_C_API treeform_code treeform_read_mesh(const char* path, treeform_mesh** mesh);
 
 /// How to read.
@@ -305,8 +305,9 @@ typedef struct treeform_part {
     const uint32_t* component;
     /// from `treeform_usable_part`: triangles that are a segment or a point
     uint64_t degenerate;
-    uint64_t joined;      ///< from `treeform_usable_part`: points merged by tolerance
-    uint64_t non_finite;  ///< triangles with a coordinate that is not finite
+    uint64_t joined;  ///< from `treeform_usable_part`: points merged by tolerance
+    /// Triangles with a coordinate that is not finite; of a cloud, such points.
+    uint64_t non_finite;
 } treeform_part;
 
 /// Options of `treeform_usable_part`.

@@ -16,8 +16,7 @@ typedef struct treeform_segments {
 
 // made of the headers of C++:
 //   pair_kind
-/// How two faces meet. Each pair has exactly one kind. A shared corner is a corner of both faces;
-/// see `vertex_identity`.
+/// How two faces meet, one kind a pair. A shared corner is a corner of both (`vertex_identity`).
 typedef int32_t treeform_pair_kind;
 enum {
     /// no shared corner; the interiors pass through each other

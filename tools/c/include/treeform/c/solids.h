@@ -42,8 +42,8 @@ typedef struct treeform_boolean_options {
     int32_t simplify;  ///< merge all coplanar faces of the result, also those not cut
     /// Compute `treeform_boolean_result::volumes`; only for two operands, without filled gaps.
     int32_t volumes;
-    /// [faces of all operands, one after the other] or empty: only faces with equal numbers are
-    /// merged; or null
+    /// [faces of all operands in order] or empty: only faces with equal numbers are merged; or
+    /// null
     const uint32_t* face_groups;
     size_t face_group_count;
     treeform_progress progress;
@@ -139,8 +139,7 @@ TREEFORM_C_API treeform_code treeform_boolean_named(const treeform_mesh* const* 
 /// The names in a formula, each once, in the order of first use.
 TREEFORM_C_API treeform_code treeform_names_in(const char* expression, treeform_strings** strings);
 
-/// Points in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
-/// exactly one of them (symmetric_difference).
+/// In this order: points in `a` or `b`, in both, in `a` but not in `b`, in exactly one of them.
 TREEFORM_C_API treeform_code treeform_unite(const treeform_mesh* a, const treeform_mesh* b,
                                             const treeform_boolean_options* options,
                                             treeform_boolean_result** result);
@@ -150,14 +149,12 @@ TREEFORM_C_API treeform_code treeform_subtract(const treeform_mesh* a, const tre
                                                const treeform_boolean_options* options,
                                                treeform_boolean_result** result);
 
-/// Points in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
-/// exactly one of them (symmetric_difference).
+/// In this order: points in `a` or `b`, in both, in `a` but not in `b`, in exactly one of them.
 TREEFORM_C_API treeform_code treeform_intersection(const treeform_mesh* a, const treeform_mesh* b,
                                                    const treeform_boolean_options* options,
                                                    treeform_boolean_result** result);
 
-/// Points in `a` or `b` (unite), in both (intersection), in `a` but not in `b` (subtract), in
-/// exactly one of them (symmetric_difference).
+/// In this order: points in `a` or `b`, in both, in `a` but not in `b`, in exactly one of them.
 TREEFORM_C_API treeform_code treeform_symmetric_difference(const treeform_mesh* a,
                                                            const treeform_mesh* b,
                                                            const treeform_boolean_options* options,
