@@ -3,6 +3,7 @@
 #include <libmesh/base/max_displacement.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/point_math.hpp>
+#include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/resize_all.hpp>
 #include <libmesh/base/used_points.hpp>
 #include <libmesh/base/work_progress.hpp>
@@ -382,7 +383,8 @@ void look_at_stability(laid_flat& laid, mesh_view mesh, const std::vector<std::u
 }  // namespace
 
 std::optional<laid_flat> lay_flat(const mesh_ref& given, const lay_flat_options& options) {
-    const mesh_view mesh = given.view();
+    const detail::base::prepared_ref held(given);  // a cloud has faces to touch the bed with
+    const mesh_view mesh = held.view();
     check(mesh, options);
     const std::vector<std::uint32_t> ids = points_that_count(mesh);
     detail::base::work_progress work(options.progress);

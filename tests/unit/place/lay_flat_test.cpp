@@ -256,6 +256,16 @@ TEST_CASE("lay flat: points that no face uses move along and do not count") {
     CHECK(distance_between(with.points[8], with.matrix(mesh.points[8])) < 1e-12);
 }
 
+TEST_CASE("lay flat: a cloud lies on its lowest point, prepared or not") {
+    const std::vector<tf::point3> corners = test::box(3, 2, 1).points;
+    const auto laid = tf::lay_flat(corners);
+    REQUIRE(laid->contact.has_value());
+    CHECK(laid->contact->point.z == 0.0);
+    const auto prepared = tf::lay_flat(tf::prepared_mesh::borrow({corners}));
+    CHECK(prepared->points == laid->points);
+    CHECK(prepared->contact->moving == laid->contact->moving);
+}
+
 TEST_CASE("lay flat: there is no side to a line, a point or nothing") {
     CHECK_FALSE(tf::lay_flat(tf::mesh_view{}));
     const std::vector<tf::point3> line{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}};
