@@ -77,7 +77,8 @@ inline std::size_t rows_in(const tf::mesh_file& file, std::string_view element) 
 }
 
 /// Replaces the points [count][3], for example by the points of a placement; `count` must be the
-/// number of points.
+/// number of points. Place with `TREEFORM_FLOAT32` for a file of floats, such as STL: points of a
+/// placement with `TREEFORM_FLOAT64` are rounded there, and may be below the bed.
 inline void file_set_points(tf::mesh_file& file, std::span<const tf::point3> points) {
     if (points.size() != file.mesh.points.size())
         throw std::invalid_argument(std::to_string(points.size()) + " points for a file of " +

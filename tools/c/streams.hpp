@@ -69,17 +69,18 @@ inline tf::weld_stream_result weld_stream(const char* const* inputs, std::size_t
     return tf::weld_stream(inputs_of(inputs, count, o), outputs_of(o, output), read(o));
 }
 
-/// Begins a weld in steps, and locks the folder until the handle is freed. All processes must pass
-/// the same inputs and options. Options of outputs are used by `finish`; `communicator` is not
-/// used.
+/// Begins a weld in steps, and shares the lock of the folder until the handle is freed; fails while
+/// another handle scatters or finishes. All processes must pass the same inputs and options.
+/// Options of outputs are used by `finish`; `communicator` is not used.
 inline shared_weld shared_weld_create(const char* const* inputs, std::size_t count,
                                       const treeform_weld_stream_options* options) {
     const auto o = chosen(options, treeform_weld_stream_options_init);
     return {tf::shared_weld(inputs_of(inputs, count, o), read(o)), outputs_of(o, "")};
 }
 
-/// Writes the points of each tile, unless already done. `result`, which may be null, is the number
-/// of tiles.
+/// Writes the points of each tile, unless already done. For that, it needs to be the only handle on
+/// the folder: it waits two seconds for others to be freed, then fails. `result`, which may be
+/// null, is the number of tiles.
 inline void shared_weld_scatter(shared_weld& weld, std::size_t* result) {
     check(weld.steps.scatter());
     if (result) *result = weld.steps.tiles();
@@ -99,8 +100,8 @@ inline void shared_weld_tile(shared_weld& weld, std::size_t tile) {
 }
 
 /// Welds the points along the borders of tiles, and writes `output`, completely or not at all. All
-/// tiles must be finished, and all other processes must have freed their handles. `result` may be
-/// null.
+/// tiles must be finished. Needs to be the only handle on the folder, until it is freed; waits as
+/// `scatter`. `result` may be null.
 inline void shared_weld_finish(treeform_shared_weld* weld, const char* output,
                                treeform_weld_stream_result** result) {
     if (result) *result = nullptr;

@@ -174,8 +174,9 @@ TREEFORM_API weld_stream_result weld_stream(const std::filesystem::path& input,
 /// `weld_stream` step by step, for many processes on one or more machines that share the folder:
 /// one process calls `scatter`; then each calls `weld_tile` for its share of the tiles; after all
 /// have ended, one calls `finish` and `remove_folder`. Steps are idempotent: finished tiles are
-/// skipped, and two processes that weld the same tile write the same bytes. `finish` locks the
-/// folder for one process.
+/// skipped, and two processes that weld the same tile write the same bytes. Objects share the lock
+/// of the folder. `scatter`, unless done, and `finish` need it alone: they wait two seconds for
+/// others to be destroyed, then throw.
 ///
 /// All processes must use the same inputs and options. Steps throw as `weld_stream`. They return
 /// status::cancelled if `progress` returned false, else status::ok.
@@ -185,7 +186,7 @@ TREEFORM_API weld_stream_result weld_stream(const std::filesystem::path& input,
 /// calls them, and `weld` welds the tiles.
 class TREEFORM_API shared_weld {
   public:
-    /// Creates and locks the folder. Unless it is shared, also removes
+    /// Creates the folder and shares its lock, or locks it if it is not shared; then also removes
     /// `weld_stream_outputs::unfinished` of a killed run.
     shared_weld(cloud_inputs inputs, weld_stream_options options);
     /// The same for one file.

@@ -160,7 +160,8 @@ TREEFORM_C_API treeform_code treeform_file_look(const treeform_file* file,
                                                 treeform_file_view** view);
 
 /// Replaces the points [count][3], for example by the points of a placement; `count` must be the
-/// number of points.
+/// number of points. Place with `TREEFORM_FLOAT32` for a file of floats, such as STL: points of a
+/// placement with `TREEFORM_FLOAT64` are rounded there, and may be below the bed.
 TREEFORM_C_API treeform_code treeform_file_set_points(treeform_file* file, const double* points,
                                                       size_t count);
 

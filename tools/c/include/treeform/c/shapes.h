@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Offset, hollow and thickened solids; simplification; wall thickness; smallest boxes around
-/// points; isolines. Drains of `treeform_hollow` are [count][4]: a point, and a diameter.
+/// Offset, hollow, thickened and wrapped solids; simplification; wall thickness; smallest boxes
+/// around points; isolines. Drains of `treeform_hollow` are [count][4]: a point, and a diameter.
 
 #include <treeform/c/cuts.h>
 #include <treeform/c/mesh.h>

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Solids: set operations, resolved self-intersections, repair, wraps.
+/// Solids: set operations, resolved self-intersections, repair.
 ///
 /// These functions return `TREEFORM_OK` if the certificate of the result is ok. Otherwise they
 /// return `TREEFORM_NOT_CERTIFIED`, also with a result, which must be freed.

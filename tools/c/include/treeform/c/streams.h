@@ -100,15 +100,16 @@ typedef struct treeform_shared_weld treeform_shared_weld;
 // made of the headers of C++:
 //   shared_weld_create() shared_weld_scatter() shared_weld_tiles() shared_weld_unfinished()
 //   shared_weld_tile() shared_weld_finish() shared_weld_remove_folder()
-/// Begins a weld in steps, and locks the folder until the handle is freed. All processes must pass
-/// the same inputs and options. Options of outputs are used by `finish`; `communicator` is not
-/// used.
+/// Begins a weld in steps, and shares the lock of the folder until the handle is freed; fails
+/// while another handle scatters or finishes. All processes must pass the same inputs and options.
+/// Options of outputs are used by `finish`; `communicator` is not used.
 TREEFORM_C_API treeform_code treeform_shared_weld_create(
     const char* const* inputs, size_t count, const treeform_weld_stream_options* options,
     treeform_shared_weld** weld);
 
-/// Writes the points of each tile, unless already done. `result`, which may be null, is the number
-/// of tiles.
+/// Writes the points of each tile, unless already done. For that, it needs to be the only handle
+/// on the folder: it waits two seconds for others to be freed, then fails. `result`, which may be
+/// null, is the number of tiles.
 TREEFORM_C_API treeform_code treeform_shared_weld_scatter(treeform_shared_weld* weld,
                                                           size_t* result);
 
@@ -123,8 +124,8 @@ TREEFORM_C_API treeform_code treeform_shared_weld_unfinished(treeform_shared_wel
 TREEFORM_C_API treeform_code treeform_shared_weld_tile(treeform_shared_weld* weld, size_t tile);
 
 /// Welds the points along the borders of tiles, and writes `output`, completely or not at all. All
-/// tiles must be finished, and all other processes must have freed their handles. `result` may be
-/// null.
+/// tiles must be finished. Needs to be the only handle on the folder, until it is freed; waits as
+/// `scatter`. `result` may be null.
 TREEFORM_C_API treeform_code treeform_shared_weld_finish(treeform_shared_weld* weld,
                                                          const char* output,
                                                          treeform_weld_stream_result** result);
