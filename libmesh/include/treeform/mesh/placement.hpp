@@ -63,7 +63,8 @@ struct body_set;
 /// one if it does not move.
 struct placement {
     /// ok: the mesh has a place, and `points` were checked exactly. Otherwise `no_placement`,
-    /// `not_certified` (not_representable), `out_of_range` or `cancelled`. It lists no faces.
+    /// `not_certified` (`placement_end::not_representable`), `out_of_range` or `cancelled`. It
+    /// lists no faces.
     treeform::certificate certificate{};
     placement_end end = placement_end::unchanged;
     std::vector<point3> points{};  ///< [V] at the place, as they are to be written

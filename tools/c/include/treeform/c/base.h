@@ -245,10 +245,11 @@ typedef struct treeform_certificate {
     /// on the result; intermediate moves do not add up.
     double max_displacement;
     treeform_precision precision;  ///< of the coordinates
-    /// For status `vanished`: number of faces of the exact result, all too thin for the
-    /// coordinates; 0 if it had no faces.
+    /// For status `TREEFORM_STATUS_VANISHED`: number of faces of the exact result, all too thin
+    /// for the coordinates; 0 if it had no faces.
     uint64_t vanished_faces;
-    /// For status `excessive_loss`: the volume (the area, if there is no solid) before and after.
+    /// For status `TREEFORM_STATUS_EXCESSIVE_LOSS`: the volume (the area, if there is no solid)
+    /// before and after.
     double size_before;
     double size_after;
     int32_t size_is_volume;

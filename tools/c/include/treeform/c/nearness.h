@@ -184,8 +184,8 @@ typedef struct treeform_measure_options {
 /// Sets the defaults.
 TREEFORM_C_API void treeform_measure_options_init(treeform_measure_options* options, size_t size);
 
-/// The relation of `a` and `b`, their distance and their nearest points. None if one is empty, or
-/// if they are separate and further apart than `options.radius`.
+/// The relation of `a` and `b`, their distance and their nearest points. Null, with `TREEFORM_OK`,
+/// if one is empty, or if they are separate and further apart than `options->radius`.
 ///
 /// The relation is exact (see `treeform_relate`), and so is whether a distance is 0. Other
 /// distances are rounded as in `treeform_distance`. If the two faces named by `treeform_relate`
@@ -215,9 +215,9 @@ TREEFORM_C_API treeform_code treeform_penetration_depth(const treeform_mesh* a,
 /// `treeform_repair` flips it.
 TREEFORM_C_API treeform_code treeform_count_inside_out(const treeform_mesh* mesh, uint64_t* result);
 
-/// Counts `points` [count][3] by their position relative to `solids` [solid_count], exactly:
-/// counts[0] strictly inside any solid, counts[1] else on the surface of any, counts[2] outside of
-/// all.
+/// Counts `points` [points_count][3] by their position relative to `solids` [solids_count],
+/// exactly: counts[0] strictly inside any solid, counts[1] else on the surface of any, counts[2]
+/// outside of all.
 TREEFORM_C_API treeform_code treeform_count_sides(const double* points, size_t points_count,
                                                   const treeform_mesh* const* solids,
                                                   size_t solids_count, uint64_t counts[3]);
@@ -286,7 +286,7 @@ typedef struct treeform_deviation_result {
 /// inside, and distances have no sign. Magnitudes have the error bound of
 /// `treeform_closest_point`, 16 u L; a distance may round to 0.
 ///
-/// None if `a` or `b` is empty.
+/// Null, with `TREEFORM_OK`, if `a` or `b` is empty.
 TREEFORM_C_API treeform_code treeform_deviation(const treeform_mesh* a,
                                                 const treeform_mesh* const* b, size_t count,
                                                 const treeform_deviation_options* options,
