@@ -138,7 +138,7 @@ void along_rays(const treeform_mesh* mesh, const treeform_ray* rays, std::size_t
 }
 
 /// `hits` [count]: the first face that each ray hits, exactly; of several faces at the same point,
-/// the lowest.
+/// the lowest. For a ray that hits none, `face` is `TREEFORM_NONE`, `t` and `t_end` are NaN.
 inline void raycast(const treeform_mesh* mesh, const treeform_ray* rays, std::size_t count,
                     treeform_hit* hits) {
     const std::span out = array(hits, count, "hits");

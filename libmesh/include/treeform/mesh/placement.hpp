@@ -28,8 +28,8 @@ enum class placement_end : std::uint8_t {
     bed,                 ///< stopped by the bed, or at the clearance above it
     unchanged,           ///< no motion is needed
     moved_apart,         ///< for `separate`: moved out of the fixed meshes
-    nothing_met,         ///< no place: meets nothing, or nothing within `max_travel`
-    too_far,             ///< no place: the nearest is further away than `max_travel`
+    nothing_met,         ///< no place: nothing is in the way, at least not within `max_travel`
+    too_far,             ///< no place: `mate`, `separate` or a bed above, beyond `max_travel`
     starts_penetrating,  ///< no place: penetrates a fixed mesh at the start
     starts_too_near,     ///< no place: nearer than the clearance at the start
     starts_touching,     ///< no place: touches a fixed mesh at the start, and a clearance is given

@@ -88,11 +88,25 @@ typedef struct treeform_ray {
 } treeform_ray;
 
 // made of the headers of C++:
-//   mesh_hit raycast() raycast_any()
+//   feature mesh_hit raycast() raycast_any()
+/// A part of a triangle. Edge `TREEFORM_AT_E0` runs from v0 to v1, `TREEFORM_AT_E1` from v1 to v2,
+/// `TREEFORM_AT_E2` from v2 to v0; `TREEFORM_AT_INTERIOR` is the triangle without its edges.
+typedef int32_t treeform_triangle_feature;
+enum {
+    TREEFORM_AT_V0 = 0,
+    TREEFORM_AT_V1 = 1,
+    TREEFORM_AT_V2 = 2,
+    TREEFORM_AT_E0 = 3,
+    TREEFORM_AT_E1 = 4,
+    TREEFORM_AT_E2 = 5,
+    TREEFORM_AT_INTERIOR = 6
+};
+
 /// A face that a ray hits. The point hit is origin + t direction.
 typedef struct treeform_hit {
     uint32_t face;
-    /// corner, edge or interior that contains the first common point (a `uint8_t`)
+    /// corner, edge or interior that contains the first common point (a
+    /// `treeform_triangle_feature`)
     uint8_t at;
     uint8_t coplanar;  ///< the ray runs in the face's plane, or the face has no area
     double t;          ///< of the first common point; relative error below 2^-40
@@ -100,7 +114,7 @@ typedef struct treeform_hit {
 } treeform_hit;
 
 /// `hits` [count]: the first face that each ray hits, exactly; of several faces at the same point,
-/// the lowest.
+/// the lowest. For a ray that hits none, `face` is `TREEFORM_NONE`, `t` and `t_end` are NaN.
 TREEFORM_C_API treeform_code treeform_raycast(const treeform_mesh* mesh, const treeform_ray* rays,
                                               size_t count, treeform_hit* hits);
 

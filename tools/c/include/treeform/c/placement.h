@@ -25,9 +25,9 @@ enum {
     TREEFORM_END_UNCHANGED = 2,
     /// for `treeform_separate`: moved out of the fixed meshes
     TREEFORM_END_MOVED_APART = 3,
-    /// no place: meets nothing, or nothing within `max_travel`
+    /// no place: nothing is in the way, at least not within `max_travel`
     TREEFORM_END_NOTHING_MET = 4,
-    /// no place: the nearest is further away than `max_travel`
+    /// no place: `treeform_mate`, `treeform_separate` or a bed above, beyond `max_travel`
     TREEFORM_END_TOO_FAR = 5,
     /// no place: penetrates a fixed mesh at the start
     TREEFORM_END_STARTS_PENETRATING = 6,
@@ -262,7 +262,8 @@ TREEFORM_C_API treeform_code treeform_find_face_relations(const treeform_mesh* m
 typedef struct treeform_impact_contact {
     uint32_t face_a;
     uint32_t face_b;
-    uint8_t on_a;  ///< corner, edge or interior of the face, as in `treeform_hit::at`
+    /// corner, edge or interior of the face (a `treeform_triangle_feature`)
+    uint8_t on_a;
     uint8_t on_b;
     double point[3];  ///< a common point, on `b`, rounded
 } treeform_impact_contact;
