@@ -179,7 +179,8 @@ BOUND = [
                "to.fixed = static_cast<std::uint32_t>(from.fixed);")]}),
     Bound("placement", leave="max_travel predicates", counts={"contacts": "contact_listed",
                                                                 "points": "point_count"}, custom={
-        "+": [MESSAGE]}),
+        "+": [Member(MESSAGE.decl, f"{MESSAGE.doc}; empty if the placement succeeded",
+                     MESSAGE.fill)]}),
     Bound("impact", leave="predicates", counts={"contacts": "contact_listed"}),
     Bound("face_contact", "impact_contact", "same", custom={"at": [
         Member("uint8_t on_a", "corner, edge or interior of the face "

@@ -67,7 +67,8 @@ typedef struct treeform_placement {
     /// `TREEFORM_STATUS_CANCELLED`. It lists no faces.
     const treeform_certificate* certificate;
     treeform_placement_end end;
-    const char* message;   ///< the outcome as a clause for people, without a full stop
+    /// the outcome as a clause for people, without a full stop; empty if the placement succeeded
+    const char* message;
     const double* points;  ///< [V][3] at the place, as they are to be written
     size_t point_count;
     /// new = M * old: a translation; for `treeform_turn` and `treeform_mate_features` also a
