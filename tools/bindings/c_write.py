@@ -84,7 +84,8 @@ class Writer:
             there = f"treeform_{word}" in self.known
             return f"`treeform_{word}`" if there else found.group(0)
         text = re.sub(r"`(\w+(?:::\w+)?)`", name, text)
-        text = re.sub(r"; none( for|:)", r"; `TREEFORM_NONE`\1", text)
+        text = re.sub(r"(^|; )none( for|:)", r"\1`TREEFORM_NONE`\2", text)
+        text = re.sub(r"\b(or|else) none$", r"\1 `TREEFORM_NONE`", text)
         text = re.sub(r"\bNone (?=if|when|where|without)", "Null ", text)
         text = text.replace(" For many calls, pass prepared meshes.", "")
         text = text.replace("A prepared mesh is", "The mesh itself is")

@@ -131,7 +131,7 @@ typedef struct treeform_cut_piece {
     const uint32_t* face_source;
     /// [V] input vertex equal to each vertex; `TREEFORM_NONE`: new
     const uint32_t* vertex_source;
-    /// [F] for faces of a cap, the number of its plane, from the lowest; else none
+    /// [F] for faces of a cap, the number of its plane, from the lowest; else `TREEFORM_NONE`
     const uint32_t* cap;
     /// Status ok means the same as in `treeform_boolean_result`; without caps, edges are not
     /// checked. A piece without faces is ok: the mesh has no part between these planes.

@@ -53,7 +53,7 @@ typedef struct treeform_contact {
     /// unit normal from the fixed to the moving mesh; 0 if there is none
     double normal[3];
     uint32_t moving;      ///< face of the moving mesh
-    uint32_t fixed_face;  ///< none for the bed
+    uint32_t fixed_face;  ///< `TREEFORM_NONE` for the bed
     uint32_t fixed;       ///< number of the fixed mesh
 } treeform_contact;
 

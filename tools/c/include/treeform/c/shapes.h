@@ -155,7 +155,7 @@ typedef struct treeform_simplify_result {
     const treeform_certificate* certificate;
     /// [V] input vertex equal to each vertex; `TREEFORM_NONE`: new
     const uint32_t* vertex_source;
-    /// [V] for a new vertex, the nearest input face on its side of seams; else none
+    /// [V] for a new vertex, the nearest input face on its side of seams; else `TREEFORM_NONE`
     const uint32_t* face_of_new_vertex;
     /// [3 F] the input corner (3 f + i for corner i of face f) at the vertex of each corner, on
     /// its side of seams; none at new vertices

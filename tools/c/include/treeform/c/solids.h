@@ -82,7 +82,7 @@ typedef struct treeform_boolean_result {
     /// it may be a neighbor of that face. A face of a filled `gap` has the operand face at or
     /// opposite to it; such faces come last.
     const treeform_element* face_source;
-    /// [V] the lowest operand vertex equal to each vertex, or none
+    /// [V] the lowest operand vertex equal to each vertex, or `TREEFORM_NONE`
     const treeform_element* vertex_source;
     /// [V] for each new vertex, an operand face that contains it; in a filled `gap`, as in
     /// `face_source`. Empty with `keep_cuts`.
@@ -282,9 +282,10 @@ typedef struct treeform_repair_statistics {
 typedef struct treeform_repair_result {
     void* owner;
     treeform_arrays mesh;
-    /// [F'] input face of each face, lowest of those merged; or none
+    /// [F'] input face of each face, lowest of those merged; or `TREEFORM_NONE`
     const uint32_t* face_source;
-    const uint32_t* vertex_source;  ///< [V'] input vertex of each vertex, or none
+    /// [V'] input vertex of each vertex, or `TREEFORM_NONE`
+    const uint32_t* vertex_source;
     /// Status ok means, verified on the coordinates of `mesh`: a closed manifold, the inside
     /// behind every face, and any two faces share a corner, an edge or nothing. Status sheet means
     /// the same for a surface with a border. For `treeform_resolve_self_intersections` with
