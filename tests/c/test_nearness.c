@@ -85,7 +85,8 @@ static void test_rays(void) {
     rays[1] = rays[0];
     rays[1].direction[2] = -1.0;
     OK(treeform_raycast(mesh, rays, 2, hits));
-    CHECK(hits[0].face == 0 && hits[0].t == 1.0 && hits[0].at == 6 && hits[0].coplanar == 0);
+    CHECK(hits[0].face == 0 && hits[0].t == 1.0 && hits[0].at == TREEFORM_AT_INTERIOR &&
+          hits[0].coplanar == 0);
     CHECK(hits[1].face == TREEFORM_NONE);
     OK(treeform_raycast_any(mesh, rays, 2, any));
     CHECK(any[0] == 1 && any[1] == 0);

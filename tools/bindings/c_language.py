@@ -163,11 +163,13 @@ class Language:
             c = self.bound[element].c
             same = self.bound[element].kind == "same"
             value = f"same<{c}>({source})" if same else f"list<{c}>(kept, {source})"
+        shape = {"point3": "[3]", "face": "[3]", "point2": "[2]", "array<uint32_t,2>": "[2]",
+                 "array<point3,2>": "[2][3]"}.get(element, "")
+        if one.shape:
+            doc = re.sub(r"^(\[[^\]]+\])(?!\[)", rf"\1{shape}", doc)
         made = [Member(f"const {c}* {name}", doc, f"{to} = {value};")]
         if count:
             if not one.shape:
-                shape = {"point3": "[3]", "face": "[3]", "point2": "[2]", "array<uint32_t,2>": "[2]",
-                         "array<point3,2>": "[2][3]"}.get(element, "")
                 made[0].doc = f"[{count}]{shape} {doc}"
             made.append(Member(f"size_t {count}", "", f"to.{count} = {source}.size();"))
         return made
@@ -237,10 +239,20 @@ class Language:
         if found := re.fullmatch(r"optional<(\w+)>", type):
             inner = found.group(1)
             if inner in self.enums:
-                return [Member(f"int32_t {name}", f"{doc.rstrip('.')}; a `{self.enum(inner)}`, or -1", "",
+                return [Member(f"int32_t {name}", self._optional_enum(doc, self.enum(inner)), "",
                                f"if ({o} != -1) {how} = choice<tf::{inner}>({o}, "
                                f'{len(self.enums[inner].values)}, "{name}");', f"{to} = -1;")]
         raise ValueError(f"{of.cpp}: {type} {name}: C has no such option yet")
+
+    @staticmethod
+    def _optional_enum(doc: str, enum: str) -> str:
+        """The sentence for an option that is an enumerator or -1; none in C++ is -1."""
+        said = re.sub(r"\bnone\b", "-1", doc)
+        if said == doc:
+            return f"{doc.rstrip('.')}; a `{enum}`, or -1 for the default"
+        if said.startswith("-1"):
+            return f"a `{enum}`; {said}"
+        return said.replace("; -1", f" (a `{enum}`); -1", 1)
 
     def _with_default(self, one: Field) -> str:
         """The sentence for an option, with its default unless that is 0."""
@@ -253,7 +265,7 @@ class Language:
             value = "1"
         elif one.type in self.enums:
             word = value.rpartition("::")[2]
-            value = "" if word == self.enums[one.type].values[0][0] else word
+            value = "" if word == self.enums[one.type].values[0][0] else f"`{word}`"
         value = value.replace("'", "")
         if value in ("", "0", "0.0", "false") or "::" in value or "default" in one.doc.lower():
             return one.doc

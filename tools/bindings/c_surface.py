@@ -15,7 +15,7 @@ ENUMS = {
     "pair_kind": ("treeform_pair_kind", ""),
     "location": ("treeform_location", ""),
     "mesh_relation": ("treeform_mesh_relation", "RELATION_"),
-    "feature": ("uint8_t", ""),
+    "feature": ("treeform_triangle_feature", "AT_"),
     "feature_kind": ("treeform_feature_kind", ""),
     "placement_end": ("treeform_placement_end", "END_"),
     "urdf_joint_kind": ("int32_t", ""),
@@ -179,10 +179,12 @@ BOUND = [
                "to.fixed = static_cast<std::uint32_t>(from.fixed);")]}),
     Bound("placement", leave="max_travel predicates", counts={"contacts": "contact_listed",
                                                                 "points": "point_count"}, custom={
-        "+": [MESSAGE]}),
+        "+": [Member(MESSAGE.decl, f"{MESSAGE.doc}; empty if the placement succeeded",
+                     MESSAGE.fill)]}),
     Bound("impact", leave="predicates", counts={"contacts": "contact_listed"}),
     Bound("face_contact", "impact_contact", "same", custom={"at": [
-        Member("uint8_t on_a", "corner, edge or interior of the face, as in `treeform_hit::at`"),
+        Member("uint8_t on_a", "corner, edge or interior of the face "
+                              "(a `treeform_triangle_feature`)"),
         Member("uint8_t on_b")]}),
     Bound("impact_options"),
     Bound("lay_flat_options"),

@@ -18,7 +18,12 @@ MADE = ROOT / "tools/c/made"
 IN_C = {"operand_element::none": "TREEFORM_NONE", "carry_sources": "treeform_carry",
         "mesh_intersections": "treeform_intersections", "shared_search": "treeform_shared_search",
         "shared_weld": "treeform_shared_weld", "relation": "treeform_relate",
-        "convex_hull_result::faces": "treeform_hull::faces"}
+        "convex_hull_result::faces": "treeform_hull::faces", "part.mesh": "mesh",
+        "signed_volume": "treeform_volume", "surface_area": "treeform_area",
+        "boolean_statistics": "treeform_boolean_result", "round_to_las": "treeform_file_round_to_las",
+        "penetration_depth_result": "treeform_penetration_depth"}
+#: Enumerators in docstrings that mean functions or members there.
+_OTHERS = ("separate", "relation", "degenerate")
 _BLOCK = re.compile(r"^// made of [^\n]+:\n((?://   [^\n]+\n)+).*?^// end\n", re.M | re.S)
 _STRUCT = re.compile(r"^typedef struct (treeform_\w+) \{\n(.*?)^\} \1;", re.M | re.S)
 
@@ -51,8 +56,8 @@ class Writer:
         self.functions = Functions(language, lists, functions)
         self.lists = {one.of: one for one in lists}
         self.order: dict[str, list[str]] = {}  #: the current members of structs
-        self.fields: set[str] = set()  #: of the struct that is being written
-        self.values = {name for one in language.enums.values() for name, _ in one.values}
+        self.fields: set[str] = set()  #: of the struct (of a function: its parameters)
+        self.near: set[str] = set()  #: for a function: fields of its options and its result
         self.known = {name for path in INCLUDE.glob("*.h")
                       for name in re.findall(r"\b(treeform_\w+)\(", path.read_text())}
 
@@ -62,6 +67,12 @@ class Writer:
         """A sentence of C++ with the names of C in backticks."""
         def name(found: re.Match[str]) -> str:
             word, _, of = found.group(1).partition("::")
+            if word in self.fields and not of:
+                return found.group(0)
+            if not of and word not in (*_OTHERS, *self.near) and self.constant_of(word):
+                return f"`{self.constant_of(word)}`"
+            if word in self.enums and not of and self.enums[word][0].startswith("treeform_"):
+                return f"`{self.enums[word][0]}`"
             if word in self.enums and of:
                 names = [value for value, _ in self.language.enums[word].values]
                 return f"`{self.constants(word)[names.index(of)]}`"
@@ -70,10 +81,17 @@ class Writer:
                 return f"`{bound.c}{of and '::' + of}`"
             if of:
                 return found.group(0)
-            there = f"treeform_{word}" in self.known and word not in self.fields | self.values
+            there = f"treeform_{word}" in self.known
             return f"`treeform_{word}`" if there else found.group(0)
         text = re.sub(r"`(\w+(?:::\w+)?)`", name, text)
-        text = re.sub(r"; none( for|:)", r"; `TREEFORM_NONE`\1", text)
+        text = re.sub(r"(^|; )none( for|:)", r"\1`TREEFORM_NONE`\2", text)
+        text = re.sub(r"\b(or|else) none$", r"\1 `TREEFORM_NONE`", text)
+        text = re.sub(r"\bNone (?=if|when|where|without)", "Null ", text)
+        text = text.replace(" For many calls, pass prepared meshes.", "")
+        text = text.replace("A prepared mesh is", "The mesh itself is")
+        text = re.sub(r"\bit returns false\b", "it returns other than 0", text)
+        text = text.replace("meshes that are not prepared", "meshes without an index")
+        text = re.sub(r"`options\.(\w+)`", r"`options->\1`", text)
         for cpp, c in IN_C.items():
             text = text.replace(f"`{cpp}`", f"`{c}`")
         unknown = r"`(?!treeform_)\w+::\w+`"  # what C does not have, in parentheses or a sentence
@@ -103,6 +121,7 @@ class Writer:
 
     def struct(self, bound: Bound) -> str:
         self.fields = {one.name for one in self.language.structs[bound.cpp].fields}
+        self.near = set()
         first = {"options": "size_t struct_size;\n", "result": "void* owner;\n"}.get(bound.kind, "")
         said = self.language.structs[bound.cpp].doc
         text = comment(self.words(said))
@@ -135,10 +154,18 @@ class Writer:
         return ["TREEFORM_" + special.get(value, (front + value).upper())
                 for value, _ in self.language.enums[name].values]
 
+    def constant_of(self, value: str) -> str:
+        """The constant of C for an enumerator; of several enumerations, of the first in `ENUMS`."""
+        for name, (c, _) in self.enums.items():
+            values = [one for one, _ in self.language.enums[name].values]
+            if value in values and c.startswith("treeform_"):
+                return self.constants(name)[values.index(value)]
+        return ""
+
     def enum(self, name: str) -> str:
         it: Enum = self.language.enums[name]
         c = self.enums[name][0]
-        self.fields = set()
+        self.fields = self.near = set()
         text = comment(self.words(it.doc)) + f"typedef int32_t {c};\nenum {{\n"
         last = len(it.values) - 1
         for i, (constant, (_, doc)) in enumerate(zip(self.constants(name), it.values)):
@@ -160,10 +187,18 @@ class Writer:
     def function(self, entry: str) -> str:
         """The declaration, with the docstring of C++."""
         _, it = self.functions.find(entry)
-        self.fields = {name for _, name, _ in it.parameters}
+        declared = self.functions.prototype(entry)
+        self.fields = {name for _, name, _ in it.parameters} | set(re.findall(r"\w+", declared))
+        types = re.findall(r"\w+", " ".join([it.returns, *(one for one, _, _ in it.parameters)]))
+        self.near = {one.name for type in types if type in self.language.bound
+                     for one in self.language.structs[type].fields
+                     if one.name not in self.language.bound[type].leave.split()}
         said = it.doc or next(one.doc for one in self.functions.functions[it.name] if one.doc)
         if it.returns.startswith("optional<"):
-            said = re.sub(r"\b([Nn])one (?=when|where)", r"\1ull ", said)
+            said = re.sub(r"\b([Nn])one (?=if|when|where|without)",
+                          r"\1ull, with `TREEFORM_OK`, ", said)
+        if "const oriented_plane&" in [type for type, _, _ in it.parameters] and "null" not in said:
+            said += "\n\nA null `plane` means z = 0."
         if ("points_view", "points", False) in it.parameters:
             said = said.replace("`points`", "`mesh`")
         return f"{comment(self.words(said))}TREEFORM_C_API {self.functions.prototype(entry)};\n"

@@ -145,10 +145,10 @@ inline void file_add_text(tf::mesh_file& file, treeform_text kind, const std::st
 /// Makes each triangle a face of its own.
 inline void file_split_polygons(tf::mesh_file& file) { file.split_polygons(); }
 
-/// Rounds the coordinates to those of a LAS file; `moved` is the largest change of a coordinate.
+/// Rounds the coordinates to those of a LAS file; `result` is the largest change of a coordinate.
 inline double file_round_to_las(tf::mesh_file& file) { return tf::round_to_las(file); }
 
-/// Rounds the coordinates to 32-bit floats; `moved` is the largest change of a coordinate.
+/// Rounds the coordinates to 32-bit floats; `result` is the largest change of a coordinate.
 inline double file_round_to_float32(tf::mesh_file& file) { return file.round_to_float32(); }
 
 /// Transforms the points and normals of the file by a matrix. If it mirrors, faces are flipped, so

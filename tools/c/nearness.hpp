@@ -138,7 +138,7 @@ void along_rays(const treeform_mesh* mesh, const treeform_ray* rays, std::size_t
 }
 
 /// `hits` [count]: the first face that each ray hits, exactly; of several faces at the same point,
-/// the lowest.
+/// the lowest. For a ray that hits none, `face` is `TREEFORM_NONE`, `t` and `t_end` are NaN.
 inline void raycast(const treeform_mesh* mesh, const treeform_ray* rays, std::size_t count,
                     treeform_hit* hits) {
     const std::span out = array(hits, count, "hits");
@@ -198,9 +198,9 @@ inline void penetration_depth(const tf::mesh_ref& a, const tf::mesh_ref& b,
     if (effort) *effort = same<treeform_search_effort>(found.effort);
 }
 
-/// Counts `points` [count][3] by their position relative to `solids` [solid_count], exactly:
-/// counts[0] strictly inside any solid, counts[1] else on the surface of any, counts[2] outside of
-/// all.
+/// Counts `points` [points_count][3] by their position relative to `solids` [solids_count],
+/// exactly: counts[0] strictly inside any solid, counts[1] else on the surface of any, counts[2]
+/// outside of all.
 inline void count_sides(std::span<const tf::point3> points, const tf::mesh_refs& solids,
                         std::uint64_t counts[3]) {
     (void)need(counts, "counts");

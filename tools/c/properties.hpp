@@ -75,7 +75,7 @@ inline void find_open_edge(tf::mesh_view mesh, std::uint32_t edge[2]) {
     edge[1] = found[1];
 }
 
-/// `which` is the index of the first of `tolerances` [count] that closes the mesh if points within
+/// `result` is the index of the first of `tolerances` [count] that closes the mesh if points within
 /// it are joined; `count` if joining equal points already closes it, or if none does.
 inline std::size_t closing_tolerance(tf::mesh_view mesh, std::span<const double> tolerances) {
     return tf::closing_tolerance(mesh, tolerances).value_or(tolerances.size());

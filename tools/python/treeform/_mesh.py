@@ -78,6 +78,7 @@ class Mesh:
     vertices: (V, 3) coordinates. A contiguous float64 array is not copied; others are converted.
     faces: (F, 3) the vertex numbers of each face, counter-clockwise from outside. A contiguous
     uint32 array is not copied. The flat [3, a, b, c, 3, ...] of PyVista and VTK is also accepted.
+    attributes: an `Attributes`, copied; `mesh.attributes.vertex["q"] = values` sets a column of it.
 
     Faces with a vertex number that is out of range are reported by the first operation.
 
@@ -88,9 +89,6 @@ class Mesh:
     `a + b` is `a | b`, and `a * b` is `a & b`. They are evaluated together when the result is first
     used: `(a | b) - c` is cut and rounded only once. An operand that does not bound a solid raises
     NotSolidError. For a file of floats, such as STL: `boolean("a-b", a, b, precision="float32")`.
-
-    attributes: columns and other data, copied: `Attributes()`, with columns set by
-    `attributes.vertex["q"] = values`.
 
     >>> import numpy as np
     >>> import treeform

@@ -53,12 +53,13 @@ struct contact_region {
 
 /// Two parts that are not clear of each other.
 struct part_clash {
-    std::uint32_t a = 0;                               ///< the lower number
-    std::uint32_t b = 0;                               ///< number of the second part
-    mesh_relation relation = mesh_relation::touching;  ///< or penetrating, closer_than_clearance
-    bool a_inside_b = false;                           ///< as in `measure`
-    bool b_inside_a = false;                           ///< the same with `a` and `b` swapped
-    double distance = 0.0;                             ///< distance of the surfaces; 0 if they meet
+    std::uint32_t a = 0;  ///< the lower number
+    std::uint32_t b = 0;  ///< number of the second part
+    /// or `penetrating`, `closer_than_clearance`
+    mesh_relation relation = mesh_relation::touching;
+    bool a_inside_b = false;  ///< as in `measure`
+    bool b_inside_a = false;  ///< the same with `a` and `b` swapped
+    double distance = 0.0;    ///< distance of the surfaces; 0 if they meet
     /// For parts that are too close: the nearest points on a and on b.
     std::optional<std::array<point3, 2>> nearest{};
     std::uint64_t face_pairs = 0;           ///< pairs of faces that meet
@@ -127,7 +128,8 @@ struct clash_result {
 struct pose_clash {
     std::uint32_t a = 0;  ///< the lower number
     std::uint32_t b = 0;
-    mesh_relation relation = mesh_relation::touching;  ///< or penetrating, closer_than_clearance
+    /// or `penetrating`, `closer_than_clearance`
+    mesh_relation relation = mesh_relation::touching;
     double distance = 0.0;  ///< for parts closer than the clearance; else 0
     friend bool operator==(const pose_clash&, const pose_clash&) = default;
 };

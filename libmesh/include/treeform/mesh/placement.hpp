@@ -28,8 +28,8 @@ enum class placement_end : std::uint8_t {
     bed,                 ///< stopped by the bed, or at the clearance above it
     unchanged,           ///< no motion is needed
     moved_apart,         ///< for `separate`: moved out of the fixed meshes
-    nothing_met,         ///< no place: meets nothing, or nothing within `max_travel`
-    too_far,             ///< no place: the nearest is further away than `max_travel`
+    nothing_met,         ///< no place: nothing is in the way, at least not within `max_travel`
+    too_far,             ///< no place: `mate`, `separate` or a bed above, beyond `max_travel`
     starts_penetrating,  ///< no place: penetrates a fixed mesh at the start
     starts_too_near,     ///< no place: nearer than the clearance at the start
     starts_touching,     ///< no place: touches a fixed mesh at the start, and a clearance is given
@@ -78,7 +78,8 @@ struct body_set;
 /// one if it does not move.
 struct placement {
     /// ok: the mesh has a place, and `points` were checked exactly. Otherwise `no_placement`,
-    /// `not_certified` (not_representable), `out_of_range` or `cancelled`. It lists no faces.
+    /// `not_certified` (`placement_end::not_representable`), `out_of_range` or `cancelled`. It
+    /// lists no faces.
     treeform::certificate certificate{};
     placement_end end = placement_end::unchanged;
     std::vector<point3> points{};  ///< [V] at the place, as they are to be written

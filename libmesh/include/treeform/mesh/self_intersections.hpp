@@ -176,7 +176,7 @@ struct stream_search_result {
     /// Only the faces that meet others, in the order of the file; `degenerate` and `non_finite`
     /// count all faces.
     usable_mesh part{};
-    /// Pairs of faces of `part`. Its counters are sums over the tiles.
+    /// Pairs of faces of `part.mesh`. Its counters are sums over the tiles.
     intersection_result found{};
     std::uint64_t stored_faces = 0;  ///< faces of the file
     std::uint64_t triangles = 0;     ///< triangles of these faces

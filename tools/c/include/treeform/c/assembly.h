@@ -85,12 +85,13 @@ typedef struct treeform_contact_region {
 
 /// Two parts that are not clear of each other.
 typedef struct treeform_part_clash {
-    uint32_t a;                       ///< the lower number
-    uint32_t b;                       ///< number of the second part
-    treeform_mesh_relation relation;  ///< or penetrating, closer_than_clearance
-    int32_t a_inside_b;               ///< as in `treeform_measure`
-    int32_t b_inside_a;               ///< the same with `a` and `b` swapped
-    double distance;                  ///< distance of the surfaces; 0 if they meet
+    uint32_t a;  ///< the lower number
+    uint32_t b;  ///< number of the second part
+    /// or `TREEFORM_RELATION_PENETRATING`, `TREEFORM_RELATION_CLOSER_THAN_CLEARANCE`
+    treeform_mesh_relation relation;
+    int32_t a_inside_b;   ///< as in `treeform_measure`
+    int32_t b_inside_a;   ///< the same with `a` and `b` swapped
+    double distance;      ///< distance of the surfaces; 0 if they meet
     double on_a[3];       ///< for parts that are too close: the nearest point on a; else NaN
     double on_b[3];       ///< the same on b
     uint64_t face_pairs;  ///< pairs of faces that meet
@@ -102,7 +103,7 @@ typedef struct treeform_part_clash {
     /// For penetrating parts: `treeform_penetration_depth`, the length of `move`.
     double depth;
     double move[3];  ///< a short translation that separates `a` from `b`
-    /// of `depth`, as in `penetration_depth_result`
+    /// of `depth`, as in `treeform_penetration_depth`
     treeform_search_effort depth_effort;
 } treeform_part_clash;
 
@@ -112,7 +113,7 @@ typedef struct treeform_clashes {
     /// [count] those not clear of each other, ascending
     const treeform_part_clash* pairs;
     size_t count;
-    uint64_t counts[5];    ///< number of tested pairs, by `mesh_relation`
+    uint64_t counts[5];    ///< number of tested pairs, by `treeform_mesh_relation`
     uint64_t boxes_apart;  ///< pairs excluded by their boxes
     uint64_t ignored;      ///< ignored pairs that boxes do not exclude
     uint64_t parts_indexed;
@@ -142,7 +143,8 @@ TREEFORM_C_API treeform_code treeform_pairs_named(const char* const* names, size
 typedef struct treeform_pose_clash {
     uint32_t a;  ///< the lower number
     uint32_t b;
-    /// or penetrating, closer_than_clearance (a `treeform_mesh_relation`)
+    /// or `TREEFORM_RELATION_PENETRATING`, `TREEFORM_RELATION_CLOSER_THAN_CLEARANCE` (a
+    /// `treeform_mesh_relation`)
     uint8_t relation;
     double distance;  ///< for parts closer than the clearance; else 0
 } treeform_pose_clash;

@@ -15,15 +15,17 @@
 /// functions do not use them after they return, unless their description says they borrow them.
 ///
 /// Options. Structs of options begin with `struct_size`: call their `..._init` with `sizeof`, then
-/// set members; null instead of options means the defaults. Later versions may append members to
-/// structs of options and results. This is compatible with compiled programs, since these structs
-/// are passed by address and never embedded in others. All other structs (`treeform_face_pair`,
-/// ...) are fixed within a major version; in version 0, within a minor version.
+/// set members; null instead of options means the defaults. `{.struct_size = sizeof options}` alone
+/// is not enough: it leaves zeros, which are values, not the defaults. Later versions may append
+/// members to structs of options and results. This is compatible with compiled programs, since
+/// these structs are passed by address and never embedded in others. All other structs
+/// (`treeform_face_pair`, ...) are fixed within a major version; in version 0, within a minor
+/// version.
 ///
 /// Numbers. Coordinates are doubles, points are consecutive x, y, z; faces are three 32-bit numbers
 /// of points, counter-clockwise seen from outside. Truth values are 0 and 1. An unset option is NaN
-/// or, for a count or index, `TREEFORM_NONE`. A matrix has 12 numbers, the first three rows of a
-/// 4x4 matrix: new = M * old. Null instead of a matrix means the identity.
+/// or, for a count or index, `TREEFORM_NONE`; for an enumeration, -1. A matrix has 12 numbers, the
+/// first three rows of a 4x4 matrix: new = M * old. Null instead of a matrix means the identity.
 ///
 /// Threads. Functions may be called from several threads at once. Concurrent calls may share a
 /// handle if all take it as const. Results do not depend on the number of threads that the library
@@ -245,10 +247,11 @@ typedef struct treeform_certificate {
     /// on the result; intermediate moves do not add up.
     double max_displacement;
     treeform_precision precision;  ///< of the coordinates
-    /// For status `vanished`: number of faces of the exact result, all too thin for the
-    /// coordinates; 0 if it had no faces.
+    /// For status `TREEFORM_STATUS_VANISHED`: number of faces of the exact result, all too thin
+    /// for the coordinates; 0 if it had no faces.
     uint64_t vanished_faces;
-    /// For status `excessive_loss`: the volume (the area, if there is no solid) before and after.
+    /// For status `TREEFORM_STATUS_EXCESSIVE_LOSS`: the volume (the area, if there is no solid)
+    /// before and after.
     double size_before;
     double size_after;
     int32_t size_is_volume;

@@ -78,6 +78,8 @@ typedef struct treeform_section_result {
 /// segment after a point begins in the face in `faces`, and may continue in others.
 ///
 /// Loops are in the order of their lowest faces.
+///
+/// A null `plane` means z = 0.
 TREEFORM_C_API treeform_code treeform_section(const treeform_mesh* mesh,
                                               const treeform_plane* plane, const double* heights,
                                               size_t count, treeform_progress progress,
@@ -107,7 +109,7 @@ TREEFORM_C_API treeform_code treeform_write_section(const char* path,
 typedef struct treeform_cut_options {
     size_t struct_size;
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
-    /// float64
+    /// `TREEFORM_FLOAT64`
     treeform_precision precision;
     double max_displacement;  ///< As in `treeform_boolean_options`; default infinite
     /// As in `treeform_boolean_options`, for a mesh that meets itself. Set it if merging would mix
@@ -129,7 +131,7 @@ typedef struct treeform_cut_piece {
     const uint32_t* face_source;
     /// [V] input vertex equal to each vertex; `TREEFORM_NONE`: new
     const uint32_t* vertex_source;
-    /// [F] for faces of a cap, the number of its plane, from the lowest; else none
+    /// [F] for faces of a cap, the number of its plane, from the lowest; else `TREEFORM_NONE`
     const uint32_t* cap;
     /// Status ok means the same as in `treeform_boolean_result`; without caps, edges are not
     /// checked. A piece without faces is ok: the mesh has no part between these planes.
@@ -165,6 +167,8 @@ typedef struct treeform_cut_result {
 /// itself, or has parts that are inside out or hidden in others, it is first replaced by the solid
 /// that it winds around, rounded; the statements above then hold for that solid. Equal planes
 /// count once.
+///
+/// A null `plane` means z = 0.
 TREEFORM_C_API treeform_code treeform_cut(const treeform_mesh* mesh, const treeform_plane* plane,
                                           const double* heights, size_t count,
                                           const treeform_cut_options* options,
@@ -185,8 +189,8 @@ typedef struct treeform_mesh_part {
     const uint32_t* face_source;  ///< [F] the number of each face in the given mesh
     /// [V] the number of each point in the given mesh; ascending
     const uint32_t* vertex_source;
-    double volume;  ///< as `signed_volume`
-    double area;    ///< as `surface_area`
+    double volume;  ///< as `treeform_volume`
+    double area;    ///< as `treeform_area`
 } treeform_mesh_part;
 
 /// Parts of a mesh.

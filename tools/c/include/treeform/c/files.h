@@ -134,9 +134,9 @@ typedef struct treeform_file_view {
     size_t texture_count;
     const double* normals;  ///< [normal_count][3]
     size_t normal_count;
-    /// [F] numbers in `texture`; empty: no corner has any
+    /// [F][3] numbers in `texture`; empty: no corner has any
     const uint32_t* texture_of_corner;
-    /// [F] numbers in `normals`; empty: no corner has any
+    /// [F][3] numbers in `normals`; empty: no corner has any
     const uint32_t* normal_of_corner;
     /// [material_file_count] OBJ `mtllib`, as in the file
     const char* const* material_files;
@@ -165,9 +165,9 @@ TREEFORM_C_API treeform_code treeform_file_look(const treeform_file* file,
 TREEFORM_C_API treeform_code treeform_file_set_points(treeform_file* file, const double* points,
                                                       size_t count);
 
-/// Sets a column of `treeform_rows` ("vertex", "face") with one value for each row: `values`
-/// [rows] of `type`. For vertices and faces, `rows` must be their number in the file. Names of
-/// columns of coordinates or corners are an error.
+/// Sets a column of `element` ("vertex", "face") with one value for each row: `values` [rows] of
+/// `type`. For vertices and faces, `rows` must be their number in the file. Names of columns of
+/// coordinates or corners are an error.
 TREEFORM_C_API treeform_code treeform_file_set_column(treeform_file* file, const char* element,
                                                       const char* name, treeform_scalar type,
                                                       const void* values, size_t rows);
@@ -203,10 +203,10 @@ TREEFORM_C_API treeform_code treeform_file_add_text(treeform_file* file, treefor
 /// Makes each triangle a face of its own.
 TREEFORM_C_API treeform_code treeform_file_split_polygons(treeform_file* file);
 
-/// Rounds the coordinates to those of a LAS file; `moved` is the largest change of a coordinate.
+/// Rounds the coordinates to those of a LAS file; `result` is the largest change of a coordinate.
 TREEFORM_C_API treeform_code treeform_file_round_to_las(treeform_file* file, double* result);
 
-/// Rounds the coordinates to 32-bit floats; `moved` is the largest change of a coordinate.
+/// Rounds the coordinates to 32-bit floats; `result` is the largest change of a coordinate.
 TREEFORM_C_API treeform_code treeform_file_round_to_float32(treeform_file* file, double* result);
 
 /// Transforms the points and normals of the file by a matrix. If it mirrors, faces are flipped, so
@@ -227,12 +227,12 @@ typedef struct treeform_write_options {
     /// was read from a big-endian file. PCD is compressed only if it was read from a compressed
     /// file.
     int32_t ascii;
-    /// Precision of the coordinates; `TREEFORM_NONE`: the stored precision. Binary STL and GLB
-    /// only hold float32. 3MF holds doubles, but most of its readers convert to float, so none
-    /// means float32 there; a `treeform_precision`, or -1
+    /// Precision of the coordinates (a `treeform_precision`); -1: the stored precision. Binary STL
+    /// and GLB only hold float32. 3MF holds doubles, but most of its readers convert to float, so
+    /// -1 means float32 there.
     int32_t precision;
     /// Called with 0 at the start and during the writing, and with 1 before the file is renamed.
-    /// If it returns false, nothing is written, and an existing file is unchanged.
+    /// If it returns other than 0, nothing is written, and an existing file is unchanged.
     treeform_progress progress;
     void* progress_data;
     /// [drop_count] Columns of points to omit; "normal", "uv" or "color" for all columns of that

@@ -16,7 +16,7 @@ typedef struct treeform_segments {
 
 // made of the headers of C++:
 //   pair_kind
-/// How two faces meet, one kind a pair. A shared corner is a corner of both (`vertex_identity`).
+/// How two faces meet, one kind a pair. A shared corner is a corner of both (`treeform_vertices`).
 typedef int32_t treeform_pair_kind;
 enum {
     /// no shared corner; the interiors pass through each other
@@ -67,7 +67,7 @@ typedef struct treeform_pairs {
 typedef struct treeform_intersection_options {
     size_t struct_size;
     /// [12] `treeform_intersections`: applied to each mesh first. The answer is exact for the
-    /// moved corners, which are rounded to double. A prepared mesh is not changed; or null
+    /// moved corners, which are rounded to double. The mesh itself is not changed; or null
     const double* move_a;
     const double* move_b;  ///< [12]; or null
     int32_t first_only;    ///< only the first pair; the same on any number of threads
@@ -120,11 +120,11 @@ TREEFORM_C_API treeform_code treeform_group_pairs(const treeform_mesh* mesh,
 /// All pairs of a face of `a` and a face of `b` that have a common point.
 ///
 /// Exact on the coordinates as given, or as moved. The kinds are crossing, overlap, touching and
-/// degenerate: two meshes share no corners, so faces that meet in equal corners are `touching`,
-/// and equal faces `overlap`. Surfaces count, not solids: a mesh inside the other that does not
-/// touch it gives no pair. `a` and `b` may be the same mesh. For meshes that are not prepared,
-/// only the faces that reach into the intersection of both bounding boxes (after the transforms)
-/// are indexed.
+/// degenerate: two meshes share no corners, so faces that meet in equal corners are
+/// `TREEFORM_TOUCHING`, and equal faces `TREEFORM_OVERLAP`. Surfaces count, not solids: a mesh
+/// inside the other that does not touch it gives no pair. `a` and `b` may be the same mesh. For
+/// meshes without an index, only the faces that reach into the intersection of both bounding boxes
+/// (after the transforms) are indexed.
 TREEFORM_C_API treeform_code treeform_intersections(const treeform_mesh* a, const treeform_mesh* b,
                                                     const treeform_intersection_options* options,
                                                     treeform_pairs** pairs);
@@ -192,15 +192,14 @@ TREEFORM_C_API treeform_code treeform_write_curves(const char* path, const treef
                                                    const char* format);
 
 /// Colors the faces of `file` that meet, and gives faces the properties tf_class and tf_region.
-/// `treeform_named_faces` is the part of this file that was searched, and `pairs` are pairs of
-/// faces of its mesh.
+/// `part` is the part of this file that was searched, and `pairs` are pairs of faces of its mesh.
 TREEFORM_C_API treeform_code treeform_color_pairs(treeform_file* file, const treeform_part* part,
                                                   const treeform_face_pair* pairs, size_t count);
 
 /// Options of `treeform_self_intersections_of_file` and `treeform_shared_search`.
 typedef struct treeform_stream_search_options {
     size_t struct_size;
-    /// none: by coordinates for STL, else by index; a `treeform_vertices`, or -1
+    /// a `treeform_vertices`; -1: by coordinates for STL, else by index
     int32_t vertices;
     uint32_t kinds;
     const treeform_box* box;  ///< only faces that have a point in the box; or null
@@ -222,7 +221,7 @@ typedef struct treeform_stream_search_result {
     void* owner;
     treeform_arrays mesh;          ///< only the intersecting faces
     const uint32_t* face_in_file;  ///< [F] number of each face in the file
-    /// Pairs of faces of `treeform_named_faces`. Its counters are sums over the tiles.
+    /// Pairs of faces of `mesh`. Its counters are sums over the tiles.
     const treeform_pairs* found;
     uint64_t stored_faces;  ///< faces of the file
     uint64_t triangles;     ///< triangles of these faces

@@ -18,10 +18,11 @@ typedef struct treeform_lay_flat_options {
     /// coplanar, which suits models in round numbers. A flat face that was rotated and rounded
     /// falls into many exactly coplanar sides; about 1e-6 of the size joins them.
     double tolerance;
-    double bed;                    ///< z of the bed
-    double overhang_angle;         ///< in degrees from the vertical, 0 to 90; default 45.0
-    uint64_t overhang_sides;       ///< default 32
-    treeform_precision precision;  ///< of the points returned; default float64
+    double bed;               ///< z of the bed
+    double overhang_angle;    ///< in degrees from the vertical, 0 to 90; default 45.0
+    uint64_t overhang_sides;  ///< default 32
+    /// of the points returned; default `TREEFORM_FLOAT64`
+    treeform_precision precision;
     treeform_progress progress;
     void* progress_data;
     /// [3] The side whose outward normal makes the least angle with this direction, of any length,
@@ -37,10 +38,11 @@ TREEFORM_C_API void treeform_lay_flat_options_init(treeform_lay_flat_options* op
 /// A mesh on the bed.
 typedef struct treeform_laid_flat {
     void* owner;
-    /// ok, or `cancelled`: then the rest is empty. `max_displacement` includes `corrected`.
+    /// ok, or `TREEFORM_STATUS_CANCELLED`: then the rest is empty. `max_displacement` includes
+    /// `corrected`.
     const treeform_certificate* certificate;
     const char* message;   ///< the outcome as a clause for people, without a full stop
-    const double* points;  ///< [V] the new points, as they are to be written
+    const double* points;  ///< [V][3] the new points, as they are to be written
     size_t point_count;
     /// new = M * old, a rotation and a translation. `points` differ from it by a few units in the
     /// last place of the largest coordinate, old or new.
@@ -74,7 +76,8 @@ typedef struct treeform_laid_flat {
 } treeform_laid_flat;
 
 /// Rotates `mesh` so that a flat side of its convex hull is on the bed. The center of its box
-/// keeps x and y. None if there is no side: fewer than three points, or all on a line.
+/// keeps x and y. Null, with `TREEFORM_OK`, if there is no side: fewer than three points, or all
+/// on a line.
 ///
 /// Every point in the plane of the side, exactly or within the tolerance, gets exactly the z of
 /// the bed, and no point is below. Areas and angles are rounded; values within 2^-40 of the best
@@ -111,7 +114,8 @@ typedef struct treeform_pack_options {
     /// Start no more tries after this many seconds. If that ends the search, the result depends on
     /// the speed of the machine; default infinite
     double seconds;
-    treeform_precision precision;  ///< of the points returned; default float64
+    /// of the points returned; default `TREEFORM_FLOAT64`
+    treeform_precision precision;
     treeform_progress progress;
     void* progress_data;
 } treeform_pack_options;
@@ -122,7 +126,7 @@ TREEFORM_C_API void treeform_pack_options_init(treeform_pack_options* options, s
 typedef struct treeform_packed_part {
     int32_t placed;  ///< whether a position was found
     uint32_t plate;  ///< number of its plate, from 0
-    /// [V] the new points, rounded to the precision; unchanged if the part is not placed.
+    /// [V][3] the new points, rounded to the precision; unchanged if the part is not placed.
     const double* points;
     size_t point_count;
     /// new = M * old, a rotation about z and a translation; the identity if the part is not
@@ -134,7 +138,7 @@ typedef struct treeform_packed_part {
 typedef struct treeform_packing {
     void* owner;
     /// ok: the guarantees of `treeform_pack` hold for the points, even if some parts have no
-    /// place. Otherwise `cancelled`, and the rest is empty.
+    /// place. Otherwise `TREEFORM_STATUS_CANCELLED`, and the rest is empty.
     const treeform_certificate* certificate;
     const char* message;                ///< the outcome as a clause for people, without a full stop
     const treeform_packed_part* parts;  ///< [P] in the order of the input
@@ -196,20 +200,20 @@ enum {
     /// Distances to the nearest points, in least squares: for clouds, or where planes determine
     /// little.
     TREEFORM_POINT_TO_POINT = 1,
-    /// `point_to_plane` on a fixed mesh, `plane_to_plane` on a fixed cloud
+    /// `TREEFORM_POINT_TO_PLANE` on a fixed mesh, `TREEFORM_PLANE_TO_PLANE` on a fixed cloud
     TREEFORM_ALIGN_AUTOMATIC = 2,
     /// For a fixed cloud, distances to the mean of the planes at the moving and at the fixed
     /// point, with less weight if these disagree; distances along the plane have a weight of
     /// 1/1000. Robust to different densities, as in the rings around a scanner. On a fixed mesh
-    /// the same as `point_to_plane`. Planes are fitted to the 12 nearest points, or up to 192 if
-    /// these are collinear.
+    /// the same as `TREEFORM_POINT_TO_PLANE`. Planes are fitted to the 12 nearest points, or up to
+    /// 192 if these are collinear.
     TREEFORM_PLANE_TO_PLANE = 3
 };
 
 /// How to align.
 typedef struct treeform_align_options {
     size_t struct_size;
-    treeform_align_method method;  ///< default automatic
+    treeform_align_method method;  ///< default `TREEFORM_ALIGN_AUTOMATIC`
     /// Share of the moving points that have a partner, in (0, 1]. Each step uses this share of the
     /// points, those with the nearest partners; default 1.0
     double overlap;
@@ -235,7 +239,8 @@ typedef struct treeform_align_options {
     uint64_t samples;
     /// [12] Applied to the moving points first: any affine map; or null
     const double* start;
-    treeform_precision precision;  ///< of the points returned; default float64
+    /// of the points returned; default `TREEFORM_FLOAT64`
+    treeform_precision precision;
     treeform_progress progress;
     void* progress_data;
     /// Bounds of `treeform_align_result::scale` if `scale` is set: positive, or 0 and infinity for
@@ -283,7 +288,7 @@ enum {
 /// The motion found.
 typedef struct treeform_align_result {
     void* owner;
-    const double* points;  ///< [V] the moving points, moved by `matrix` and rounded
+    const double* points;  ///< [V][3] the moving points, moved by `matrix` and rounded
     size_t point_count;
     /// new = M * old, with `start` included. Far from the origin its last column is large and has
     /// a large rounding error; then new = `pivot_moved` + (linear part of M) * (old - `pivot`) is
@@ -293,8 +298,8 @@ typedef struct treeform_align_result {
     double pivot_moved[3];  ///< the pivot, moved by `matrix`
     double scale;           ///< the scale found, in addition to that of `start`
     /// Root mean square of the distances at the end, weighted if weights are used; 0 without
-    /// partners. For two clouds with `plane_to_plane`: of the distances to the planes, weighted by
-    /// the agreement of both planes.
+    /// partners. For two clouds with `TREEFORM_PLANE_TO_PLANE`: of the distances to the planes,
+    /// weighted by the agreement of both planes.
     double rms;
     double rms_at_start;  ///< the same at the start, unweighted
     /// Share of all moving points whose nearest fixed point is within `max_distance`, at the end.
@@ -337,10 +342,10 @@ typedef struct treeform_align_result {
 /// are noise; in a wrong one, whole regions deviate to one side. With 4000 moving points or more,
 /// every fourth is held out of the fit and used for this test. If its residuals are more than
 /// noise, other starts around `start` are tried: shifts by 8% of the diagonal, rotations by 14
-/// degrees. If residuals are still more than noise, a fixed cloud gives `doubtful` if they exceed
-/// 0.6 times the thickness of both sides around their planes. On a fixed mesh, `converged` then
-/// requires that other starts, tried with few points, do not end better, and that the deviation is
-/// below 0.2% of the diagonal.
+/// degrees. If residuals are still more than noise, a fixed cloud gives `TREEFORM_ALIGN_DOUBTFUL`
+/// if they exceed 0.6 times the thickness of both sides around their planes. On a fixed mesh,
+/// `TREEFORM_ALIGN_CONVERGED` then requires that other starts, tried with few points, do not end
+/// better, and that the deviation is below 0.2% of the diagonal.
 ///
 /// If either side has no points, the result is `start`, not converged.
 TREEFORM_C_API treeform_code treeform_align(const treeform_mesh* moving, const treeform_mesh* fixed,

@@ -88,11 +88,25 @@ typedef struct treeform_ray {
 } treeform_ray;
 
 // made of the headers of C++:
-//   mesh_hit raycast() raycast_any()
+//   feature mesh_hit raycast() raycast_any()
+/// A part of a triangle. Edge `TREEFORM_AT_E0` runs from v0 to v1, `TREEFORM_AT_E1` from v1 to v2,
+/// `TREEFORM_AT_E2` from v2 to v0; `TREEFORM_AT_INTERIOR` is the triangle without its edges.
+typedef int32_t treeform_triangle_feature;
+enum {
+    TREEFORM_AT_V0 = 0,
+    TREEFORM_AT_V1 = 1,
+    TREEFORM_AT_V2 = 2,
+    TREEFORM_AT_E0 = 3,
+    TREEFORM_AT_E1 = 4,
+    TREEFORM_AT_E2 = 5,
+    TREEFORM_AT_INTERIOR = 6
+};
+
 /// A face that a ray hits. The point hit is origin + t direction.
 typedef struct treeform_hit {
     uint32_t face;
-    /// corner, edge or interior that contains the first common point (a `uint8_t`)
+    /// corner, edge or interior that contains the first common point (a
+    /// `treeform_triangle_feature`)
     uint8_t at;
     uint8_t coplanar;  ///< the ray runs in the face's plane, or the face has no area
     double t;          ///< of the first common point; relative error below 2^-40
@@ -100,7 +114,7 @@ typedef struct treeform_hit {
 } treeform_hit;
 
 /// `hits` [count]: the first face that each ray hits, exactly; of several faces at the same point,
-/// the lowest.
+/// the lowest. For a ray that hits none, `face` is `TREEFORM_NONE`, `t` and `t_end` are NaN.
 TREEFORM_C_API treeform_code treeform_raycast(const treeform_mesh* mesh, const treeform_ray* rays,
                                               size_t count, treeform_hit* hits);
 
@@ -184,8 +198,8 @@ typedef struct treeform_measure_options {
 /// Sets the defaults.
 TREEFORM_C_API void treeform_measure_options_init(treeform_measure_options* options, size_t size);
 
-/// The relation of `a` and `b`, their distance and their nearest points. None if one is empty, or
-/// if they are separate and further apart than `options.radius`.
+/// The relation of `a` and `b`, their distance and their nearest points. Null, with `TREEFORM_OK`,
+/// if one is empty, or if they are separate and further apart than `options->radius`.
 ///
 /// The relation is exact (see `treeform_relate`), and so is whether a distance is 0. Other
 /// distances are rounded as in `treeform_distance`. If the two faces named by `treeform_relate`
@@ -215,9 +229,9 @@ TREEFORM_C_API treeform_code treeform_penetration_depth(const treeform_mesh* a,
 /// `treeform_repair` flips it.
 TREEFORM_C_API treeform_code treeform_count_inside_out(const treeform_mesh* mesh, uint64_t* result);
 
-/// Counts `points` [count][3] by their position relative to `solids` [solid_count], exactly:
-/// counts[0] strictly inside any solid, counts[1] else on the surface of any, counts[2] outside of
-/// all.
+/// Counts `points` [points_count][3] by their position relative to `solids` [solids_count],
+/// exactly: counts[0] strictly inside any solid, counts[1] else on the surface of any, counts[2]
+/// outside of all.
 TREEFORM_C_API treeform_code treeform_count_sides(const double* points, size_t points_count,
                                                   const treeform_mesh* const* solids,
                                                   size_t solids_count, uint64_t counts[3]);
@@ -286,7 +300,7 @@ typedef struct treeform_deviation_result {
 /// inside, and distances have no sign. Magnitudes have the error bound of
 /// `treeform_closest_point`, 16 u L; a distance may round to 0.
 ///
-/// None if `a` or `b` is empty.
+/// Null, with `TREEFORM_OK`, if `a` or `b` is empty.
 TREEFORM_C_API treeform_code treeform_deviation(const treeform_mesh* a,
                                                 const treeform_mesh* const* b, size_t count,
                                                 const treeform_deviation_options* options,

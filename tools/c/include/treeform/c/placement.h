@@ -4,8 +4,8 @@
 /// packing and alignment.
 ///
 /// Placements are checked exactly in the returned coordinates. If there is no such position,
-/// functions return `TREEFORM_NO_PLACE`, with a result that has the reason. `fixed` [fixed_count]
-/// are meshes that do not move; those of a `treeform_mesh_set` keep their indexes between calls.
+/// functions return `TREEFORM_NO_PLACE`, with a result that has the reason. `fixed` [count] are
+/// meshes that do not move; those of a `treeform_mesh_set` keep their indexes between calls.
 
 #include <treeform/c/layouts.h>
 #include <treeform/c/nearness.h>
@@ -23,11 +23,11 @@ enum {
     TREEFORM_END_BED = 1,
     /// no motion is needed
     TREEFORM_END_UNCHANGED = 2,
-    /// for `separate`: moved out of the fixed meshes
+    /// for `treeform_separate`: moved out of the fixed meshes
     TREEFORM_END_MOVED_APART = 3,
-    /// no place: meets nothing, or nothing within `max_travel`
+    /// no place: nothing is in the way, at least not within `max_travel`
     TREEFORM_END_NOTHING_MET = 4,
-    /// no place: the nearest is further away than `max_travel`
+    /// no place: `treeform_mate`, `treeform_separate` or a bed above, beyond `max_travel`
     TREEFORM_END_TOO_FAR = 5,
     /// no place: penetrates a fixed mesh at the start
     TREEFORM_END_STARTS_PENETRATING = 6,
@@ -53,7 +53,7 @@ typedef struct treeform_contact {
     /// unit normal from the fixed to the moving mesh; 0 if there is none
     double normal[3];
     uint32_t moving;      ///< face of the moving mesh
-    uint32_t fixed_face;  ///< none for the bed
+    uint32_t fixed_face;  ///< `TREEFORM_NONE` for the bed
     uint32_t fixed;       ///< number of the fixed mesh
 } treeform_contact;
 
@@ -61,19 +61,22 @@ typedef struct treeform_contact {
 /// one if it does not move.
 typedef struct treeform_placement {
     void* owner;
-    /// ok: the mesh has a place, and `points` were checked exactly. Otherwise `no_placement`,
-    /// `not_certified` (not_representable), `out_of_range` or `cancelled`. It lists no faces.
+    /// ok: the mesh has a place, and `points` were checked exactly. Otherwise
+    /// `TREEFORM_STATUS_NO_PLACEMENT`, `TREEFORM_STATUS_NOT_CERTIFIED`
+    /// (`TREEFORM_END_NOT_REPRESENTABLE`), `TREEFORM_STATUS_OUT_OF_RANGE` or
+    /// `TREEFORM_STATUS_CANCELLED`. It lists no faces.
     const treeform_certificate* certificate;
     treeform_placement_end end;
-    const char* message;   ///< the outcome as a clause for people, without a full stop
-    const double* points;  ///< [V] at the place, as they are to be written
+    /// the outcome as a clause for people, without a full stop; empty if the placement succeeded
+    const char* message;
+    const double* points;  ///< [V][3] at the place, as they are to be written
     size_t point_count;
     /// new = M * old: a translation; for `treeform_turn` and `treeform_mate_features` also a
     /// rotation. `points` are moved by it and rounded once, except for points that are set on the
     /// bed.
     double matrix[12];
     double direction[3];  ///< unit direction of the travel; 0 if there is none
-    double travel;        ///< distance moved; for `too_far` the distance needed
+    double travel;        ///< distance moved; for `TREEFORM_END_TOO_FAR` the distance needed
     double clearance;     ///< the given clearance
     double bed;           ///< least z allowed, rounded: the bed plus the clearance
     double below_bed;     ///< how far the mesh was below `bed` at the start
@@ -81,7 +84,7 @@ typedef struct treeform_placement {
     treeform_mesh_relation relation;           ///< the same at the place
     size_t nearest_fixed;  ///< number of that fixed mesh; the lowest if several qualify
     /// The relation, at the place, of the moving mesh (`a`) to the fixed mesh that it penetrates,
-    /// else to one that it touches, else to the nearest. None if all are too far away.
+    /// else to one that it touches, else to the nearest. Null if all are too far away.
     const treeform_relation* nearest;
     const treeform_contact* contacts;  ///< [contact_listed]
     size_t contact_listed;
@@ -99,8 +102,8 @@ typedef struct treeform_placement {
     /// feature's center at the place, along the direction of the fixed feature. For planes, their
     /// distance.
     double offset;
-    /// For `separate`: the effort of its search. If `skipped_candidates` is not 0, a shorter
-    /// translation may exist or, if no place was found, a place.
+    /// For `treeform_separate`: the effort of its search. If `skipped_candidates` is not 0, a
+    /// shorter translation may exist or, if no place was found, a place.
     treeform_search_effort effort;
 } treeform_placement;
 
@@ -110,7 +113,8 @@ typedef struct treeform_place_options {
     double clearance;  ///< gap to leave, a distance; 0: contact
     /// largest distance to move; obstacles beyond are ignored; NaN: not given
     double max_travel;
-    treeform_precision precision;  ///< of the points returned; default float64
+    /// of the points returned; default `TREEFORM_FLOAT64`
+    treeform_precision precision;
     /// `treeform_slide` and `treeform_drop`: z of a bed, which also stops the mesh. Points that
     /// rest on it have exactly its z (with float32, the least one not below it), and no point is
     /// below. `treeform_drop` without fixed meshes has one at 0; NaN: not given
@@ -118,16 +122,17 @@ typedef struct treeform_place_options {
     /// `treeform_slide`: close a gap that rounding leaves at a contact, by units in the last
     /// place; default 1
     int32_t close_in;
-    /// largest number of contacts listed; for `separate`, for each fixed mesh; default 1000
+    /// largest number of contacts listed; for `treeform_separate`, for each fixed mesh; default
+    /// 1000
     uint64_t limit;
     treeform_vertices vertices;  ///< as in `treeform_relate`
-    /// `separate`: try at most this many normals of faces; default 24
+    /// `treeform_separate`: try at most this many normals of faces; default 24
     uint64_t normals;
-    /// `separate`: take the normals from at most this many pairs of faces for each fixed mesh;
-    /// default 64
+    /// `treeform_separate`: take the normals from at most this many pairs of faces for each fixed
+    /// mesh; default 64
     uint64_t face_pairs;
-    /// `separate`: largest number of pairs of faces to test; a pair in motion counts as two. 0: 20
-    /// million plus 200 for each face. Distances for a clearance do not count.
+    /// `treeform_separate`: largest number of pairs of faces to test; a pair in motion counts as
+    /// two. 0: 20 million plus 200 for each face. Distances for a clearance do not count.
     uint64_t effort;
     /// `treeform_turn`: in degrees; greater than 0, up to 360; default 360.0
     double max_angle;
@@ -154,7 +159,7 @@ TREEFORM_C_API void treeform_place_options_init(treeform_place_options* options,
 /// penetrates at the start has no place. Points that no face uses move along and are otherwise
 /// ignored; points without any face are a cloud.
 ///
-/// Only fixed meshes on the way are tested and indexed. For many calls, pass prepared meshes.
+/// Only fixed meshes on the way are tested and indexed.
 TREEFORM_C_API treeform_code treeform_slide(const treeform_mesh* moving,
                                             const treeform_mesh* const* fixed, size_t count,
                                             const double direction[3],
@@ -199,9 +204,9 @@ TREEFORM_C_API treeform_code treeform_separate(const treeform_mesh* moving,
 /// corners, up to the rounding of distances. The returned coordinates are checked exactly: they
 /// penetrate nothing, and keep the clearance as computed by `treeform_distance`. If rounding
 /// violates that, the rotation is reduced by units in the last place. A mesh that touches at the
-/// start stays; one that penetrates has no place. With `nothing_met`, all of `max_angle` is free.
-/// `too_many_steps` means undecided: the mesh passes another at a distance that is very small
-/// compared with its size, over a long way.
+/// start stays; one that penetrates has no place. With `TREEFORM_END_NOTHING_MET`, all of
+/// `max_angle` is free. `TREEFORM_END_TOO_MANY_STEPS` means undecided: the mesh passes another at
+/// a distance that is very small compared with its size, over a long way.
 ///
 /// `travel` is 0, and `points` differ from `matrix` by a few units in the last place of the
 /// largest coordinate. `contacts` are the pairs of faces within the tolerance, beyond the
@@ -225,7 +230,7 @@ TREEFORM_C_API treeform_code treeform_mate_features(const treeform_mesh* moving,
                                                     treeform_placement** placement);
 
 /// The relation of `moving` to all of `fixed` at its present position. Moves nothing. Meshes
-/// nearer than the clearance are `closer_than_clearance`.
+/// nearer than the clearance are `TREEFORM_RELATION_CLOSER_THAN_CLEARANCE`.
 TREEFORM_C_API treeform_code treeform_measure_among(const treeform_mesh* moving,
                                                     const treeform_mesh* const* fixed, size_t count,
                                                     const treeform_place_options* options,
@@ -246,8 +251,8 @@ typedef struct treeform_face_relations {
 // made of the headers of C++:
 //   find_face_relations() face_contact impact impact_options time_of_impact()
 //   time_to_distance()
-/// The relation of each face to the other meshes; `treeform_placement` is a placement of `moving`
-/// among `fixed`.
+/// The relation of each face to the other meshes; `placement` is a placement of `moving` among
+/// `fixed`.
 TREEFORM_C_API treeform_code treeform_find_face_relations(const treeform_mesh* moving,
                                                           const treeform_mesh* const* fixed,
                                                           size_t count,
@@ -258,7 +263,8 @@ TREEFORM_C_API treeform_code treeform_find_face_relations(const treeform_mesh* m
 typedef struct treeform_impact_contact {
     uint32_t face_a;
     uint32_t face_b;
-    uint8_t on_a;  ///< corner, edge or interior of the face, as in `treeform_hit::at`
+    /// corner, edge or interior of the face (a `treeform_triangle_feature`)
+    uint8_t on_a;
     uint8_t on_b;
     double point[3];  ///< a common point, on `b`, rounded
 } treeform_impact_contact;
@@ -266,8 +272,9 @@ typedef struct treeform_impact_contact {
 /// The first contact of two meshes.
 typedef struct treeform_impact {
     void* owner;
-    /// `contact`: the meshes meet at a time greater than 0; `starts_touching`: they have a common
-    /// point at the start; `nothing_met`.
+    /// `TREEFORM_END_CONTACT`: the meshes meet at a time greater than 0;
+    /// `TREEFORM_END_STARTS_TOUCHING`: they have a common point at the start;
+    /// `TREEFORM_END_NOTHING_MET`.
     treeform_placement_end end;
     /// The greatest double that is not beyond the exact time t of the contact: `a` moved by `time`
     /// times the motion has not passed it. 0 when they meet at the start.
@@ -283,7 +290,7 @@ typedef struct treeform_impact {
 typedef struct treeform_impact_options {
     size_t struct_size;
     /// [12] Applied to each mesh before the motion. The result is exact for the moved corners,
-    /// which are rounded to double. A prepared mesh is not changed; or null
+    /// which are rounded to double. The mesh itself is not changed; or null
     const double* move_a;
     const double* move_b;  ///< [12]; or null
     double latest;         ///< Ignore contacts after this time; default infinite
@@ -315,9 +322,9 @@ TREEFORM_C_API treeform_code treeform_time_of_impact(const treeform_mesh* a, con
 /// `treeform_slide` checks its result. For the distance 0, use `treeform_time_of_impact`, which is
 /// exact.
 ///
-/// `end` is `contact` if the meshes are nearer than the distance right after `time`, and
-/// `starts_touching` if they are nearer at the start. `contacts` are the pairs of faces at the
-/// distance, as computed; their points are on `b`, their features have no meaning.
+/// `end` is `TREEFORM_END_CONTACT` if the meshes are nearer than the distance right after `time`,
+/// and `TREEFORM_END_STARTS_TOUCHING` if they are nearer at the start. `contacts` are the pairs of
+/// faces at the distance, as computed; their points are on `b`, their features have no meaning.
 ///
 /// The distance of two triangles is a convex function of t. So tangents from the left never pass
 /// the time at which it falls to a value, and Newton's method finds that time from below.

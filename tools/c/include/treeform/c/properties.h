@@ -103,8 +103,8 @@ TREEFORM_C_API treeform_code treeform_find_defects(const treeform_mesh* mesh,
 /// mesh is closed, so that winding numbers are defined.
 TREEFORM_C_API treeform_code treeform_find_open_edge(const treeform_mesh* mesh, uint32_t edge[2]);
 
-/// `which` is the index of the first of `tolerances` [count] that closes the mesh if points within
-/// it are joined; `count` if joining equal points already closes it, or if none does.
+/// `result` is the index of the first of `tolerances` [count] that closes the mesh if points
+/// within it are joined; `count` if joining equal points already closes it, or if none does.
 TREEFORM_C_API treeform_code treeform_closing_tolerance(const treeform_mesh* mesh,
                                                         const double* tolerances, size_t count,
                                                         size_t* result);
@@ -177,8 +177,8 @@ TREEFORM_C_API treeform_code treeform_feature_at_point(const treeform_mesh* mesh
                                                        const treeform_feature_options* options,
                                                        treeform_features** features);
 
-/// The plane or axis fitted to exactly these faces, for any deviation. None if they have no area,
-/// or, for an axis, if they are flat.
+/// The plane or axis fitted to exactly these faces, for any deviation. Null, with `TREEFORM_OK`,
+/// if they have no area, or, for an axis, if they are flat.
 TREEFORM_C_API treeform_code treeform_fit_feature(const treeform_mesh* mesh,
                                                   treeform_feature_kind kind, const uint32_t* faces,
                                                   size_t count, treeform_features** features);

@@ -21,7 +21,7 @@ typedef struct treeform_offset_options {
     /// (170,000 faces). `treeform_offset_result` has the value used, and the error; NaN: not given
     double resolution;
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
-    /// float64
+    /// `TREEFORM_FLOAT64`
     treeform_precision precision;
     treeform_progress progress;
     void* progress_data;
@@ -41,9 +41,10 @@ typedef struct treeform_offset_result {
     void* owner;
     treeform_arrays mesh;
     /// Status ok means, verified on the coordinates of `mesh`: a closed manifold, oriented
-    /// outward, whose faces meet only in common corners and edges. `open_input`: the input bounds
-    /// no solid; `open_edges` lists where. `vanished`: the result is empty, since the solid is
-    /// nowhere thick enough, or exceeds that thickness by less than a cell.
+    /// outward, whose faces meet only in common corners and edges. `TREEFORM_STATUS_OPEN_INPUT`:
+    /// the input bounds no solid; `open_edges` lists where. `TREEFORM_STATUS_VANISHED`: the result
+    /// is empty, since the solid is nowhere thick enough, or exceeds that thickness by less than a
+    /// cell.
     const treeform_certificate* certificate;
     /// the given distance, without its sign; for `treeform_wrap`, the offset used
     double distance;
@@ -92,7 +93,7 @@ TREEFORM_C_API treeform_code treeform_offset(const treeform_mesh* mesh, double d
                                              treeform_offset_result** result);
 
 /// Hollows the solid: its points deeper inside than `wall` become cavities; the outer surface
-/// stays bit for bit. The status is `vanished` if there is no cavity.
+/// stays bit for bit. The status is `TREEFORM_STATUS_VANISHED` if there is no cavity.
 ///
 /// `drains` are holes through the wall: a point and a diameter. Each runs from the nearest point
 /// of the surface along the shortest segment to a cavity, as a regular prism of 32 sides; the
@@ -117,7 +118,7 @@ TREEFORM_C_API treeform_code treeform_thicken(const treeform_mesh* mesh, double 
 typedef struct treeform_simplify_options {
     size_t struct_size;
     /// Precision of the returned points. With float32, all points are rounded first, and the
-    /// bounds include this; values are stored as doubles; default float64
+    /// bounds include this; values are stored as doubles; default `TREEFORM_FLOAT64`
     treeform_precision precision;
     uint64_t target_faces;  ///< stop at this number of faces
     /// Edges are features if the normals of their faces differ by more than this, in degrees; 180:
@@ -149,11 +150,12 @@ typedef struct treeform_simplify_result {
     uint64_t refused_by_distance;
     uint64_t refused_by_contact;  ///< edges whose collapse would make faces meet
     /// Status ok: no count of `treeform_find_solid_defects` is larger than for the input. So a
-    /// solid is still a solid. Otherwise `not_certified` or `cancelled`.
+    /// solid is still a solid. Otherwise `TREEFORM_STATUS_NOT_CERTIFIED` or
+    /// `TREEFORM_STATUS_CANCELLED`.
     const treeform_certificate* certificate;
     /// [V] input vertex equal to each vertex; `TREEFORM_NONE`: new
     const uint32_t* vertex_source;
-    /// [V] for a new vertex, the nearest input face on its side of seams; else none
+    /// [V] for a new vertex, the nearest input face on its side of seams; else `TREEFORM_NONE`
     const uint32_t* face_of_new_vertex;
     /// [3 F] the input corner (3 f + i for corner i of face f) at the vertex of each corner, on
     /// its side of seams; none at new vertices
@@ -222,8 +224,8 @@ typedef struct treeform_oriented_box {
 
 /// A box of small volume around points: the smallest among boxes with one side in a side of the
 /// convex hull and another along an edge of that side, and the axis-aligned box. For coplanar
-/// points, of least area. None without points. For a hull of more than a few thousand sides, only
-/// the largest sides are tried, up to 2^26 corners of sides.
+/// points, of least area. Null, with `TREEFORM_OK`, without points. For a hull of more than a few
+/// thousand sides, only the largest sides are tried, up to 2^26 corners of sides.
 ///
 /// Axes, center and size are rounded: a point may be outside by 2^-48 of the largest coordinate.
 TREEFORM_C_API treeform_code treeform_find_oriented_box(const treeform_mesh* mesh,

@@ -29,7 +29,7 @@ typedef struct treeform_boolean_options {
     size_t struct_size;
     treeform_fill_rule fill_rule;  ///< what is inside
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
-    /// float64
+    /// `TREEFORM_FLOAT64`
     treeform_precision precision;
     /// Where rounding makes faces meet, only points at most this far apart are joined, in the
     /// mesh's length unit, and never points further apart than 2^-10 of the largest coordinate.
@@ -37,7 +37,7 @@ typedef struct treeform_boolean_options {
     double max_displacement;
     /// Do not merge coplanar faces that were cut, or that overlap. By default they are merged,
     /// before rounding, which removes vertices inside a flat region, and on a straight edge
-    /// between two. Uncut faces are not changed. `split` keeps all cuts.
+    /// between two. Uncut faces are not changed. `TREEFORM_RESOLVE_SPLIT` keeps all cuts.
     int32_t keep_cuts;
     int32_t simplify;  ///< merge all coplanar faces of the result, also those not cut
     /// Compute `treeform_boolean_result::volumes`; only for two operands, without filled gaps.
@@ -64,7 +64,7 @@ TREEFORM_C_API void treeform_boolean_options_init(treeform_boolean_options* opti
 
 /// The volumes of two operands, their union and intersection: first + second = either + both.
 typedef struct treeform_volumes {
-    /// The magnitude of `signed_volume`, for an operand that winds once around its inside. For
+    /// The magnitude of `treeform_volume`, for an operand that winds once around its inside. For
     /// others the sum over the cells inside, like the volumes below.
     double first;
     double second;
@@ -82,7 +82,7 @@ typedef struct treeform_boolean_result {
     /// it may be a neighbor of that face. A face of a filled `gap` has the operand face at or
     /// opposite to it; such faces come last.
     const treeform_element* face_source;
-    /// [V] the lowest operand vertex equal to each vertex, or none
+    /// [V] the lowest operand vertex equal to each vertex, or `TREEFORM_NONE`
     const treeform_element* vertex_source;
     /// [V] for each new vertex, an operand face that contains it; in a filled `gap`, as in
     /// `face_source`. Empty with `keep_cuts`.
@@ -106,7 +106,8 @@ typedef struct treeform_boolean_result {
     uint64_t degenerate;  ///< input faces without area
     /// input faces skipped, since the result cannot contain them
     uint64_t skipped_faces;
-    /// For `split`: input faces that are entirely covered by faces with lower numbers.
+    /// For `TREEFORM_RESOLVE_SPLIT`: input faces that are entirely covered by faces with lower
+    /// numbers.
     uint64_t covered;
     /// Faces of the exact result, before rounding. If not 0 while `mesh` has no faces, all of the
     /// result was too thin for the coordinates, or removed as `small_parts`.
@@ -200,22 +201,28 @@ enum {
 /// How to resolve self-intersections.
 typedef struct treeform_resolve_options {
     size_t struct_size;
-    treeform_fill_rule fill_rule;  ///< for `outer`: the rule that defines the inside
+    /// for `TREEFORM_RESOLVE_OUTER`: the rule that defines the inside
+    treeform_fill_rule fill_rule;
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
-    /// float64
+    /// `TREEFORM_FLOAT64`
     treeform_precision precision;
-    /// For `split` and `outer`: as in `treeform_boolean_options`; default infinite
+    /// For `TREEFORM_RESOLVE_SPLIT` and `TREEFORM_RESOLVE_OUTER`: as in
+    /// `treeform_boolean_options`; default infinite
     double max_displacement;
-    int32_t touching;  ///< for `remove`: also delete faces that only touch
-    /// for `remove`: largest number of rounds that make or widen holes; default 16
+    /// for `TREEFORM_RESOLVE_REMOVE`: also delete faces that only touch
+    int32_t touching;
+    /// for `TREEFORM_RESOLVE_REMOVE`: largest number of rounds that make or widen holes; default
+    /// 16
     int32_t removal_rounds;
-    /// For `outer` and `remove`: losing more than this share gives the status `excessive_loss`.
-    /// The share is of the volume of the solid, or of the area if the mesh bounds none. 1 allows
-    /// any loss. The solid before is that of `treeform_repair` without filling holes; default 0.05
+    /// For `TREEFORM_RESOLVE_OUTER` and `TREEFORM_RESOLVE_REMOVE`: losing more than this share
+    /// gives the status `TREEFORM_STATUS_EXCESSIVE_LOSS`. The share is of the volume of the solid,
+    /// or of the area if the mesh bounds none. 1 allows any loss. The solid before is that of
+    /// `treeform_repair` without filling holes; default 0.05
     double max_loss;
     treeform_progress progress;
     void* progress_data;
-    /// for `outer`: as in `treeform_boolean_options`; `split` keeps all cuts
+    /// for `TREEFORM_RESOLVE_OUTER`: as in `treeform_boolean_options`; `TREEFORM_RESOLVE_SPLIT`
+    /// keeps all cuts
     int32_t keep_cuts;
 } treeform_resolve_options;
 /// Sets the defaults.
@@ -248,19 +255,20 @@ typedef struct treeform_repair_statistics {
     /// Components (faces linked by vertices) that lost all of their faces; for `treeform_repair`,
     /// only those larger than `treeform_repair_options::strays`.
     uint64_t vanished_components;
-    /// closed shells inside the solid, dropped; `even_odd` makes them cavities
+    /// closed shells inside the solid, dropped; `TREEFORM_EVEN_ODD` makes them cavities
     uint64_t dropped_shells;
     double volume_before;  ///< after `join`, `orient` and `fill`; 0 if that is no solid
     double volume_after;
     double area_before;
     double area_after;
     double area_lost;  ///< as in `treeform_repair_options::max_loss`
-    /// For `treeform_resolve_self_intersections` with `split`: input faces that lie entirely on
-    /// faces of lower numbers. Their pieces are those of the lower faces, so they do not count as
-    /// removed.
+    /// For `treeform_resolve_self_intersections` with `TREEFORM_RESOLVE_SPLIT`: input faces that
+    /// lie entirely on faces of lower numbers. Their pieces are those of the lower faces, so they
+    /// do not count as removed.
     uint64_t covered;
-    uint64_t left_open;  ///< the same with `remove`: edges that lost their second face
-    /// for `treeform_resolve_self_intersections`: as in `boolean_statistics`
+    /// the same with `TREEFORM_RESOLVE_REMOVE`: edges that lost their second face
+    uint64_t left_open;
+    /// for `treeform_resolve_self_intersections`: as in `treeform_boolean_result`
     uint64_t exact_faces;
     double gap_limit;         ///< largest width of cracks searched for
     double widest_closed;     ///< widest crack that was closed
@@ -271,15 +279,17 @@ typedef struct treeform_repair_statistics {
 typedef struct treeform_repair_result {
     void* owner;
     treeform_arrays mesh;
-    /// [F'] input face of each face, lowest of those merged; or none
+    /// [F'] input face of each face, lowest of those merged; or `TREEFORM_NONE`
     const uint32_t* face_source;
-    const uint32_t* vertex_source;  ///< [V'] input vertex of each vertex, or none
+    /// [V'] input vertex of each vertex, or `TREEFORM_NONE`
+    const uint32_t* vertex_source;
     /// Status ok means, verified on the coordinates of `mesh`: a closed manifold, the inside
     /// behind every face, and any two faces share a corner, an edge or nothing. Status sheet means
     /// the same for a surface with a border. For `treeform_resolve_self_intersections` with
-    /// `split` and `remove`, ok only means that any two faces share a corner, an edge or nothing,
-    /// and that no face is degenerate; with `remove`, closed parts are still closed, and faces
-    /// that touched before may still touch (`treeform_resolve_options::touching`).
+    /// `TREEFORM_RESOLVE_SPLIT` and `TREEFORM_RESOLVE_REMOVE`, ok only means that any two faces
+    /// share a corner, an edge or nothing, and that no face is degenerate; with
+    /// `TREEFORM_RESOLVE_REMOVE`, closed parts are still closed, and faces that touched before may
+    /// still touch (`treeform_resolve_options::touching`).
     const treeform_certificate* certificate;
     const treeform_repair_statistics* statistics;
     /// for a file: the result with its attributes; else null
@@ -290,13 +300,14 @@ typedef struct treeform_repair_result {
 /// `mesh` without self-intersections. Check the certificate: its status says whether this was
 /// possible.
 ///
-/// `split` and `outer` decide exactly, on the coordinates as given, what is cut and what is
-/// inside. Then they round the points on cuts. Faces that meet no other face do not change.
+/// `TREEFORM_RESOLVE_SPLIT` and `TREEFORM_RESOLVE_OUTER` decide exactly, on the coordinates as
+/// given, what is cut and what is inside. Then they round the points on cuts. Faces that meet no
+/// other face do not change.
 ///
-/// `remove` is for surfaces that bound no solid, and works locally. It deletes the faces that meet
-/// or are degenerate. It closes each hole by triangles of the least total area between the
-/// vertices of its rim, but not beyond the former border of the mesh. Where the new triangles meet
-/// other faces, the hole is widened. A part is a set of faces linked by edges:
+/// `TREEFORM_RESOLVE_REMOVE` is for surfaces that bound no solid, and works locally. It deletes
+/// the faces that meet or are degenerate. It closes each hole by triangles of the least total area
+/// between the vertices of its rim, but not beyond the former border of the mesh. Where the new
+/// triangles meet other faces, the hole is widened. A part is a set of faces linked by edges:
 ///
 /// - In a part that has a border, a hole stays open (`left_open`) if widening does not help, or if
 /// the hole would surround the border. Then only one face of each pair is deleted.
@@ -325,20 +336,20 @@ typedef struct treeform_repair_options {
     double gap;
     uint64_t largest_hole;  ///< Fill holes of at most this many edges; default all
     /// Drops loose open pieces below this share of the area, and single triangles below 1 %. If a
-    /// larger component vanishes since it bounds no solid, the status is `excessive_loss`, unless
-    /// `max_loss` is 1; default 0.001
+    /// larger component vanishes since it bounds no solid, the status is
+    /// `TREEFORM_STATUS_EXCESSIVE_LOSS`, unless `max_loss` is 1; default 0.001
     double strays;
-    /// The rule that defines the inside. By default `positive` if each shell is outward after
-    /// `orient`, else `nonzero` or the labels of cells (see `treeform_repair`); a
-    /// `treeform_fill_rule`, or -1
+    /// The rule that defines the inside. By default `TREEFORM_POSITIVE` if each shell is outward
+    /// after `orient`, else `TREEFORM_NONZERO` or the labels of cells (see `treeform_repair`); a
+    /// `treeform_fill_rule`, or -1 for the default
     int32_t fill_rule;
-    /// Losing more than this share of the volume gives the status `excessive_loss`; if there were
-    /// holes, of the area. Faces that remain, or are inside the solid, do not count as lost. 1
-    /// allows any loss; default 0.05
+    /// Losing more than this share of the volume gives the status
+    /// `TREEFORM_STATUS_EXCESSIVE_LOSS`; if there were holes, of the area. Faces that remain, or
+    /// are inside the solid, do not count as lost. 1 allows any loss; default 0.05
     double max_loss;
     int32_t sheet;  ///< the mesh is an open surface: keep its border, and fill nothing
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
-    /// float64
+    /// `TREEFORM_FLOAT64`
     treeform_precision precision;
     double max_displacement;  ///< As in `treeform_boolean_options`; default infinite
     treeform_progress progress;

@@ -16,13 +16,14 @@ typedef struct treeform_weld_stream_options {
     /// [same_count] this and the next four: as in `treeform_weld_options`
     const treeform_weld_condition* same;
     size_t same_count;
-    /// values other than `first` need points without list properties
+    /// values other than `TREEFORM_KEEP_FIRST` need points without list properties
     treeform_weld_keep keep;
     const char* keep_by;
     const char* order_by;
     int32_t highest_first;
     /// Round coordinates and their means as LAS stores them before comparing them: to the scale
-    /// and offset of the first file if it is LAS, else to those that `round_to_las` chooses.
+    /// and offset of the first file if it is LAS, else to those that `treeform_file_round_to_las`
+    /// chooses.
     int32_t as_las;
     uint64_t memory;           ///< limit of the process, in bytes; 0: `treeform_default_memory`
     const char* folder;        ///< for the tiles; empty: the input's name and ".tiles"

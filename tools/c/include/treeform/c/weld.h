@@ -19,7 +19,7 @@ enum {
     /// the one with the least value of `keep_by`, not NaN if there are others; of equal ones the
     /// first
     TREEFORM_KEEP_LOWEST = 3,
-    /// the one with the greatest value of `keep_by`, otherwise as `lowest`
+    /// the one with the greatest value of `keep_by`, otherwise as `TREEFORM_KEEP_LOWEST`
     TREEFORM_KEEP_HIGHEST = 4
 };
 
@@ -60,7 +60,8 @@ typedef struct treeform_weld_options {
     const char* const* ignored_seams;  ///< [ignored_seam_count]
     size_t ignored_seam_count;
     treeform_weld_keep keep;
-    /// for `lowest` and `highest`: a property as in `treeform_weld_condition`
+    /// for `TREEFORM_KEEP_LOWEST` and `TREEFORM_KEEP_HIGHEST`: a property as in
+    /// `treeform_weld_condition`
     const char* keep_by;
     /// A property as in `treeform_weld_condition`: the rule visits points by its values, the least
     /// first, NaN last, of equal ones the lowest-numbered; the first point of a group in this
@@ -117,8 +118,8 @@ typedef struct treeform_weld_result {
 /// + collapsed + degenerate. Faces that became equal to others are kept. Edges are counted over
 /// faces with three different corners.
 ///
-/// With `keep` other than `first`, kept points may be within the tolerance of each other again,
-/// and without `chain` a point may move by twice the tolerance.
+/// With `keep` other than `TREEFORM_KEEP_FIRST`, kept points may be within the tolerance of each
+/// other again, and without `chain` a point may move by twice the tolerance.
 ///
 /// A mean is the first point's value plus the mean of the differences from it, added in the order
 /// of points and rounded at each step. For n values that differ by at most d, its error is at most
