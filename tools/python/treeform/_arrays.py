@@ -28,7 +28,8 @@ NONE = 0xFFFFFFFF
 class ColumnDict(UserDict[str, Any]):
     """The columns of `Attributes` by name. Assigning a column sets it there, too."""
 
-    def __init__(self, columns: dict[str, Any], put: Callable[[str, Any], None]) -> None:
+    def __init__(self, columns: dict[str, Any],
+                 put: Callable[[str, Any], None] = lambda name, values: None) -> None:
         self.data, self._put = columns, put
 
     def __setitem__(self, name: str, values: ArrayLike) -> None:
