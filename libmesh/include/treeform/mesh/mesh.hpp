@@ -87,7 +87,7 @@ struct mesh_view {
 
     /// Refers to other arrays of the same bytes: x, y, z, x, y, z, ... as doubles, and three point
     /// numbers for each face, as 32-bit integers; or rows `std::array` of three of them.
-    /// \throws std::invalid_argument for a number of numbers that is not a multiple of 3
+    /// \throws std::invalid_argument unless the counts of numbers are multiples of 3
     template <
         detail::array_of_rows<point3, double> Points,
         detail::array_of_rows<face, std::uint32_t, std::int32_t> Faces = std::span<const face>>
