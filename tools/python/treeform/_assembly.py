@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._errors import options
-from ._mesh import Body, held, held_body
+from ._mesh import Body, each, held, held_body
 from ._placement import SearchEffort
 from ._progress import Progress
 from ._results import Result, tuple_repr
@@ -63,14 +63,10 @@ def _at(body: _core.HeldMesh, pose: Floats) -> _core.HeldMesh:
     return held(_core.transformed(body, pose))
 
 
-def _held(parts: Iterable[Body]) -> list[_core.HeldMesh]:
-    return [held_body(part) for part in _arrays.several(parts, "parts")]
-
-
 def clashes(parts: Iterable[Body], poses: ArrayLike | None, how: _core.ClashOptions,
             ignored: PartPairs, progress: Progress) -> ClashResult:
     """Implements `clash`."""
-    bodies = _held(parts)
+    bodies = each(parts, "parts")
     if poses is not None:
         maps = poses_of(poses, "poses")
         if np.ndim(poses) != 3 or len(maps) != len(bodies):
@@ -82,7 +78,7 @@ def clashes(parts: Iterable[Body], poses: ArrayLike | None, how: _core.ClashOpti
 def clashes_in_poses(parts: Iterable[Body], poses: ArrayLike, how: _core.ClashOptions,
                      ignored: PartPairs, progress: Progress) -> PoseClashes:
     """Implements `check_poses`."""
-    bodies = _held(parts)
+    bodies = each(parts, "parts")
     array = _arrays.floats(poses, "poses")
     if array.ndim == 3 and array.shape[1:] == (4, 4):
         moves = np.tile(np.eye(4), (len(array), max(1, len(bodies)), 1, 1))

@@ -11,7 +11,7 @@ import numpy as np
 from . import _arrays, _core
 from ._arrays import Ids
 from ._errors import checked, options
-from ._mesh import Mesh, MeshLike, MeshResult, held, listed
+from ._mesh import Mesh, MeshLike, MeshResult, each, held, listed
 from ._progress import Progress
 from ._results import Certificate
 
@@ -26,11 +26,8 @@ MeshesLike = Union[MeshLike, Iterable[MeshLike]]
 
 def operands_of(meshes: Iterable[Any]) -> list[_core.HeldMesh]:
     """The operands of `union(a, b, c)`, `union([a, b, c])` or `difference(a, [b, c])`."""
-    all: list[_core.HeldMesh] = []
-    for one in meshes:
-        several = listed(one)
-        all += [held(one)] if several is None else [held(mesh) for mesh in several]
-    return all
+    several = [(one,) if (many := listed(one)) is None else many for one in meshes]
+    return each([one for many in several for one in many], "meshes", held)
 
 
 def combined(operation: str, meshes: tuple[Any, ...], how: _core.BooleanOptions,

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._errors import checked, options
-from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, held, listed
+from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, each, held
 from ._progress import Progress
 from ._repair import MadeMesh
 from ._results import Certificate, Result
@@ -115,10 +115,7 @@ def chosen_of(mesh: MeshLike, faces: ArrayLike) -> Ids:
 
 def joined(meshes: Iterable[MeshLike], progress: Progress) -> Mesh:
     """Implements `concatenate`."""
-    several = listed(meshes)
-    if several is None:
-        raise ValueError(f"meshes: expected a list of meshes, not a {type(meshes).__name__}")
-    return _core.concatenate([held(one) for one in several], progress=progress)
+    return _core.concatenate(each(meshes, "meshes", held), progress=progress)
 
 
 # made of headers:

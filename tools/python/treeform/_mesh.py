@@ -62,6 +62,7 @@ class HasMesh(Protocol):
 
 
 _Operator = Callable[[Any, "MeshLike"], "Mesh"]
+_Take = Callable[[Any], _core.HeldMesh]
 
 
 def _operators(sign: str) -> tuple[_Operator, _Operator]:
@@ -293,12 +294,34 @@ def held_body(body: Any) -> _core.HeldMesh:
     return held(body) if points is None else _core.HeldMesh(points)
 
 
+def each(many: Any, name: str, take: _Take = held_body) -> list[_core.HeldMesh]:
+    """Several bodies for the extension. Errors have the number of the body."""
+    pair = _is_mesh(many)
+    if pair or hasattr(many, "vertices") or hasattr(many, "mesh"):
+        what = "(vertices, faces)" if pair else f"a {type(many).__name__}"
+        raise ValueError(f"{name}: expected a list of meshes, not {what}")
+    made = []
+    for number, one in enumerate(_arrays.several(many, name)):
+        try:
+            made.append(take(one))
+        except ValueError as error:
+            error.args = (f"{name}[{number}]: {error}".replace(": mesh: ", ": "),)
+            raise
+    return made
+
+
+def _is_mesh(many: Any) -> bool:
+    """Whether `many` is (vertices, faces), not two clouds."""
+    faces = np.asarray(many[1]) if _arrays.is_pair(many) else np.empty(0)
+    return faces.dtype.kind in "iu" and 0 < faces.size and faces.max() <= max(len(many[0]), 4)
+
+
 def bodies(fixed: Any) -> list[_core.HeldMesh]:
     """One body, or a list of them."""
     if fixed is None:
         return []
     if isinstance(fixed, (list, tuple)) and not _arrays.is_pair(fixed):
-        return [held_body(one) for one in fixed]
+        return each(fixed, "fixed")
     return [held_body(fixed)]
 
 
