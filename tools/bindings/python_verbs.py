@@ -349,7 +349,8 @@ FUNCTIONS = [
     # _files
     Function("read(path: Path | IO[bytes], format: str = \"\", *, join: bool = True, "
              "options: read_options) -> Mesh", body="read_from(path, format, join, how, progress)",
-             also="Polygons are triangulated (`Attributes.stored_face`). A point cloud has no "
+             also="Each of `Attributes.warnings` is also a warning of Python (`warnings.warn`). "
+                  "Polygons are triangulated (`Attributes.stored_face`). A point cloud has no "
                   "faces. DAE and some other formats require a build with assimp. If the file "
                   "does not exist, the FileError is also a FileNotFoundError, and likewise for "
                   "other system errors.",

@@ -9,6 +9,7 @@ import tempfile
 from dataclasses import dataclass
 from functools import partial
 from typing import IO, Any, Iterable, Mapping, Sequence, Union
+from warnings import warn
 
 from . import _arrays, _core
 from ._arrays import path_of
@@ -29,8 +30,13 @@ def read_from(path: Path | IO[bytes], format: str, join: bool, how: _core.ReadOp
     """Reads a path or a file object."""
     format, join = _arrays.word(format, "format"), _arrays.flag(join, "join")
     if isinstance(path, (str, os.PathLike)):
-        return _core.read(path_of(path), format, join, how, progress=progress)
-    return _core.read_bytes(_content(path), _name_of(path), format, join, how, progress=progress)
+        made = _core.read(name := path_of(path), format, join, how, progress=progress)
+    else:
+        made = _core.read_bytes(_content(path), name := _name_of(path), format, join, how,
+                                progress=progress)
+    for _, text in made.attributes.warnings if made.attributes else ():
+        warn(f"{name}: {text}", stacklevel=3)
+    return made
 
 
 def _content(file: Any) -> bytes:
@@ -152,8 +158,9 @@ def read(path: Path | IO[bytes], format: str = "", *, join: bool = True,
       file requires are refused by name, except for KHR_mesh_quantization and those that only change
       how a surface looks. glTF 1.0 is read by assimp.
 
-    Polygons are triangulated (`Attributes.stored_face`). A point cloud has no faces. DAE and some
-    other formats require a build with assimp. If the file does not exist, the FileError is also a
+    Each of `Attributes.warnings` is also a warning of Python (`warnings.warn`). Polygons are
+    triangulated (`Attributes.stored_face`). A point cloud has no faces. DAE and some other formats
+    require a build with assimp. If the file does not exist, the FileError is also a
     FileNotFoundError, and likewise for other system errors.
 
     path: the path of the file, or a binary file object, such as BytesIO.
