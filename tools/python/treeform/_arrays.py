@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import operator
 import os
-from typing import Any, Callable, Iterator, Mapping, MutableMapping, TypeVar
+from collections import UserDict
+from typing import Any, Callable, Mapping, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,23 +25,11 @@ _IDENTITY = np.eye(4)
 NONE = 0xFFFFFFFF
 
 
-class ColumnDict(MutableMapping[str, Any]):
+class ColumnDict(UserDict[str, Any]):
     """The columns of `Attributes` by name. Assigning a column sets it there, too."""
 
     def __init__(self, columns: dict[str, Any], put: Callable[[str, Any], None]) -> None:
         self.data, self._put = columns, put
-
-    def __getitem__(self, name: str) -> Any:
-        return self.data[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.data)
-
-    def __len__(self) -> int:
-        return len(self.data)
-
-    def __repr__(self) -> str:
-        return repr(self.data)
 
     def __setitem__(self, name: str, values: ArrayLike) -> None:
         self._put(name, values)
@@ -179,6 +168,8 @@ def rows(values: ArrayLike, width: int, name: str) -> Floats:
 
 def points(values: ArrayLike, name: str = "vertices") -> Floats:
     """`values` as points, (n, 3)."""
+    if name != "vertices" and hasattr(values, "faces"):
+        raise ValueError(f"{name}: got a mesh; if a mesh is taken too, the order is (mesh, {name})")
     return rows(values, 3, name)
 
 

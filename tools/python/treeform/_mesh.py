@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Protocol, Tuple, TypeVar, Union
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core, _others
 from ._arrays import Floats, Ids
 from ._core import Attributes
-from ._errors import need, require
+from ._errors import require
 from ._others import arrays_of
 from ._results import Certificate, Result
 
@@ -77,6 +78,7 @@ class Mesh:
     vertices: (V, 3) coordinates. A contiguous float64 array is not copied; others are converted.
     faces: (F, 3) the vertex numbers of each face, counter-clockwise from outside. A contiguous
     uint32 array is not copied. The flat [3, a, b, c, 3, ...] of PyVista and VTK is also accepted.
+    attributes: an `Attributes`, copied; `mesh.attributes.vertex["q"] = values` sets a column of it.
 
     Faces with a vertex number that is out of range are reported by the first operation.
 
@@ -86,7 +88,7 @@ class Mesh:
     `a | b`, `a - b`, `a & b` and `a ^ b` are exact set operations on solids (see `boolean`);
     `a + b` is `a | b`, and `a * b` is `a & b`. They are evaluated together when the result is first
     used: `(a | b) - c` is cut and rounded only once. An operand that does not bound a solid raises
-    NotSolidError.
+    NotSolidError. For a file of floats, such as STL: `boolean("a-b", a, b, precision="float32")`.
 
     >>> import numpy as np
     >>> import treeform
@@ -104,7 +106,9 @@ class Mesh:
     def __init__(self, vertices: ArrayLike, faces: ArrayLike = (),
                  attributes: Attributes | None = None) -> None:
         if attributes is not None:
-            need(attributes, "attributes", Attributes)
+            attributes = copy(_arrays.expect(
+                isinstance(attributes, Attributes), attributes, "attributes",
+                "Attributes (a = treeform.Attributes(); a.vertex['q'] = values)"))
         self._formula: _Formula | None = None
         self._set(_arrays.points(vertices), _arrays.faces(faces), attributes, None)
 

@@ -19,17 +19,14 @@ def brief(value: Any) -> str:
             return repr(value.tolist())
         return f"{value.dtype}[{', '.join(map(str, value.shape))}]"
     if isinstance(value, dict):
-        there = {key: item for key, item in value.items() if not _is_nothing(item)}
+        there = {key: item for key, item in value.items()
+                 if item is not None and (not np.isscalar(item) or item)}
         return "{" + ", ".join(f"{key!r}: {brief(item)}" for key, item in there.items()) + "}"
     if isinstance(value, (list, tuple)) and len(value) > 4:
         return f"[{len(value)} of {type(value[0]).__name__}]"
     if isinstance(value, float):
         return f"{value:.9g}"
     return repr(value)
-
-
-def _is_nothing(value: Any) -> bool:
-    return value is None or (np.isscalar(value) and not value)
 
 
 class Result:

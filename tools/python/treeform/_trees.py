@@ -132,8 +132,7 @@ class PointTree:
         count = k if wanted is None else int(wanted.max())
         _arrays.expect(distance_upper_bound >= 0, distance_upper_bound, "distance_upper_bound",
                        "a number that is not negative or NaN")
-        d, i = self._cloud.query(queries, _count(count), distance_upper_bound,
-                                 progress=progress)
+        d, i = self._cloud.query(queries, _count(count), distance_upper_bound, progress=progress)
         if wanted is not None:
             d = d.reshape(-1, count)[:, wanted - 1]
             i = i.reshape(-1, count)[:, wanted - 1]
@@ -258,8 +257,7 @@ class BoxTree:
         """
         low, high = _arrays.floats(min, "min"), _arrays.floats(max, "max")
         one = low.ndim == 1
-        if one:
-            low, high = low[None], np.atleast_2d(high)
+        low, high = np.atleast_2d(low), np.atleast_2d(high)
         if low.shape != high.shape or low.ndim != 2 or low.shape[1] != self._dimensions:
             raise ValueError(f"min, max: the shapes are {low.shape} and {high.shape}, "
                              f"not (n, {self._dimensions})")
