@@ -212,6 +212,10 @@ class Language:
                               f"as_python(std::move({source}){context})")]
         if type in self.structs and type not in self.results and type not in ARRAYS:
             if name in ("statistics", "steps"):
+                counts = [(inner.name, self.sentence(inner).rstrip("."))
+                          for inner in self.structs[type].fields]
+                doc += " Keys: " + "; ".join(f"'{key}'{text and f' ({text})'}"
+                                             for key, text in counts) + "."
                 return [Attribute(name, "dict[str, Any]", doc, f"counters({source})")]
             made: list[Attribute] = []
             for inner in self.structs[type].fields:
