@@ -135,6 +135,25 @@ def test_pairs_of_another_mesh_are_refused():
         tf.intersection_curves(SPHERES, tf.FacePairs(found.pairs, found.kinds + 9, {}))
 
 
+def test_what_is_confused_is_said_with_the_way_out():
+    hull = tf.convex_hull(CUBE)
+    for call, text in (
+            (lambda: tf.closest_point(POINTS, CUBE), r"got a mesh; .*\(mesh, points\)"),
+            (lambda: tf.signed_distance(POINTS, CUBE), r"the order is \(mesh, points\)"),
+            (lambda: tf.raycast(CUBE, CUBE, POINTS), r"the order is \(mesh, origins\)"),
+            (lambda: tf.check_solid(hull), r"use hull\.mesh\(points\)"),
+            (lambda: tf.clash([CUBE, hull]), r"parts\[1\]: .*use hull\.mesh\(points\)"),
+            (lambda: tf.union(tf.pack([CUBE], [5, 5])), "Packing.*: pass its `parts`"),
+            (lambda: tf.Mesh(*CUBE, {"q": POINTS}), r"a\.vertex\['q'\] = values"),
+            (lambda: tf.self_intersections((BROKEN, CUBE.faces)), "drop_non_finite=True"),
+            (lambda: tf.repair((BROKEN, CUBE.faces)), "drop_non_finite=True"),
+            (lambda: tf.convex_hull(BROKEN), "drop_non_finite=True")):
+        with pytest.raises(ValueError, match=text):
+            call()
+    with pytest.raises(ValueError, match="the map is not finite$"):
+        tf.mesh_intersections(CUBE, CUBE, move_a=np.diag([np.inf, 1, 1, 1])[:3])
+
+
 def test_files_that_cannot_be():
     for path in ("", "/no/such/place/x.xyz"):
         with pytest.raises((tf.FileError, ValueError)):

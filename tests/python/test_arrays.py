@@ -148,7 +148,7 @@ def test_cells_are_triangles_and_quads():
         made = tf.from_trimesh(Cells(dict(zip(kinds, (quads, [[4, 5, 6]], [[0, 1]], [[0]])))))
         assert made.faces.tolist() == [[0, 1, 2], [0, 2, 3], [3, 2, 1], [3, 1, 0], [4, 5, 6]]
     for kind in ("tetra", 10):
-        with pytest.raises(ValueError, match=f"mesh: 1 cells of the kind '?{kind}"):
+        with pytest.raises(ValueError, match=f": 1 cells of the kind '?{kind}"):
             tf.union(Cells({kind: [[0, 1, 2, 3]], "triangle": [[0, 1, 2]]}))
 
 
@@ -231,7 +231,7 @@ V, F = CUBE.vertices, CUBE.faces
 
 
 @pytest.mark.parametrize("verb, message", [
-    (lambda: tf.Mesh(V, F, {"q": 1}), "attributes: expected Attributes, not"),
+    (lambda: tf.Mesh(V, F, {"q": 1}), "attributes: expected Attributes .*, not"),
     (lambda: tf.weld(V, "x"), "tolerance: expected a number, not 'x'"),
     (lambda: tf.weld_stream("a.ply", "b.ply", memory=-1),
      "memory: expected a non-negative integer"),

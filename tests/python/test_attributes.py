@@ -179,6 +179,14 @@ def test_copies_of_attributes_are_changed_alone():
     assert one.face["red"].tolist() == list(range(12)) and not other.face["red"].any()
 
 
+def test_meshes_do_not_share_the_attributes_that_they_are_made_from():
+    given = tf.Attributes()
+    one, other = (tf.Mesh(CUBE.vertices, CUBE.faces, given) for _ in range(2))
+    one.attributes.vertex["q"] = np.arange(8)
+    assert list(one.attributes.vertex) == ["q"]
+    assert not list(other.attributes.vertex) and not list(given.vertex)
+
+
 def test_welded_polygons_keep_theirs(tmp_path):
     quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     lines = [f"{x} {y} {z} 0" for x in (0, 1) for y in (0, 1) for z in (0, 1)]

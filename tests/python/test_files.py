@@ -4,6 +4,7 @@ import errno
 import io
 import os
 import pickle
+import warnings
 
 import numpy as np
 import pytest
@@ -22,6 +23,21 @@ def test_what_is_written_is_read(tmp_path, format):
     again = tf.read(path)
     assert tf.check_solid(again) and again.volume == CUBE.volume
     assert len(again.vertices) == 8 and len(again.faces) == 12
+
+
+def test_a_truncated_file_is_read_with_a_warning(tmp_path):
+    tf.write(path := tmp_path / "cut.stl", CUBE)
+    content = path.read_bytes()[:84 + 10 * 50]
+    path.write_bytes(content)
+    text = "announces 12 triangles, the file has 10"
+    for given, name in ((path, "cut.stl"), (io.BytesIO(content), "bytes")):
+        with pytest.warns(UserWarning, match=f"{name}: .*{text}") as w:
+            mesh = tf.read(given, "stl")
+        assert [one.filename for one in w] == [__file__] and len(mesh.faces) == 10
+        assert len(mesh.attributes.warnings) == 1 and ", warnings=1)" in repr(mesh.attributes)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert ", warnings=0)" in repr(tf.read("data/cube.stl").attributes)
 
 
 def test_doubles_survive(tmp_path):
@@ -98,7 +114,7 @@ def test_names_of_parts_and_polygons_travel(tmp_path):
 def test_certified_coordinates_are_not_rounded_unless_told(tmp_path):
     third = tf.Mesh(CUBE.vertices / 3 + 0.9, CUBE.faces)
     made = tf.union(CUBE, third)
-    with pytest.raises(tf.FileError, match="precision='float32', .* say round=True"):
+    with pytest.raises(tf.FileError, match="precision='float32': treeform.boolean.* round=True"):
         tf.write(tmp_path / "m.stl", made)
     with pytest.raises(tf.FileError, match="round"):
         tf.write(tmp_path / "m.stl", CUBE | third)

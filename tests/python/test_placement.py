@@ -184,9 +184,25 @@ def test_a_dict_of_meshes_is_refused_with_what_to_pass():
     parts = {"a": CUBE, "b": CUBE}
     for call in (tf.clash, tf.union, lambda some: tf.boolean("a - b", some),
                  lambda some: tf.slide(CUBE, some, [0, 0, 1]),
-                 lambda some: tf.pack(some, [8, 8])):
+                 lambda some: tf.pack(some, [8, 8]), tf.concatenate):
         with pytest.raises(ValueError, match="dict.*: pass a list of its values"):
             call(parts)
-    with pytest.raises(ValueError, match="a list of meshes, not a dict"):
-        tf.concatenate(parts)
     assert tf.boolean("a - b", **parts).mesh.volume == 0
+
+
+@pytest.mark.parametrize("call, name", [
+    (tf.clash, "parts"), (tf.concatenate, "meshes"), (lambda some: tf.pack(some, [8, 8]), "parts"),
+    (lambda some: tf.check_poses(some, np.tile(np.eye(4), (1, 2, 1, 1))), "parts")])
+def test_a_mesh_is_not_a_list_of_bodies(call, name):
+    """Its vertices and faces would be two clouds."""
+    flat = np.insert(CUBE.faces, 0, 3, axis=1).ravel()
+    for one, what in ((CUBE, "a Mesh"), ((CUBE.vertices, CUBE.faces), r"\(vertices, faces\)"),
+                      ([CUBE.vertices.tolist(), CUBE.faces.tolist()], r"\(vertices, faces\)"),
+                      ((CUBE.vertices, flat), r"\(vertices, faces\)"),
+                      (tf.repair(CUBE), "a RepairResult")):
+        with pytest.raises(ValueError, match=f"^{name}: expected a list of meshes, not {what}$"):
+            call(one)
+    with pytest.raises(ValueError, match=rf"^{name}\[1\]: int has no vertices and faces"):
+        call([CUBE, 3])
+    if call is not tf.concatenate:
+        call((CUBE.vertices, CUBE.vertices + 1))      # two clouds

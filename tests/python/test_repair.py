@@ -171,3 +171,26 @@ def test_what_is_not_finite_or_no_face_is_a_defect():
         assert cloud and cloud.without_faces
     assert tf.find_solid_defects((np.full((8, 3), np.nan), CUBE.faces)).without_faces
     assert not tf.find_solid_defects(([], []))
+
+
+def test_help_has_the_keys_of_steps_and_what_is_raised():
+    made = tf.repair(tf.read("data/dirty.stl"))
+    for key in made.steps:
+        assert f"'{key}'" in tf.RepairResult.__doc__
+    assert "Mesh.volume" in tf.RepairResult.__doc__
+    for key in tf.weld(CUBE).statistics:
+        assert f"'{key}'" in tf.WeldResult.__doc__
+    for function in (tf.repair, tf.resolve_self_intersections):
+        assert "Check the certificate" not in function.__doc__
+    assert "if the mesh stays open" in " ".join(tf.repair.__doc__.split())
+
+
+def test_touching_pairs_and_equal_corners_count_unless_told():
+    """As help says, unlike tf-selfintersect."""
+    soup = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 0], [-1, 0, 1], [0, -1, 1]]
+    faces = [[0, 1, 2], [3, 4, 5]]
+    assert len(tf.self_intersections((soup, faces))) == 0
+    assert tf.self_intersections((soup, faces), vertices="by_index").counts["touching"] == 1
+    assert len(tf.self_intersections((soup, faces), vertices="by_index", kinds=["crossing"])) == 0
+    text = " ".join(tf.self_intersections.__doc__.split())
+    assert "pairs that only touch and degenerate ones are included" in text

@@ -122,15 +122,14 @@ class Function:
         return self.declared.rpartition(" -> ")[2]
 
 
-_LIST = '[{} for one in _arrays.several({{0}}, "{{0}}")]'
 #: Types of arguments: in C++, in the stub, in the call; in the package, and the conversion there.
 ARGUMENTS = {
     "Mesh": ("const held_mesh&", "HeldMesh", "{}.ref()", "MeshLike", "held({})"),
     "Body": ("const held_mesh&", "HeldMesh", "{}.ref()", "Body", "held_body({})"),
     "Meshes": ("const held_meshes&", "Sequence[HeldMesh]", "refs_of({})", "Iterable[MeshLike]",
-               _LIST.format("held(one)")),
+               'each({0}, "{0}", held)'),
     "Parts": ("const held_meshes&", "Sequence[HeldMesh]", "refs_of({})", "Iterable[Body]",
-              _LIST.format("held_body(one)")),
+              'each({0}, "{0}")'),
     "Operands": ("const held_meshes&", "Sequence[HeldMesh]", "refs_of({})", "MeshesLike",
                  "operands_of({})"),
     "Bodies": ("const held_meshes&", "Sequence[HeldMesh]", "refs_of({})", "Any", "bodies({})"),
@@ -213,6 +212,10 @@ class Language:
                               f"as_python(std::move({source}){context})")]
         if type in self.structs and type not in self.results and type not in ARRAYS:
             if name in ("statistics", "steps"):
+                counts = [(inner.name, self.sentence(inner).rstrip("."))
+                          for inner in self.structs[type].fields]
+                doc += " Keys: " + "; ".join(f"'{key}'{text and f' ({text})'}"
+                                             for key, text in counts) + "."
                 return [Attribute(name, "dict[str, Any]", doc, f"counters({source})")]
             made: list[Attribute] = []
             for inner in self.structs[type].fields:

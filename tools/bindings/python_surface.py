@@ -12,7 +12,7 @@ WORDS = {"columns as in `las_header`": "columns are the fields of its records",
          " (table in `libmesh/attributes/known_columns.cpp`)": "",
          "what it can of `file.attributes`": "what it can of `Attributes`",
          "`mesh_file::": "`Attributes.",
-         "`attributes::": "`Attributes.",
+         "`attributes::": "`Attributes.", "`repair_options::": "`",
          "Precision of the coordinates returned. float32 values are stored as doubles.":
              "Precision of the returned coordinates; use 'float32' for STL and GLB.",
          "of the points returned": "Precision of the returned points",
@@ -35,6 +35,12 @@ WORDS = {"columns as in `las_header`": "columns are the fields of its records",
          "`penetration_depth_result`": "`Depth`", "`repair_statistics`": "`RepairResult.steps`",
          "those of `repair_options`": "those of `steps`",
          "For `self_intersections`: which": "Which",
+         "Check the certificate: its status says whether this was possible, and it lists where it "
+         "was not.": "If this is not possible, an error is raised; with `check=False`, the "
+                     "certificate of the result says why and lists where.",
+         "Check the certificate: its status says whether this was possible.":
+             "If this is not possible, an error is raised; with `check=False`, the certificate of "
+             "the result says why.",
          "counted in `statistics`": "counted in `RepairResult.steps`",
          "first in `sides`": "first in `LaidFlat.areas`", "first `overhang_sides` sides":
              "32 largest sides",
@@ -160,7 +166,7 @@ RESULTS = [
     # _repair
     Result("repair_result", "RepairResult", "_repair", "MadeMesh", context="attributes",
            doc="A repaired mesh.", inherited="mesh certificate", names={"statistics": "steps"},
-           docs={"steps": "Counts of each step's changes: faces flipped, holes filled, ..."},
+           docs={"steps": "Counts of each step's changes. The volume of the input is its `Mesh.volume`."},
            custom={"is_left": [Attribute(
                "is_left", "NDArray[np.bool_]", "(faces of the input,) whether a part of each face "
                                                "is left, "

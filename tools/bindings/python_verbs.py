@@ -247,8 +247,8 @@ FUNCTIONS = [
                            "that do not bound a solid, deletes intersecting faces and fills the "
                            "holes."}),
     Function("repair(mesh: Mesh, *, steps: Iterable[str] = STEPS, options: repair_options)"
-             " -> RepairResult", "tf::repair($mesh, options)", "attributes of mesh", check="solid",
-             given="**steps_of(steps)", leave="join orient fill resolve detach",
+             " -> RepairResult", "tf::repair($mesh, options)", "attributes of mesh",
+             check="repaired", given="**steps_of(steps)", leave="join orient fill resolve detach",
              docs={"steps": "the steps to perform. 'join' removes degenerate and duplicate faces "
                             "and closes cracks; 'orient' orients faces consistently and outward; "
                             "'fill' fills holes; 'resolve' removes self-intersections; 'detach' "
@@ -297,6 +297,10 @@ FUNCTIONS = [
     # _intersections
     Function("self_intersections(mesh: Mesh, options: intersection_options) -> FacePairs",
              "tf::self_intersections($mesh, options)", leave="move_a move_b",
+             also="By default, pairs that only touch and degenerate ones are included, and "
+                  "corners are joined by coordinates; the tool tf-selfintersect leaves out these "
+                  "pairs, and uses the vertex numbers of the file, if it has any. `kinds` and "
+                  "`vertices` choose.",
              docs={"kinds": "the kinds to search for, from `KINDS`; None: all. 'crossing': the "
                             "faces pass through each other and share no vertex; 'pierce': "
                             "likewise, with one shared vertex; 'overlap': coplanar, with a common"
@@ -349,7 +353,8 @@ FUNCTIONS = [
     # _files
     Function("read(path: Path | IO[bytes], format: str = \"\", *, join: bool = True, "
              "options: read_options) -> Mesh", body="read_from(path, format, join, how, progress)",
-             also="Polygons are triangulated (`Attributes.stored_face`). A point cloud has no "
+             also="Each of `Attributes.warnings` is also a warning of Python (`warnings.warn`). "
+                  "Polygons are triangulated (`Attributes.stored_face`). A point cloud has no "
                   "faces. DAE and some other formats require a build with assimp. If the file "
                   "does not exist, the FileError is also a FileNotFoundError, and likewise for "
                   "other system errors.",

@@ -34,8 +34,7 @@ MINUTES_OF_ALL, MINUTES_OF_EXTENSION = 6, 1  # on one core, on a machine of 2023
 
 def version():
     text = (TREE / "libtree/include/treeform/tree/version.hpp").read_text()
-    return ".".join(re.findall(r"^#define TREEFORM_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)$", text,
-    re.M))
+    return ".".join(re.findall(r"(?m)^#define TREEFORM_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)$", text))
 
 
 # ---- the extension ----

@@ -151,7 +151,8 @@ std::string text_of(const file_data& data) {
     for (const tf::element& one : data.file().attributes.elements)
         rows[py::str(one.name)] = py::list(columns(data, one.name));
     return "Attributes(format=" + std::string(py::repr(py::str(data.file().format))) +
-           ", columns=" + std::string(py::repr(rows)) + ")";
+           ", columns=" + std::string(py::repr(rows)) +
+           ", warnings=" + std::to_string(data.file().warnings.size()) + ")";
 }
 
 void add_columns(py::class_<file_data>& made) {

@@ -11,7 +11,7 @@ import numpy as np
 from . import _arrays, _core
 from ._arrays import Ids
 from ._errors import checked, options
-from ._mesh import Mesh, MeshLike, MeshResult, held, listed
+from ._mesh import Mesh, MeshLike, MeshResult, each, held, listed
 from ._progress import Progress
 from ._results import Certificate
 

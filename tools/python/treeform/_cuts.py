@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._errors import checked, options
-from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, held
+from ._mesh import Mesh, MeshLike, MeshResult, as_mesh, each, held
 from ._progress import Progress
 from ._repair import MadeMesh
 from ._results import Certificate, Result

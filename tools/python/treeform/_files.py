@@ -9,6 +9,7 @@ import tempfile
 from dataclasses import dataclass
 from functools import partial
 from typing import IO, Any, Iterable, Mapping, Sequence, Union
+from warnings import warn
 
 from . import _arrays, _core
 from ._arrays import path_of
@@ -157,8 +158,9 @@ def read(path: Path | IO[bytes], format: str = "", *, join: bool = True,
       file requires are refused by name, except for KHR_mesh_quantization and those that only change
       how a surface looks. glTF 1.0 is read by assimp.
 
-    Polygons are triangulated (`Attributes.stored_face`). A point cloud has no faces. DAE and some
-    other formats require a build with assimp. If the file does not exist, the FileError is also a
+    Each of `Attributes.warnings` is also a warning of Python (`warnings.warn`). Polygons are
+    triangulated (`Attributes.stored_face`). A point cloud has no faces. DAE and some other formats
+    require a build with assimp. If the file does not exist, the FileError is also a
     FileNotFoundError, and likewise for other system errors.
 
     path: the path of the file, or a binary file object, such as BytesIO.

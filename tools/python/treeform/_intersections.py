@@ -164,6 +164,10 @@ def self_intersections(mesh: MeshLike, *, vertices: str = "by_coordinates",
     Exact on the coordinates as given. A degenerate face (collinear corners) is treated as the
     segment or point that it is; its pairs have a kind of their own.
 
+    By default, pairs that only touch and degenerate ones are included, and corners are joined by
+    coordinates; the tool tf-selfintersect leaves out these pairs, and uses the vertex numbers of
+    the file, if it has any. `kinds` and `vertices` choose.
+
     vertices: 'by_coordinates' or 'by_index'. Which corners count as shared.
     first_only: Only the first pair; the same on any number of threads.
     kinds: the kinds to search for, from `KINDS`; None: all. 'crossing': the faces pass through each

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._errors import need, options
-from ._mesh import Body, Mesh, MeshLike, MeshResult, bodies, held, held_body
+from ._mesh import Body, Mesh, MeshLike, MeshResult, bodies, each, held, held_body
 from ._progress import Progress
 from ._properties import Feature
 from ._results import Certificate, Result, tuple_repr
@@ -683,8 +683,7 @@ def pack(parts: Iterable[Body], size: ArrayLike, *, corner: ArrayLike = (0.0, 0.
     '3 of 3 parts placed'
     """
     how = options(_core.PackOptions, locals(), size=extent_of(size))
-    return _core.pack([held_body(one) for one in _arrays.several(parts, "parts")], how,
-                      progress=progress)
+    return _core.pack(each(parts, "parts"), how, progress=progress)
 
 
 def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coordinates",

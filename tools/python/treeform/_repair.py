@@ -80,7 +80,30 @@ class RepairResult(MadeMesh):
     vertex_source: (V',) input vertex of each vertex, or `NONE`.
     is_left: (faces of the input,) whether a part of each face is left, also if it was merged with
         others.
-    steps: Counts of each step's changes: faces flipped, holes filled, ...
+    steps: Counts of each step's changes. The volume of the input is its `Mesh.volume`. Keys:
+        'tetrahedra' (Tetrahedra formed by faces; only their boundary was kept); 'degenerate' (Faces
+        without area, dropped; if there are any, also slivers); 'repeated' (Faces that repeat
+        another, dropped); 'closed_edges' (Pairs of border edges joined into one edge);
+        'split_edges' (Border edges split at vertices that lie on them); 'gap_limit' (Largest width
+        of cracks searched for); 'widest_closed' (Widest crack that was closed); 'flipped' (Faces
+        flipped to agree with their neighbors); 'turned_outward' (Components flipped outward);
+        'strays' (Faces of loose and inner pieces, dropped); 'holes' (Holes filled); 'hole_edges'
+        (Edges around them); 'filled' (Faces that fill them); 'sheets' (Rims not filled, since they
+        are borders of sheets); 'open_edges' (Open edges left after these steps); 'resolved'
+        (Whether faces met and were cut); 'pairs' (Pairs of faces that met); 'labeled_cells' (Cells
+        labeled inside or outside, since faces disagreed); 'dropped_area' (Area of dropped faces,
+        with one label on both sides); 'flipped_area' (Area of faces flipped by the labels);
+        'removed' (Input faces that resolving removed entirely); 'covered' (For
+        `resolve_self_intersections` with `split`: input faces that lie entirely on faces of lower
+        numbers. Their pieces are those of the lower faces, so they do not count as removed);
+        'left_open' (The same with `remove`: edges that lost their second face); 'exact_faces' (For
+        `resolve_self_intersections`: as in `BooleanResult.statistics`); 'split_vertices' (Vertices
+        split where parts of the solid touch); 'detached' (Vertices moved apart); 'touching'
+        (Vertices that still have the coordinates of another); 'vanished_components' (Components
+        (faces linked by vertices) that lost all of their faces; for `repair`, only those larger
+        than `strays`); 'dropped_shells' (Closed shells inside the solid, dropped; `even_odd` makes
+        them cavities); 'volume_before' (After `join`, `orient` and `fill`; 0 if that is no solid);
+        'volume_after'; 'area_before'; 'area_after'; 'area_lost' (As in `max_loss`).
     """
 
     face_source: Ids
@@ -94,8 +117,8 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, fill_rule
                                keep_cuts: bool = False, touching: bool = False,
                                max_loss: float = 0.05, check: bool = True,
                                progress: Progress = None) -> RepairResult:
-    """`mesh` without self-intersections. Check the certificate: its status says whether this was
-    possible.
+    """`mesh` without self-intersections. If this is not possible, an error is raised; with
+    `check=False`, the certificate of the result says why.
 
     `split` and `outer` decide exactly, on the coordinates as given, what is cut and what is inside.
     Then they round the points on cuts. Faces that meet no other face do not change.
@@ -145,8 +168,9 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
            max_loss: float = 0.05, sheet: bool = False, precision: str = "float64",
            max_displacement: float = np.inf, keep_cuts: bool = False, check: bool = True,
            progress: Progress = None) -> RepairResult:
-    """Repairs a mesh to a solid: closed, oriented, manifold and free of self-intersections. Check
-    the certificate: its status says whether this was possible, and it lists where it was not.
+    """Repairs a mesh to a solid: closed, oriented, manifold and free of self-intersections. If this
+    is not possible, an error is raised; with `check=False`, the certificate of the result says why
+    and lists where.
 
     The steps are those of `steps`, in this order. Each changes only what is defective: a mesh that
     is a solid is returned bit for bit. Which faces meet and what is inside is decided exactly.
@@ -186,7 +210,7 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
     keep_cuts: as in `boolean`; faces that fill holes are only merged with each other.
     check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError if the mesh is open, NotCertifiedError if the result could not be
+    Raises NotSolidError if the mesh stays open, NotCertifiedError if the result could not be
     certified; ValueError as `boolean`; if a gap or share is negative or not finite.
 
     Cost: O(V log V + F log F), plus `resolve_self_intersections` if faces meet; for a hole of n

@@ -32,7 +32,13 @@ class WeldResult(MeshResult):
     index: (n,) the new number of each point.
     source: (m,) the input point whose properties each new point has.
     face_source: (F,) the input face of each face; empty for a cloud.
-    statistics: Counts of what welding changed.
+    statistics: Counts of what welding changed. Keys: 'groups' (Groups of two points or more);
+        'non_finite' (Points with a NaN or infinite coordinate, left as they are); 'collapsed'
+        (Faces that repeat a corner only after the weld); 'degenerate' (Faces that repeated a corner
+        before); 'max_displacement' (The largest distance that a point moved, rounded up to a
+        double); 'nonmanifold_before' (Edges of more than two faces); 'nonmanifold_after'; 'flipped'
+        (Kept faces whose normal turned by more than a right angle); 'kept_apart' (Groups that
+        `keep_manifold` did not merge completely).
     """
 
     mesh: Mesh
@@ -257,7 +263,13 @@ class WeldStreamResult(Result):
     tiles: Number of tiles into which space was cut.
     continued: Whether this run resumed an earlier one.
     faces: For a mesh, number of kept faces.
-    statistics: Counts of what welding changed, as in `WeldResult`.
+    statistics: Counts of what welding changed, as in `WeldResult`. Keys: 'groups' (Groups of two
+        points or more); 'non_finite' (Points with a NaN or infinite coordinate, left as they are);
+        'collapsed' (Faces that repeat a corner only after the weld); 'degenerate' (Faces that
+        repeated a corner before); 'max_displacement' (The largest distance that a point moved,
+        rounded up to a double); 'nonmanifold_before' (Edges of more than two faces);
+        'nonmanifold_after'; 'flipped' (Kept faces whose normal turned by more than a right angle);
+        'kept_apart' (Groups that `keep_manifold` did not merge completely).
     warnings: Remarks about the files.
     triangles: Number of triangles of these faces.
     """
