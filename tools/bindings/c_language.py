@@ -128,7 +128,9 @@ class Language:
                   "string": ("const char*", f"{source}.c_str()")}
         if type in simple:
             c, value = simple[type]
-            return [Member(f"{c} {name}", one.doc, f"{to} = {value};")]
+            none = "; NaN: none" if type == "optional<double>" and "NaN" not in one.doc else ""
+            doc = one.doc.rstrip(".") + none if none else one.doc
+            return [Member(f"{c} {name}", doc, f"{to} = {value};")]
         if found := re.fullmatch(r"vector<(.+)>", type):
             return self._list(of, name, path, one, found.group(1))
         if found := re.fullmatch(r"optional<(\w+)>", type):

@@ -98,9 +98,9 @@ typedef struct treeform_part_clash {
     /// [region_count] ordered by their lowest faces
     const treeform_contact_region* regions;
     size_t region_count;
-    /// For closed parts that penetrate: the volume of their intersection.
+    /// For closed parts that penetrate: the volume of their intersection; NaN: none
     double volume;
-    /// For penetrating parts: `treeform_penetration_depth`, the length of `move`.
+    /// For penetrating parts: `treeform_penetration_depth`, the length of `move`; NaN: none
     double depth;
     double move[3];  ///< a short translation that separates `a` from `b`
     /// of `depth`, as in `treeform_penetration_depth`

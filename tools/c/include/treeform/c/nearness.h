@@ -277,7 +277,7 @@ typedef struct treeform_deviation_result {
     /// `max`, rounded up.
     double max_bound;
     /// With `both_ways`, a bound of the distance from any point of the surface `b` to `a`. The
-    /// larger of this and `max_bound` bounds the Hausdorff distance of the surfaces.
+    /// larger of this and `max_bound` bounds the Hausdorff distance of the surfaces; NaN: none
     double back_max_bound;
     /// [bins] points by signed distance, in intervals of equal length from `lowest` to `highest`;
     /// the last one includes `highest`.
@@ -286,7 +286,7 @@ typedef struct treeform_deviation_result {
     /// If distances have a sign: points of `a` inside, on and outside of `b`.
     uint64_t side_counts[3];
     /// With `both_ways`, the largest distance of a vertex of `b` from `a`. The larger of this and
-    /// `max` is the Hausdorff distance of the points.
+    /// `max` is the Hausdorff distance of the points; NaN: none
     double back_max;
     /// With a band: points below, within and above it. Both ends are within.
     uint64_t band_counts[3];

@@ -78,7 +78,7 @@ typedef struct treeform_placement {
     double direction[3];  ///< unit direction of the travel; 0 if there is none
     double travel;        ///< distance moved; for `TREEFORM_END_TOO_FAR` the distance needed
     double clearance;     ///< the given clearance
-    double bed;           ///< least z allowed, rounded: the bed plus the clearance
+    double bed;           ///< least z allowed, rounded: the bed plus the clearance; NaN: none
     double below_bed;     ///< how far the mesh was below `bed` at the start
     treeform_mesh_relation relation_at_start;  ///< exact
     treeform_mesh_relation relation;           ///< the same at the place
