@@ -15,6 +15,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace treeform::detail::place {
@@ -177,6 +179,27 @@ void mark_contacts(mesh_view placed, std::span<const prepared_mesh> fixed, const
 }
 
 }  // namespace
+
+const mesh& placed_mesh::value() const& {
+    if (!certificate) throw not_certified_error(certificate);
+    return mesh;
+}
+
+mesh placed_mesh::value() && {
+    if (!certificate) throw not_certified_error(std::move(certificate));
+    return std::move(mesh);
+}
+
+placed_mesh placement::moved(const mesh_ref& placed) const {
+    placed_mesh made{.certificate = certificate};
+    if (!certificate) return made;
+    if (placed.view().points.size() != points.size())
+        throw std::invalid_argument(
+            "treeform::placement::moved: " + std::to_string(placed.view().points.size()) +
+            " points, not " + std::to_string(points.size()));
+    made.mesh = {points, {placed.view().faces.begin(), placed.view().faces.end()}};
+    return made;
+}
 
 std::vector<relations> placement::face_relations(const mesh_ref& given_moving,
                                                  const mesh_refs& given_fixed) const {

@@ -4,9 +4,11 @@
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/slide.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
+#include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
+#include <support/own_folder.hpp>
 #include <support/random.hpp>
 #include <support/solids.hpp>
 #include <support/soups.hpp>
@@ -270,6 +272,22 @@ TEST_CASE(
     for (std::size_t i = 0; i < at.contacts.size(); ++i)
         CHECK(same.contacts[i].normal == at.contacts[i].normal);
     CHECK(tf::separate(a, turned).travel == tf::separate(a, floor).travel);
+}
+
+TEST_CASE("a placed mesh is written in the points that were checked, or not at all") {
+    const test::own_folder folder("slide_test");
+    const tf::mesh part = moved(box(1, 1, 1), {0, 0, 4});
+    const auto in_doubles = tf::drop(part, {.bed = 0.7});
+    const auto low = in_doubles.moved(part);
+    CHECK(low.value().points == in_doubles.points);
+    CHECK(low.value().faces == part.faces);
+    CHECK_NOTHROW(tf::write(folder.path / "low.ply", low));
+    CHECK_THROWS_AS(tf::write(folder.path / "low.stl", low), tf::io_error);  // 0.7 is no float
+    const auto in_floats = tf::drop(part, {.precision = tf::precision::float32, .bed = 0.7});
+    CHECK(tf::write(folder.path / "low.stl", in_floats.moved(part)).max_displacement == 0.0);
+    CHECK_THROWS_AS((void)in_floats.moved(tf::mesh{}), std::invalid_argument);
+    const auto none = tf::slide(part, part, {0, 0, 1});  // penetrates at the start
+    CHECK_THROWS_AS((void)none.moved(part).value(), tf::not_certified_error);
 }
 
 TEST_CASE("contacts are classified as the faces lie at the place") {

@@ -74,6 +74,16 @@ struct placement_statistics {
 
 struct body_set;
 
+/// A mesh at its place: `write` refuses to round the points that were checked.
+struct placed_mesh {
+    treeform::mesh mesh{};  ///< empty if there is no place
+    treeform::certificate certificate{};
+
+    /// \throws not_certified_error unless the certificate's status is ok
+    [[nodiscard]] TREEFORM_API const treeform::mesh& value() const&;
+    [[nodiscard]] TREEFORM_API treeform::mesh value() &&;
+};
+
 /// The result of a placement. "The place" is the new position of the moving mesh, or the present
 /// one if it does not move.
 struct placement {
@@ -111,6 +121,9 @@ struct placement {
     placement_statistics statistics{};
 
     explicit operator bool() const { return static_cast<bool>(certificate); }
+    /// The mesh that was placed, with `points`: `write("low.stl", low.moved(part))`.
+    /// \throws std::invalid_argument for another number of points
+    [[nodiscard]] TREEFORM_API placed_mesh moved(const mesh_ref& placed) const;
     /// The reason why there is no place: a clause about the moving mesh, without a full stop. Empty
     /// if there is a place. `names` has the names of the fixed meshes.
     [[nodiscard]] TREEFORM_API std::string message(std::span<const std::string> names = {}) const;
