@@ -10,7 +10,8 @@ int main() {
     for (tf::point3& p : ball.points) p.z += 10;  // above the cube
     const tf::placement place = tf::slide(ball, cube, {0, 0, -1}, {.clearance = 0.03});
     if (!place) return 1;
-    ball.points = place.points;  // coordinates that were checked, ready to be written
+    const tf::placed_mesh seated = place.moved(ball);  // as it was checked, for tf::write
+    if (seated.value().faces.size() != ball.faces.size()) return 1;
     std::printf("moved by %g\n", place.travel);
     return place.relation == tf::mesh_relation::clear ? 0 : 1;
 }
