@@ -6,6 +6,25 @@
 
 static const double down[3] = {0, 0, -1};
 
+/* A placed part is written in the coordinates that were checked, or not at all. */
+static void test_writing_a_placement(void) {
+    treeform_mesh* part = cube(0, 0, 4, 1);
+    treeform_place_options options;
+    treeform_placement* low = NULL;
+    const char* const stl = path_in_work("low.stl");
+    treeform_place_options_init(&options, sizeof options);
+    options.bed = 0.7; /* no float */
+    OK(treeform_drop(part, NULL, 0, NULL, &options, &low));
+    OK(treeform_write_placement(path_in_work("low.ply"), part, low, NULL, NULL));
+    ENDS(TREEFORM_FILE, "float32", treeform_write_placement(stl, part, low, NULL, NULL));
+    treeform_free(low);
+    options.precision = TREEFORM_FLOAT32;
+    OK(treeform_drop(part, NULL, 0, NULL, &options, &low));
+    OK(treeform_write_placement(stl, part, low, NULL, NULL));
+    treeform_free(low);
+    treeform_free(part);
+}
+
 static void test_moves(void) {
     treeform_mesh* moving = cube(0.25, 0.25, 5, 0.5);
     treeform_mesh* base = cube(0, 0, 0, 1);
@@ -155,6 +174,7 @@ static void test_motion(void) {
 
 void test_placement(void) {
     test_moves();
+    test_writing_a_placement();
     test_other_moves();
     test_turn();
     test_motion();

@@ -44,6 +44,8 @@ treeform_code code_of_exception() noexcept {
         return said(e.what(), TREEFORM_FILE);
     } catch (const std::filesystem::filesystem_error& e) {
         return said(e.what(), TREEFORM_FILE);
+    } catch (const tf::not_certified_error& e) {
+        return said(e.what(), TREEFORM_INVALID);
     } catch (const std::invalid_argument& e) {
         return said(e.what(), TREEFORM_INVALID);
     } catch (const std::out_of_range& e) {

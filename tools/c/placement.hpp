@@ -5,6 +5,7 @@
 #include <treeform/mesh/placement.hpp>
 #include <treeform/mesh/slide.hpp>
 #include <treeform/mesh/time_of_impact.hpp>
+#include <treeform/mesh/write.hpp>
 
 #include <tools/c/made/structs.hpp>
 
@@ -47,6 +48,16 @@ inline tf::placement mate_features(const tf::mesh_ref& moving, const tf::mesh_re
                                    const tf::placement_options& options) {
     return tf::mate_features(moving, fixed, feature_of(of_moving, "of_moving"),
                              feature_of(of_fixed, "of_fixed"), options);
+}
+
+/// Writes `moving` at its place, in the coordinates that were checked: fails instead of rounding
+/// them, and if there is no place. `written` may be null.
+inline tf::write_result write_placement(const std::filesystem::path& path,
+                                        const tf::mesh_ref& moving,
+                                        const treeform_placement* placement,
+                                        const tf::write_options& options) {
+    const auto& at = kept_in<tf::placement>(need(placement, "placement"), "placement");
+    return tf::write(path, at.moved(moving), options);
 }
 
 /// The relation of each face to the other meshes; `placement` is a placement of `moving` among

@@ -225,6 +225,21 @@ treeform_code treeform_measure_among(const treeform_mesh* moving, const treeform
     });
 }
 
+treeform_code treeform_write_placement(const char* path, const treeform_mesh* moving,
+                                       const treeform_placement* placement,
+                                       const treeform_write_options* options,
+                                       treeform_written** written) {
+    return glue::guard([&] {
+        glue::give_written(
+            [&] {
+                return glue::write_placement(std::string(&glue::need(path, "path")),
+                                             glue::ref(moving, "moving"), placement,
+                                             glue::read(options));
+            },
+            written);
+    });
+}
+
 treeform_code treeform_find_face_relations(const treeform_mesh* moving,
                                            const treeform_mesh* const* fixed, size_t count,
                                            const treeform_placement* placement,

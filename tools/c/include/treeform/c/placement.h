@@ -7,6 +7,7 @@
 /// functions return `TREEFORM_NO_PLACE`, with a result that has the reason. `fixed` [count] are
 /// meshes that do not move; those of a `treeform_mesh_set` keep their indexes between calls.
 
+#include <treeform/c/files.h>
 #include <treeform/c/layouts.h>
 #include <treeform/c/nearness.h>
 #include <treeform/c/properties.h>
@@ -249,8 +250,15 @@ typedef struct treeform_face_relations {
 } treeform_face_relations;
 
 // made of the headers of C++:
-//   find_face_relations() face_contact impact impact_options time_of_impact()
-//   time_to_distance()
+//   write_placement() find_face_relations() face_contact impact impact_options
+//   time_of_impact() time_to_distance()
+/// Writes `moving` at its place, in the coordinates that were checked: fails instead of rounding
+/// them, and if there is no place. `written` may be null.
+TREEFORM_C_API treeform_code treeform_write_placement(const char* path, const treeform_mesh* moving,
+                                                      const treeform_placement* placement,
+                                                      const treeform_write_options* options,
+                                                      treeform_written** written);
+
 /// The relation of each face to the other meshes; `placement` is a placement of `moving` among
 /// `fixed`.
 TREEFORM_C_API treeform_code treeform_find_face_relations(const treeform_mesh* moving,
