@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace treeform {
@@ -28,6 +29,16 @@ double box3::diagonal() const {
     const double z = box.max.z - box.min.z;
     if (std::max({x, y, z}) > most) return most;  // hypot of an infinite length may be NaN
     return std::min(std::hypot(x, y, z), most);
+}
+
+treeform::mesh box3::mesh() const {
+    treeform::mesh made;
+    for (std::size_t corner = 0; corner < 8; ++corner)
+        made.points.push_back(
+            {(corner & 1 ? max : min).x, (corner & 2 ? max : min).y, (corner & 4 ? max : min).z});
+    made.faces = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                  {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    return made;
 }
 
 }  // namespace treeform

@@ -10,7 +10,7 @@
 #include <libmesh/base/running_sums.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/boolean/bundled_operands.hpp>
-#include <libmesh/boolean/check_solid.hpp>
+#include <libmesh/boolean/check_operand.hpp>
 #include <libmesh/boolean/filled_gaps.hpp>
 #include <libmesh/boolean/joined_operands.hpp>
 #include <libmesh/boolean/labeled_cells.hpp>
@@ -469,11 +469,11 @@ treeform::mesh boolean_result::value() && {
     return std::move(mesh);
 }
 
-certificate check_solid(const mesh_ref& mesh, const progress_callback& progress) {
-    return detail::boolean::check_solid("check_solid", mesh.view(), progress);
+certificate check_operand(const mesh_ref& mesh, const progress_callback& progress) {
+    return detail::boolean::check_operand("check_operand", mesh.view(), progress);
 }
 
-certificate detail::boolean::check_solid(const char* called, mesh_view mesh,
+certificate detail::boolean::check_operand(const char* called, mesh_view mesh,
                                          const progress_callback& progress) {
     check_operands(called, {&mesh, 1});
     check_coordinates(called, {&mesh, 1});

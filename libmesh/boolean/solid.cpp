@@ -1,5 +1,5 @@
 #include <libmesh/base/operand_name.hpp>
-#include <libmesh/boolean/check_solid.hpp>
+#include <libmesh/boolean/check_operand.hpp>
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/solid.hpp>
 #include <treeform/tree/parallel.hpp>
@@ -49,7 +49,7 @@ solid::solid(treeform::mesh&& owned)
 solid::solid(usable_mesh&& owned) : solid(std::move(owned.mesh)) {}
 
 solid::solid(std::shared_ptr<const prepared_mesh> shared) {
-    if (certificate found = detail::boolean::check_solid("solid", shared->view()); !found) {
+    if (certificate found = detail::boolean::check_operand("solid", shared->view()); !found) {
         for (operand_element& face : found.open_faces) face.operand = operand_element::none;
         throw not_certified_error(std::move(found));
     }

@@ -18,7 +18,7 @@
 namespace treeform {
 namespace {
 
-std::vector<std::uint32_t> unusable_faces(const mesh_defects& defects) {
+std::vector<std::uint32_t> unusable_faces(const invalid_faces& defects) {
     std::vector<std::uint32_t> unusable;
     std::merge(defects.nonfinite_faces.begin(), defects.nonfinite_faces.end(),
                defects.out_of_range_faces.begin(), defects.out_of_range_faces.end(),
@@ -69,7 +69,7 @@ std::size_t drop_non_finite_points(mesh& cloud) {
 }  // namespace
 
 std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh) {
-    const std::vector<std::uint32_t> unusable = unusable_faces(find_defects(mesh));
+    const std::vector<std::uint32_t> unusable = unusable_faces(find_invalid_faces(mesh));
     if (unusable.empty()) return {};
     std::vector<std::uint32_t> kept = all_but(mesh.faces.size(), unusable);
     for (std::size_t f = 0; f < kept.size(); ++f) mesh.faces[f] = mesh.faces[kept[f]];
@@ -110,7 +110,7 @@ usable_mesh usable_part(mesh given, std::vector<std::uint32_t> stored_face,
         part.non_finite = drop_non_finite_points(part.mesh);
         return part;
     }
-    const mesh_defects defects = find_defects(part.mesh);
+    const invalid_faces defects = find_invalid_faces(part.mesh);
     const std::vector<std::uint32_t> unusable = unusable_faces(defects);
     part.degenerate = defects.degenerate_faces.size();
     part.non_finite = unusable.size();

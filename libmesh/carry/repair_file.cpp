@@ -190,7 +190,7 @@ solid_defects find_solid_defects(const carry_source& input, const progress_callb
     faces_done part_of(progress, input.file->mesh.faces.size());
     using d = solid_defects;
     solid_defects all;
-    all.nonfinite_vertices = find_defects(input.file->mesh).nonfinite_points.size();
+    all.nonfinite_vertices = find_invalid_faces(input.file->mesh).nonfinite_points.size();
     for (const solid_part& part : parts) {
         const solid_defects found = find_solid_defects(part.mesh, part_of.next(part.faces.size()));
         for (const auto count : {&d::unusable_faces, &d::tetrahedra, &d::degenerate, &d::repeated,

@@ -124,7 +124,7 @@ struct point_writer::state {
     [[noreturn]] void refuse_point(const detail::io::unfit_point& unfit) const {
         throw std::invalid_argument(file->name() + ": point " +
                                     std::to_string(written + unfit.point) + ": " + unfit.reason +
-                                    "; write_options::precision says how to write it");
+                                    "; choose the option precision");
     }
 
     void check(const row_block& block) {

@@ -188,11 +188,11 @@ class writing {
         if (!may_round && result_.max_displacement > 0.0)
             throw io_error(name_ + ": " + result_.format +
                            " would round certified coordinates; compute the result with "
-                           "precision::float32, " +
+                           "precision float32, write " +
                            (format_.single_unless_asked && options.precision != precision::float32
-                                ? "set write_options::precision to float64"
-                                : "write a format that holds doubles") +
-                           ", or set write_options::round");
+                                ? "with precision float64"
+                                : "a format that holds doubles") +
+                           ", or allow rounding (option round)");
         if (file.mesh.faces.empty() && !file.mesh.points.empty() &&
             (format_.extension == "stl" || format_.extension == "glb" ||
              format_.extension == "3mf"))

@@ -261,7 +261,7 @@ std::vector<std::optional<closest_point_result>> closest_point_query::answers(
     std::span<const point3> queries, const NumberOf& number_of, const RadiusOf& radius_of) const {
     for (std::size_t i = 0; i < queries.size(); ++i)
         if (!detail::base::is_finite(queries[i]))
-            check_query(queries[i], "query " + std::to_string(i));
+            check_query(queries[i], "point " + std::to_string(i));
     std::vector<std::optional<closest_point_result>> found(queries.size());
     const closest_searcher search({&tree_, triangles_.data()}, unit_);
     for_chunks(

@@ -24,7 +24,7 @@ point3 rounded(const point3& p) {
 
 /// The numbers of the faces that can be computed with.
 std::vector<std::uint32_t> usable_faces(const mesh& mesh) {
-    const mesh_defects defects = find_defects(mesh);
+    const invalid_faces defects = find_invalid_faces(mesh);
     std::vector<std::uint32_t> unusable;
     std::merge(defects.nonfinite_faces.begin(), defects.nonfinite_faces.end(),
                defects.out_of_range_faces.begin(), defects.out_of_range_faces.end(),

@@ -159,7 +159,7 @@ class tally_of_copies {
 }  // namespace
 
 std::uint64_t drop_degenerate(working_mesh& mesh) {
-    const mesh_defects defects = find_defects(mesh.view());
+    const invalid_faces defects = find_invalid_faces(mesh.view());
     const std::vector<std::uint32_t>& list = defects.degenerate_faces;
     if (list.empty()) return 0;
     return mesh.drop([&](std::uint32_t f) { return std::ranges::binary_search(list, f); });

@@ -215,7 +215,7 @@ class remover {
         if (found.status == treeform::status::cancelled)
             result_.certificate.status = status::cancelled;
         if (found.status == treeform::status::cancelled) return false;
-        for (const std::uint32_t f : find_defects(now()).degenerate_faces) complain(f, f);
+        for (const std::uint32_t f : find_invalid_faces(now()).degenerate_faces) complain(f, f);
         for (const face_pair& pair : found.pairs)
             if (!is_let_be(pair)) complain(pair.a, pair.b);
         find_holes();

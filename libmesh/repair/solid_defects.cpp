@@ -75,7 +75,7 @@ std::string solid_defects::message() const {
 solid_defects find_solid_defects(const mesh_ref& of, const progress_callback& progress) {
     const mesh_view given = of.view();
     solid_defects found;
-    const mesh_defects elements = find_defects(given);
+    const invalid_faces elements = find_invalid_faces(given);
     found.nonfinite_vertices = elements.nonfinite_points.size();
     found.unusable_faces = elements.nonfinite_faces.size() + elements.out_of_range_faces.size();
     found.degenerate = elements.degenerate_faces.size();

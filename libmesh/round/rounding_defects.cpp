@@ -73,8 +73,8 @@ rounding_effects find_rounding_defects(mesh_view mesh, points_view placed,
     const pairs now = meeting_pairs(there, progress, harm.status);
     if (!now.empty() && harm.status != treeform::status::cancelled)
         harm.meeting = count_new(now, meeting_pairs(mesh, progress, harm.status));
-    const std::vector<std::uint32_t> flat = find_defects(there).degenerate_faces;
-    if (!flat.empty()) harm.collapsed = count_new(flat, find_defects(mesh).degenerate_faces);
+    const std::vector<std::uint32_t> flat = find_invalid_faces(there).degenerate_faces;
+    if (!flat.empty()) harm.collapsed = count_new(flat, find_invalid_faces(mesh).degenerate_faces);
     return harm;
 }
 

@@ -44,7 +44,7 @@ surface_faults all_faults(mesh_view surface, const surface_check& check) {
     result.cancelled = found.status == treeform::status::cancelled;
     if (result.cancelled) return result;
     result.pairs = std::move(found.pairs);
-    result.degenerate = find_defects(surface).degenerate_faces;
+    result.degenerate = find_invalid_faces(surface).degenerate_faces;
     result.open = check.solid && find_open_edge(surface).has_value();
     if (!check.solid) return result;
     const ids all = all_of(surface.faces.size());
@@ -145,7 +145,7 @@ surface_faults find_faults(mesh_view surface, const surface_check& check) {
             found = self_intersections(
                 part, {.vertices = vertex_identity::by_index, .progress = check.progress});
         },
-        [&] { result.degenerate = find_defects(part).degenerate_faces; },
+        [&] { result.degenerate = find_invalid_faces(part).degenerate_faces; },
         [&] {
             if (check.solid) edges.emplace(surface, near);
         });

@@ -368,7 +368,7 @@ void tile_search::look_at(const std::vector<io::placed_triangle>& block,
         m.faces.push_back({first, first + 1, first + 2});
     }
     if (!bounds_known_) base::add_to_box(survey_.bounds, bounding_box(m.points));
-    const mesh_defects defects = find_defects(m);
+    const invalid_faces defects = find_invalid_faces(m);
     survey_.part.non_finite += defects.nonfinite_faces.size();
     survey_.part.degenerate += defects.degenerate_faces.size();
     searched = drop_unusable_faces(m);

@@ -34,7 +34,7 @@ ids find_nonfinite_points(points_view points) {
     return all;
 }
 
-void look_at(mesh_view mesh, std::size_t i, mesh_defects& found) {
+void look_at(mesh_view mesh, std::size_t i, invalid_faces& found) {
     const face& f = mesh.faces[i];
     const auto id = static_cast<std::uint32_t>(i);
     if (std::max({f[0], f[1], f[2]}) >= mesh.points.size()) {
@@ -52,19 +52,19 @@ void look_at(mesh_view mesh, std::size_t i, mesh_defects& found) {
 
 }  // namespace
 
-mesh_defects find_defects(const mesh_ref& given) {
+invalid_faces find_invalid_faces(const mesh_ref& given) {
     const mesh_view mesh = given.view();
     constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
     if (mesh.points.size() > most || mesh.faces.size() > most)
-        throw std::invalid_argument("treeform::find_defects: more than 2^32 - 1 points or faces");
-    mesh_defects result;
+        throw std::invalid_argument("treeform::find_invalid_faces: more than 2^32 - 1 points or faces");
+    invalid_faces result;
     result.nonfinite_points = find_nonfinite_points(mesh.points);
-    std::vector<mesh_defects> found(chunk_count(mesh.faces.size(), light_grain));
+    std::vector<invalid_faces> found(chunk_count(mesh.faces.size(), light_grain));
     for_chunks(mesh.faces.size(), light_grain,
                [&](std::size_t begin, std::size_t end, std::size_t c) {
                    for (std::size_t i = begin; i < end; ++i) look_at(mesh, i, found[c]);
                });
-    for (const mesh_defects& part : found) {
+    for (const invalid_faces& part : found) {
         append(result.nonfinite_faces, part.nonfinite_faces);
         append(result.degenerate_faces, part.degenerate_faces);
         append(result.out_of_range_faces, part.out_of_range_faces);

@@ -43,8 +43,7 @@ static void test_of_two(void) {
     sources[0].file = files[0];
     sources[1].file = files[1];
     OK(treeform_unite(a, b, NULL, &made));
-    OK(treeform_mesh_create(made->mesh.points, made->mesh.point_count, made->mesh.faces,
-                            made->mesh.face_count, 0, &made_mesh));
+    OK(treeform_mesh_of(&made->mesh, 0, &made_mesh));
     OK(treeform_file_create(made_mesh, &made_file));
     OK(treeform_carry(made_file, sources, 2, made->face_source, made->vertex_source, NULL));
     OK(treeform_add_source_columns(made_file, "from", made->face_source, names, 2));

@@ -71,12 +71,16 @@ static void test_of_two(void) {
     treeform_box box = {{-1, -1, 0.5}, {2, 2, 0.6}};
     int32_t meet = 7;
     uint8_t meets[2] = {7, 7};
-    OK(treeform_intersections(a, b, NULL, &pairs));
+    OK(treeform_mesh_intersections(a, b, NULL, &pairs));
+    CHECK(strcmp(treeform_pair_kind_name(TREEFORM_FOLD), "fold") == 0);
+    CHECK(strcmp(treeform_pair_kind_name(7), "unknown") == 0);
+    CHECK(strcmp(treeform_status_name(-1), "unknown") == 0);
+    CHECK(strcmp(treeform_status_name(TREEFORM_STATUS_OPEN_INPUT), "open-input") == 0);
     CHECK(pairs->count > 0 && pairs->count == pairs->counts[0] + pairs->counts[5]);
     treeform_free(pairs);
     treeform_intersection_options_init(&options, sizeof options);
     options.move_b = moves;
-    OK(treeform_intersections(a, b, &options, &pairs));
+    OK(treeform_mesh_intersections(a, b, &options, &pairs));
     CHECK(pairs->count == 0);
     treeform_free(pairs);
     OK(treeform_intersects(a, b, NULL, NULL, &meet));
@@ -104,8 +108,7 @@ static void test_colored(void) {
     treeform_file_view* view = NULL;
     OK(treeform_read("data/two_spheres.stl", NULL, &file));
     OK(treeform_usable_part(file, NULL, &part));
-    OK(treeform_mesh_create(part->mesh.points, part->mesh.point_count, part->mesh.faces,
-                            part->mesh.face_count, 0, &mesh));
+    OK(treeform_mesh_of(&part->mesh, 0, &mesh));
     OK(treeform_self_intersections(mesh, NULL, &pairs));
     OK(treeform_color_pairs(file, part, pairs->pairs, pairs->count));
     OK(treeform_file_look(file, &view));

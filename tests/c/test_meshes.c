@@ -11,6 +11,7 @@ static void test_bad_arrays(void) {
     INVALID("faces is null", treeform_mesh_create(cube_points, 8, NULL, 12, 0, &mesh));
     INVALID("null", treeform_mesh_create(cube_points, 8, cube_faces, 12, 0, NULL));
     INVALID("face 1 has the corner 8", treeform_mesh_create(cube_points, 8, wrong, 2, 0, &mesh));
+    INVALID("arrays is null", treeform_mesh_of(NULL, 0, &mesh));
     INVALID("flags", treeform_mesh_create(cube_points, 8, cube_faces, 12, 64, &mesh));
     ENDS(TREEFORM_RANGE, "32-bit",
          treeform_mesh_create(cube_points, (size_t)1 << 33, cube_faces, 12, 0, &mesh));

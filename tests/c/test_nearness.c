@@ -19,7 +19,7 @@ static void test_distances(void) {
     CHECK(faces[1] == TREEFORM_NONE && distances[1] > 1e300 && isnan(points[3]));
     OK(treeform_closest_point(a, queries, 2, (double)INFINITY, NULL, distances, NULL));
     CHECK(distances[1] == 8.0);
-    INVALID("query 0", treeform_closest_point(a, bad, 1, 1.0, faces, NULL, NULL));
+    INVALID("point 0", treeform_closest_point(a, bad, 1, 1.0, faces, NULL, NULL));
     INVALID("", treeform_closest_point(a, queries, 1, -1.0, faces, NULL, NULL));
     INVALID("queries is null", treeform_closest_point(a, NULL, 1, 1.0, faces, NULL, NULL));
     OK(treeform_closest_points(a, b, NULL, NULL, (double)INFINITY, &closest));

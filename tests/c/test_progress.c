@@ -155,7 +155,7 @@ void test_progress(void) {
     }
     /* The number is that of the whole, whichever piece it is in. */
     queries[3 * 2500] = (double)NAN;
-    INVALID("query 2500 is", ask(0, pieces));
+    INVALID("point 2500 is", ask(0, pieces));
     INVALID("point 2500 is", ask(1, pieces));
     INVALID("query 2500 is", ask(8, pieces));
     queries[3 * 2500] = safe;

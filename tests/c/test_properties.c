@@ -41,7 +41,7 @@ static void test_open_mesh(void) {
     treeform_mesh* closed = cube(0, 0, 0, 1);
     treeform_certificate* certificate = NULL;
     treeform_topology* topology = NULL;
-    treeform_defects* defects = NULL;
+    treeform_invalid_faces* defects = NULL;
     uint32_t edge[2] = {0, 0}, component[12];
     const double tolerances[2] = {0.5, 0.75};
     double apart[24];
@@ -49,11 +49,11 @@ static void test_open_mesh(void) {
     int32_t same = 0;
     int calls = 0, i;
     OK(treeform_mesh_create(cube_points, 8, cube_faces, 11, 0, &open));
-    OK(treeform_check_solid(open, NULL, NULL, &certificate));
+    OK(treeform_check_operand(open, NULL, NULL, &certificate));
     CHECK(certificate->status == TREEFORM_STATUS_OPEN_INPUT && certificate->open_count == 3);
     CHECK(certificate->open_listed == 3 && certificate->message[0] != 0);
     treeform_free(certificate);
-    OK(treeform_check_solid(closed, NULL, NULL, &certificate));
+    OK(treeform_check_operand(closed, NULL, NULL, &certificate));
     CHECK(certificate->status == TREEFORM_STATUS_OK);
     treeform_free(certificate);
     (void)calls;
@@ -77,7 +77,7 @@ static void test_open_mesh(void) {
     apart[3] = (double)INFINITY;
     treeform_free(open);
     OK(treeform_mesh_create(apart, 8, cube_faces, 12, 0, &open));
-    OK(treeform_find_defects(open, &defects));
+    OK(treeform_find_invalid_faces(open, &defects));
     CHECK(defects->nonfinite_point_count == 1 && defects->nonfinite_points[0] == 1);
     CHECK(defects->nonfinite_face_count == 5 && defects->degenerate_face_count == 0);
     treeform_free(defects);

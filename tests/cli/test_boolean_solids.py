@@ -147,6 +147,8 @@ class Solids(BooleanTest):
         self.assertEqual(self.made("union", "heap.obj")["output"]["volume"], 15)
         entry = self.made("union", "heap.obj", "--fill-rule", "even-odd")
         self.assertEqual((entry["fill_rule"], entry["output"]["volume"]), ("even-odd", 14))
+        again = self.made("union", "heap.obj", "--fill-rule", "even_odd")
+        self.assertEqual(again["output"]["volume"], 14)
 
     def test_what_is_clean_stays_bit_for_bit(self):
         points = [(x / 3, y / 7, z * 1e-3) for x, y, z in cube()[0]]

@@ -39,7 +39,7 @@ void check(const tf::boolean_result& result) {
     if (result.certificate.open_count > 0)
         require(surface.faces.empty(), "open operands give nothing");
     if (!result.certificate) return;
-    require(tf::find_defects(surface) == tf::mesh_defects{}, "no degenerate face");
+    require(tf::find_invalid_faces(surface) == tf::invalid_faces{}, "no degenerate face");
     require(!tf::find_open_edge(surface), "no open edge");
     require(tf::self_intersections(surface).pairs.empty(), "no two faces meet");
 }

@@ -29,7 +29,7 @@ void check_section(const tf::mesh& mesh, const tf::oriented_plane& plane, bool c
 
 void check_piece(const tf::cut_piece& piece) {
     if (!piece.certificate || piece.mesh.faces.empty()) return;
-    require(tf::find_defects(piece.mesh) == tf::mesh_defects{}, "no degenerate face");
+    require(tf::find_invalid_faces(piece.mesh) == tf::invalid_faces{}, "no degenerate face");
     require(!tf::find_open_edge(piece.mesh), "no open edge");
     require(tf::self_intersections(piece.mesh).pairs.empty(), "no two faces meet");
 }

@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(result.face_source.size() == result.mesh.faces.size(), "a source for each face");
     require(result.vertex_source.size() == result.mesh.points.size(), "a source for each point");
     if (!result.certificate) return 0;
-    require(tf::find_defects(result.mesh) == tf::mesh_defects{}, "no degenerate face");
+    require(tf::find_invalid_faces(result.mesh) == tf::invalid_faces{}, "no degenerate face");
     const bool may_touch = mode == tf::resolve_mode::remove && !options.touching;
     for (const tf::face_pair& pair : tf::self_intersections(result.mesh).pairs)
         require(may_touch && pair.kind == tf::pair_kind::touching, "no two faces meet");

@@ -242,7 +242,7 @@ class tool_test {
 
     void check_surface(const tf::mesh& written) const {
         const tf::mesh mesh = tf::join_equal_points(written);
-        require(tf::find_defects(mesh) == tf::mesh_defects{}, "wrote a degenerate face");
+        require(tf::find_invalid_faces(mesh) == tf::invalid_faces{}, "wrote a degenerate face");
         require(tf::self_intersections(mesh).pairs.empty(), "wrote faces that meet");
         if (command_.mesh != kept_promise::clean)
             require(!tf::find_open_edge(mesh), "wrote an open edge");

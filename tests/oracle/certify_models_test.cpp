@@ -47,7 +47,7 @@ tf::mesh read_if_any(const std::filesystem::path& path, const tf::transform<3>& 
     } catch (const tf::io_error&) {
         return {};
     }
-    const tf::mesh_defects defects = tf::find_defects(mesh);
+    const tf::invalid_faces defects = tf::find_invalid_faces(mesh);
     if (!defects.nonfinite_points.empty() || !defects.out_of_range_faces.empty()) return {};
     for (tf::point3& p : mesh.points) p = by(p);
     return mesh;

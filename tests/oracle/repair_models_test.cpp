@@ -36,7 +36,7 @@ std::size_t point_count() { return test::setting("TREEFORM_STRESS_COUNT", 500); 
 bool can_be_asked(const tf::mesh& mesh) {
     constexpr std::size_t most_faces = 150'000;
     if (mesh.faces.empty() || mesh.faces.size() > most_faces) return false;
-    const tf::mesh_defects defects = tf::find_defects(mesh);
+    const tf::invalid_faces defects = tf::find_invalid_faces(mesh);
     return defects.nonfinite_points.empty() && defects.out_of_range_faces.empty() &&
            !tf::find_open_edge(mesh);
 }

@@ -38,7 +38,7 @@ void round_to_float(tf::mesh& mesh) {
 }
 
 /// The finite points, and the faces that use no other.
-tf::mesh finite_part(const tf::mesh& mesh, const tf::mesh_defects& defects) {
+tf::mesh finite_part(const tf::mesh& mesh, const tf::invalid_faces& defects) {
     constexpr std::uint32_t dropped = std::numeric_limits<std::uint32_t>::max();
     tf::mesh part;
     std::vector<std::uint32_t> new_of_old(mesh.points.size(), 0);
@@ -110,12 +110,12 @@ counts measure(tf::mesh mesh, bool as_float) {
     if (as_float) round_to_float(mesh);
     found["vertices_stored"] = of(mesh.points.size());
     found["triangles"] = of(mesh.faces.size());
-    const tf::mesh_defects stored = tf::find_defects(mesh);
+    const tf::invalid_faces stored = tf::find_invalid_faces(mesh);
     REQUIRE(stored.out_of_range_faces.empty());
     found["nonfinite_vertices"] = of(stored.nonfinite_points.size());
     found["nonfinite_triangles"] = of(stored.nonfinite_faces.size());
     const tf::mesh joined = tf::join_equal_points(finite_part(mesh, stored));
-    const tf::mesh_defects defects = tf::find_defects(joined);
+    const tf::invalid_faces defects = tf::find_invalid_faces(joined);
     CHECK(defects.nonfinite_points.empty());
     CHECK(defects.degenerate_faces.size() == stored.degenerate_faces.size());
     found["points_unique"] = of(joined.points.size());
@@ -166,7 +166,7 @@ TEST_CASE("truth: order, axes, scale and threads change no pair of a model") {
         CAPTURE(row.text("file"));
         const tf::mesh stored = tf::read(folder / row.text("file")).mesh;
         if (stored.faces.empty() || stored.faces.size() > most_faces) continue;
-        const tf::mesh mesh = tf::join_equal_points(finite_part(stored, tf::find_defects(stored)));
+        const tf::mesh mesh = tf::join_equal_points(finite_part(stored, tf::find_invalid_faces(stored)));
         if (tf::self_intersections(mesh, {.vertices = tf::vertex_identity::by_index}).box_pairs >
             most_box_pairs)
             continue;

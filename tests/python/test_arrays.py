@@ -70,7 +70,7 @@ MOVED = (CUBE.vertices + 0.5, CUBE.faces)
     lambda: tf.lay_flat(CUBE), lambda: tf.align(CUBE, MOVED), lambda: tf.measure(CUBE, MOVED),
     lambda: tf.pack([CUBE], [9, 9]), lambda: tf.drop(CUBE), lambda: tf.find_features(CUBE),
     lambda: tf.self_intersections(tf.read("data/two_spheres.stl")),
-    lambda: tf.face_components(CUBE), lambda: tf.find_defects(CUBE),
+    lambda: tf.face_components(CUBE), lambda: tf.find_invalid_faces(CUBE),
     lambda: tf.faces_in_box(CUBE, [0] * 3, [1] * 3), lambda: tf.closest_points(CUBE, MOVED),
     lambda: tf.penetration_depth(CUBE, MOVED), lambda: tf.time_of_impact(CUBE, MOVED, [1, 0, 0]),
     lambda: tf.check_poses([CUBE, MOVED], np.eye(4)[None]), lambda: CUBE.bounds,
@@ -131,7 +131,7 @@ class Meshio:
 @pytest.mark.parametrize("mesh", [Trimesh(), Open3d(), Pyvista(), Meshio(), (POINTS, FACES),
                                   [POINTS.tolist(), FACES.tolist()], tf.Mesh(POINTS, FACES)])
 def test_meshes_of_others_are_taken(mesh):
-    assert tf.check_solid(mesh)
+    assert tf.check_operand(mesh)
     assert tf.union(mesh).mesh.volume == pytest.approx(1 / 6)
     assert len(tf.self_intersections(mesh)) == 0
 
@@ -173,7 +173,7 @@ def test_what_is_no_mesh_is_named(vertices, faces, message):
 
 
 @pytest.mark.parametrize("verb", [
-    tf.self_intersections, tf.check_solid, tf.union, tf.repair, tf.resolve_self_intersections,
+    tf.self_intersections, tf.check_operand, tf.union, tf.repair, tf.resolve_self_intersections,
     tf.drop, lambda m: tf.closest_point(m, POINTS),
     lambda m: tf.raycast(m, POINTS, POINTS + 1), lambda m: tf.contains(m, POINTS),
     lambda m: tf.distance(m, CUBE), lambda m: tf.intersects(m, CUBE), lambda m: tf.clash([m, CUBE]),

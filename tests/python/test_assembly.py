@@ -124,7 +124,7 @@ def test_poses_are_as_one_by_one():
 def test_rings_in_each_other_do_not_clash():
     thin = tf.difference(box([0, 0, 0], [4, 4, 1]), box([1, 1, -1], [3, 3, 2]))
     other = tf.Mesh(thin.vertices[:, [2, 1, 0]] + [1.5, 1.5, -1.5], thin.faces[:, ::-1])
-    assert tf.check_solid(thin) and tf.check_solid(other)
+    assert tf.check_operand(thin) and tf.check_operand(other)
     found = tf.clash([thin, other])
     assert found.pairs == [] and found.boxes_apart == 0 and found.counts["separate"] == 1
     assert not tf.intersects(SHEET, moved(SPHERES, 50, 0, 0))

@@ -44,7 +44,7 @@ def test_a_cloud_is_no_solid():
             verb()
     with pytest.raises(ValueError, match="b: 8 points"):
         tf.boolean("a - b", a=CUBE, b=points)
-    for verb in (lambda: tf.check_solid(points), lambda: CUBE | points, lambda: points - CUBE):
+    for verb in (lambda: tf.check_operand(points), lambda: CUBE | points, lambda: points - CUBE):
         with pytest.raises(ValueError, match="8 points without faces"):
             verb()
 
@@ -181,7 +181,7 @@ def test_a_sphere_of_many_directions():
     ball = sphere(3)
     rest = tf.difference(ball, box([0, -2, -2], [2, 2, 2]))
     assert rest.mesh.volume == pytest.approx(ball.volume / 2)
-    assert tf.check_solid(rest)
+    assert tf.check_operand(rest)
     assert same_mesh(tf.union(ball).mesh, tf.union(ball).mesh)
 
 

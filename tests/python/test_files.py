@@ -21,7 +21,7 @@ def test_what_is_written_is_read(tmp_path, format):
     written = tf.write(path, CUBE)
     assert written.max_displacement == 0
     again = tf.read(path)
-    assert tf.check_solid(again) and again.volume == CUBE.volume
+    assert tf.check_operand(again) and again.volume == CUBE.volume
     assert len(again.vertices) == 8 and len(again.faces) == 12
 
 
@@ -95,7 +95,7 @@ def test_corners_of_a_glb_that_are_joined_keep_the_attributes_of_the_first(tmp_p
     extra.set_vertex("t", np.zeros(36, dtype=np.float32))
     tf.write(tmp_path / "m.glb", tf.Mesh(vertices, np.arange(36).reshape(-1, 3), extra))
     joined, soup = tf.read(tmp_path / "m.glb"), tf.read(tmp_path / "m.glb", join=False)
-    assert len(joined.vertices) == 8 and tf.check_solid(joined)
+    assert len(joined.vertices) == 8 and tf.check_operand(joined)
     assert joined.attributes.vertex["s"][0] == 0 and len(joined.attributes.vertex["nz"]) == 8
     assert len(soup.vertices) == 36 and soup.attributes.vertex["s"][35] == 35
 
@@ -129,7 +129,7 @@ def test_certified_coordinates_are_not_rounded_unless_told(tmp_path):
 def test_certified_coordinates_are_doubles_in_3mf_only_if_asked_for(tmp_path):
     made = tf.union(CUBE, (CUBE.vertices / 3 + 0.9, CUBE.faces))
     for mesh in (made, [made], {"a": made}):
-        with pytest.raises(tf.FileError, match="say precision='float64', or say round=True"):
+        with pytest.raises(tf.FileError, match="write with precision float64, or allow"):
             tf.write(tmp_path / "m.3mf", mesh)
         assert tf.write(tmp_path / "m.3mf", mesh, precision="float64").precision == "float64"
         assert same_mesh(tf.read(tmp_path / "m.3mf"), made.mesh)
@@ -236,6 +236,9 @@ def test_several_meshes_are_parts(tmp_path):
         again = tf.read(path)
         assert [(p[0], p[3]) for p in again.attributes.parts] == [("base", 0), ("lid", 12)]
         assert again.volume == 2 and len(again.faces) == 24
+        parts = tf.split_parts(again)
+        assert list(parts) == ["base", "lid"] and parts["lid"].bounds[0].tolist() == [0, 0, 2]
+    assert [len(one.faces) for one in tf.split_parts((CUBE.vertices, CUBE.faces)).values()] == [12]
     assert "not written to PLY" in tf.write(tmp_path / "m.ply",
                                             (m for m in (CUBE, lid))).warnings[0]
     assert len(tf.read(tmp_path / "m.ply").faces) == 24

@@ -89,7 +89,7 @@ def test_a_bar_of_tqdm_will_do():
 
 @pytest.mark.parametrize("verb", [
     lambda p: tf.closest_points(CUBE, SPHERES, progress=p),
-    lambda p: tf.find_features(CUBE, progress=p), lambda p: tf.find_defects(CUBE, progress=p),
+    lambda p: tf.find_features(CUBE, progress=p), lambda p: tf.find_invalid_faces(CUBE, progress=p),
     lambda p: tf.count_topology(CUBE, progress=p), lambda p: tf.face_components(CUBE, progress=p),
     lambda p: tf.count_inside_out(CUBE, progress=p),
     lambda p: tf.faces_in_box(CUBE, [0] * 3, [1] * 3, progress=p),
@@ -217,7 +217,7 @@ tf.repair(soup, max_loss=1, check=False, progress=lambda share: None)
     assert done.returncode == -signal.SIGINT and "KeyboardInterrupt" in done.stderr, done.stderr
 
 
-@pytest.mark.parametrize("verb", ["tf.read(pipe, 'ply')", "tf.check_solid(tf.read(pipe, 'ply'))",
+@pytest.mark.parametrize("verb", ["tf.read(pipe, 'ply')", "tf.check_operand(tf.read(pipe, 'ply'))",
                                   "boxes.pairs()"])
 @pytest.mark.parametrize("end", ["raise", "print('ended'); sys.exit(7)"])
 def test_a_process_ends_though_its_job_goes_on(tmp_path, verb, end):
@@ -263,7 +263,7 @@ while True:
 
 
 @pytest.mark.parametrize("verb", ["tf.self_intersections(soup)", "tf.union(ball)", "tree.query(x)",
-                                  "tf.check_solid(small)"])
+                                  "tf.check_operand(small)"])
 def test_a_process_ends_while_daemon_threads_work(verb):
     program = f"""
 import atexit, sys, threading, time

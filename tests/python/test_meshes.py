@@ -22,7 +22,7 @@ def test_what_a_mesh_says_of_itself():
     assert repr(CUBE) == "Mesh(8 vertices, 12 faces)"
     vertices, faces = CUBE
     assert vertices.shape == (8, 3) and faces.shape == (12, 3)
-    assert SHEET.solid_certificate.open_count == 3
+    assert tf.check_operand(SHEET).open_count == 3
 
 
 def test_operators_are_set_operations():

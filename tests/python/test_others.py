@@ -165,7 +165,7 @@ def test_pyvista(monkeypatch):
 def test_vtk(monkeypatch):
     vtk_there(monkeypatch)
     made = CUBE.to_vtk()
-    assert same_mesh(tf.from_vtk(made), CUBE) and tf.check_solid(made)
+    assert same_mesh(tf.from_vtk(made), CUBE) and tf.check_operand(made)
     made.polys.SetData(np.array([0, 4, 7]), np.array([0, 1, 2, 3, 4, 5, 6]))
     assert tf.from_vtk(made).faces.tolist() == [[0, 1, 2], [0, 2, 3], [4, 5, 6]]
     made.polys.SetData(np.array([0, 5]), np.arange(5))

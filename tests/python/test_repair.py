@@ -142,7 +142,7 @@ def test_equal_points_are_joined():
 
 def test_defects_and_topology():
     points = [[0, 0, 0], [1, 1, 1], [3, 3, 3], [np.nan, 0, 0]]
-    defects = tf.find_defects((points, [[0, 1, 2], [0, 1, 3], [0, 1, 9]]))
+    defects = tf.find_invalid_faces((points, [[0, 1, 2], [0, 1, 3], [0, 1, 9]]))
     assert defects.nonfinite_points.tolist() == [3] and defects.nonfinite_faces.tolist() == [1]
     assert defects.degenerate_faces.tolist() == [0] and defects.out_of_range_faces.tolist() == [2]
     counts = tf.count_topology(SHEET)

@@ -43,14 +43,14 @@ inline bool is_in_floats(const tf::mesh& mesh) {
 
 /// No defects, and no two faces have more in common than corners and edges.
 inline bool is_clean_complex(const tf::mesh& mesh) {
-    const tf::mesh_defects defects = tf::find_defects(mesh);
+    const tf::invalid_faces defects = tf::find_invalid_faces(mesh);
     return defects.degenerate_faces.empty() && defects.nonfinite_points.empty() &&
            defects.out_of_range_faces.empty() && tf::self_intersections(mesh).pairs.empty();
 }
 
 /// Pairs of faces that meet, and degenerate faces.
 inline std::uint64_t count_meeting(const tf::mesh& mesh) {
-    return tf::find_defects(mesh).degenerate_faces.size() +
+    return tf::find_invalid_faces(mesh).degenerate_faces.size() +
            tf::self_intersections(mesh).pairs.size();
 }
 

@@ -18,7 +18,7 @@ namespace test {
 inline bool is_clean_solid(const tf::mesh& mesh) {
     if (tf::find_open_edge(mesh)) return false;
     const tf::mesh joined = tf::join_equal_points(mesh);
-    if (tf::find_defects(joined) != tf::mesh_defects{}) return false;
+    if (tf::find_invalid_faces(joined) != tf::invalid_faces{}) return false;
     if (tf::find_open_edge(joined)) return false;
     return tf::self_intersections(mesh).pairs.empty();
 }

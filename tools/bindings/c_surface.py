@@ -47,7 +47,7 @@ BOUND = [
     # properties.h
     Bound("mass_properties", kind="part"),
     Bound("topology_counts", "topology"),
-    Bound("mesh_defects", "defects"),
+    Bound("invalid_faces"),
     Bound("mesh_feature", "feature", "part"),
     Bound("feature_options"),
     Bound("hull_side", kind="same"),

@@ -16,7 +16,7 @@ INCLUDE = ROOT / "tools/c/include/treeform/c"
 MADE = ROOT / "tools/c/made"
 #: Phrases of C++ docstrings, and those of C.
 IN_C = {"operand_element::none": "TREEFORM_NONE", "carry_sources": "treeform_carry",
-        "mesh_intersections": "treeform_intersections", "shared_search": "treeform_shared_search",
+        "shared_search": "treeform_shared_search",
         "shared_weld": "treeform_shared_weld", "relation": "treeform_relate",
         "convex_hull_result::faces": "treeform_hull::faces", "part.mesh": "mesh",
         "signed_volume": "treeform_volume", "surface_area": "treeform_area",
@@ -172,7 +172,11 @@ class Writer:
             if doc:
                 text += comment(self.words(doc), "    ")
             text += f"    {constant} = {i}{',' if i < last else ''}\n"
-        return text + "};\n"
+        text += "};\n"
+        if it.named:
+            text += (f'/// The name of a value, as in reports: "{it.values[0][0].replace("_", "-")}"; '
+                     f'"unknown" for others.\nTREEFORM_C_API const char* {c}_name({c} value);\n')
+        return text
 
     def thing(self, name: str) -> str:
         if name.endswith(")"):
@@ -296,6 +300,10 @@ class Writer:
             f"static_assert({constant} == static_cast<int>(tf::{name}::{value}));\n"
             for name in names if name in self.enums
             for constant, (value, _) in zip(self.constants(name), self.language.enums[name].values))
+        constants += "".join(
+            f"const char* {self.enums[name][0]}_name({self.enums[name][0]} value) {{ "
+            f"return glue::name_of<tf::{name}>(value); }}\n"
+            for name in names if name in self.enums and self.language.enums[name].named)
         calls = [name for name in names if name.endswith(")")]
         headers = {self.header_of(name) for name in calls}
         if (ROOT / f"tools/c/{stem}.hpp").exists():

@@ -52,6 +52,7 @@ class Enum:
     header: str
     doc: str
     values: list[tuple[str, str]] = field(default_factory=list)  #: names and sentences
+    named: bool = False  #: whether `name_of` has its names
 
 
 _START = re.compile(r"^(?:struct|class)(?: TREEFORM_API| \[\[nodiscard\]\])* (\w+)(?: final)?"
@@ -170,6 +171,8 @@ def read(path: pathlib.Path, header: str) -> tuple[list[Struct], list[Enum]]:
                 body.line(lines[at])
                 at += 1
             structs.append(struct)
+        for one in enums:
+            one.named |= f"names_of<{one.name}>" in line
         found = _ENUM.match(line)
         if found:
             text = [found.group(2)]

@@ -258,8 +258,8 @@ class FunctionWriter:
             text += f"    how = options(_core.{how}, locals(){one.given and ', ' + one.given})\n"
         front, back = one.value.split("{}")
         if one.check:
-            of_one = "" if one.check.endswith("s") else ", of_one=True"
-            front, back = f"checked({front}", f"{back}, check{of_one})"
+            of = "" if one.check.endswith("s") else ', of=""'
+            front, back = f"checked({front}", f"{back}, check{of})"
         if one.body:
             return text + f"    return {front}{one.body}{back}\n"
         values.append("progress=progress")

@@ -29,7 +29,7 @@ ROWS = {"double": ("Floats", ","), "point3": ("Floats", ", 3"), "uint32_t": ("Id
 CONTEXTS = {"": "", "attributes": ", const carrying& attributes",
             "moving": ", const held_mesh& moving", "data": ", const file_data* data",
             "parts": ", const held_meshes& parts", "whole": ", const tf::section_result& whole",
-            "robot": ", const tf::urdf_robot& robot",
+            "cloud": ", tf::points_view cloud", "robot": ", const tf::urdf_robot& robot",
             "robot_parts": ", std::vector<tf::urdf_mesh>& parts"}
 
 

@@ -172,10 +172,13 @@ RESULTS = [
                                                "is left, "
                "also if it was merged with others.",
                'as_python(std::move(from.is_left)).attr("view")("bool")')]}),
-    Result("convex_hull_result", "ConvexHull", "_repair",
+    Result("convex_hull_result", "ConvexHull", "_repair", "MeshResult", context="cloud",
            doc="The convex hull of points: triangles, grouped by flat sides.",
            docs={"faces": "(F, 3) triangles, by point numbers, outward."},
-           custom={"sides": [
+           custom={"+": [Attribute("mesh", "Mesh", "The hull as a closed mesh, with only the points "
+                                   "that it uses.",
+                                   "mesh_object(from.mesh(cloud), py::none(), py::none())")],
+                   "sides": [
                column("first_face", "Ids", "(S,) the first face of each flat side; its faces "
                       "are consecutive.", "sides", "one.first_face"),
                column("areas", "Floats", "(S,) the area of each side.", "sides", "one.area"),
@@ -188,7 +191,7 @@ RESULTS = [
                                    "The defects in words, such as 'open at 37 edges, 2 pairs of "
                                    "faces meet', or 'none'.",
                                    "py::cast(from.message())")]}),
-    Result("mesh_defects", "MeshDefects", "_properties"),
+    Result("invalid_faces", "InvalidFaces", "_properties"),
     Result("topology_counts", "Topology", "_properties"),
     Result("mesh_feature", "Feature", "_properties", docs={"kind": "'plane' or 'axis'."}),
     # _intersections

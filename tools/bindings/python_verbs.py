@@ -155,8 +155,8 @@ FUNCTIONS = [
              "tf::split($meshes, options)", "attributes of meshes", check="meshes",
              docs=_MESHES,
              leave="fill_rule keep_cuts simplify volumes min_volume gap"),
-    Function("check_solid(mesh: Mesh) -> Certificate",
-             'require_faces(mesh, "mesh"), tf::check_solid(mesh.view(), report)'),
+    Function("check_operand(mesh: Mesh) -> Certificate",
+             'require_faces(mesh, "mesh"), tf::check_operand(mesh.view(), report)'),
     # _cuts
     Function("section(mesh: Mesh, normal: Vector = (0, 0, 1), at: Vector = (0, 0, 0), *, "
              "heights: Heights = None) -> Section",
@@ -265,6 +265,7 @@ FUNCTIONS = [
              docs={"offset": "the distance of the wrap's vertices from the mesh, in its length "
                              "unit. None: a thirtieth of `size`."}),
     Function("convex_hull(points: Cloud) -> ConvexHull", "tf::convex_hull($points, report)",
+             "points_of(points)",
              docs={"points": "points (n, 3), or a mesh."}),
     Function("rounded(points: Points, precision: precision = \"float32\") -> Floats",
              "tf::rounded($points, $precision)",
@@ -283,7 +284,7 @@ FUNCTIONS = [
     Function("bounds(mesh: Mesh) -> Optional[Floats]", "tf::bounding_box(mesh.view().points)"),
     Function("signed_volume(mesh: Mesh) -> float", "tf::signed_volume(mesh.view())"),
     Function("surface_area(mesh: Mesh) -> float", "tf::surface_area(mesh.view())"),
-    Function("find_defects(mesh: Mesh) -> MeshDefects", "tf::find_defects(mesh.view())"),
+    Function("find_invalid_faces(mesh: Mesh) -> InvalidFaces", "tf::find_invalid_faces(mesh.view())"),
     Function("count_topology(mesh: Mesh) -> Topology",
              "tf::count_topology(mesh.view().points.size(), mesh.view().faces)"),
     Function("face_components(mesh: Mesh) -> Ids",
@@ -370,6 +371,12 @@ FUNCTIONS = [
                               "given by number, from 1.",
                    "drop_non_finite": "drop points with a NaN or infinite coordinate, and their "
                                       "faces."}),
+    Function("split_parts(mesh: Mesh) -> dict[str, Mesh]",
+             doc="The parts of a mesh that was read from a file, by name: the objects, groups or "
+                 "nodes of the file. Each has its own vertices and faces, and their attributes. "
+                 "Parts whose open edges coincide are patches of one surface, and are combined into "
+                 "one part; solids that touch are not combined. Parts without a name are called "
+                 "\"1\", \"2\", ... For the connected parts of any mesh, see `components`."),
     Function("write(path: Path | IO[bytes], mesh: PartsLike, options: write_options(format))"
              " -> Written", body="written(path, mesh, format, how, progress)",
              words={"file": "mesh"},

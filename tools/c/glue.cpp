@@ -31,7 +31,8 @@ void say(const char* what) noexcept {
 
 treeform_code code_of_exception() noexcept {
     const auto said = [](const char* what, treeform_code code) {
-        say(what);
+        const char* const end = std::strstr(what, ": ");  // of the name of the function in C++
+        say(end && std::string_view(what).starts_with("treeform::") ? end + 2 : what);
         return code;
     };
     try {
@@ -177,7 +178,7 @@ treeform_code code_of(const tf::certificate& certificate) {
 
 tf::mesh_view finite_view(const treeform_mesh* mesh) {
     const tf::mesh_view all = view(mesh);
-    if (const auto bad = tf::find_defects(all).nonfinite_faces; !bad.empty())
+    if (const auto bad = tf::find_invalid_faces(all).nonfinite_faces; !bad.empty())
         throw std::invalid_argument("face " + std::to_string(bad[0]) +
                                     " has a corner that is not finite");
     return all;

@@ -237,6 +237,12 @@ template <class E>
                                     ", which is not one of its values");
     return static_cast<E>(value);
 }
+/// The name of an enumerator of E.
+template <class E>
+[[nodiscard]] const char* name_of(std::int32_t value) {
+    const auto& names = tf::detail::names_of<E>;
+    return value < 0 || value >= std::ssize(names) ? "unknown" : names[std::size_t(value)];
+}
 [[nodiscard]] inline std::size_t limit(std::uint64_t value) {
     return static_cast<std::size_t>(value);
 }

@@ -81,6 +81,12 @@ inline answer_of<treeform_mesh> mesh_create_float(const float* points, std::size
                    flags);
 }
 
+/// The mesh of the arrays of a result, as `result->mesh`; `flags` as in `treeform_mesh_create`.
+inline answer_of<treeform_mesh> mesh_of(const treeform_arrays* arrays, std::uint32_t flags) {
+    const treeform_arrays& of = need(arrays, "arrays");
+    return mesh_create(of.points, of.point_count, of.faces, of.face_count, flags);
+}
+
 /// The arrays of a mesh, valid as long as the mesh exists.
 inline treeform_arrays mesh_arrays(const treeform_mesh* mesh) { return arrays(view(mesh)); }
 

@@ -8,6 +8,7 @@
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/predicates.hpp>
 #include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/repair.hpp>
 
 #include <tools/c/made/structs.hpp>
 
@@ -48,8 +49,8 @@ inline treeform_box bounds(tf::mesh_view mesh) {
     return copied(tf::bounding_box(mesh.points).value_or(none));
 }
 
-/// Whether the mesh bounds a solid, as operands of `treeform_boolean` must.
-inline bool is_solid(const tf::mesh_ref& mesh) { return static_cast<bool>(tf::check_solid(mesh)); }
+/// Whether the mesh is a solid: closed, oriented, manifold, free of self-intersections.
+inline bool is_solid(const tf::mesh_ref& mesh) { return !tf::find_solid_defects(mesh).any(); }
 
 /// Counts edges, components and defects. Join equal points first (`treeform_join_equal_points`).
 inline tf::topology_counts count_topology(tf::mesh_view mesh) {

@@ -2,6 +2,7 @@
 
 #include "tools/shell/exit_status.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -77,8 +78,10 @@ std::string listed(std::span<const char* const> words) {
 
 std::size_t parse_choice(std::string_view option, std::string_view text,
                          std::span<const char* const> words) {
+    std::string dashed(text);  // even_odd is the name in C++, C and Python
+    std::ranges::replace(dashed, '_', '-');
     for (std::size_t i = 0; i < words.size(); ++i)
-        if (text == words[i]) return i;
+        if (dashed == words[i]) return i;
     refuse(option, text, "one of " + listed(words));
 }
 

@@ -126,7 +126,7 @@ std::string open_in_words(std::size_t open, std::size_t all) {
 }
 
 exit_status check_only(tools::job& work, const std::vector<tools::solid>& solids) {
-    const auto open_ones = tools::check_solids(work, solids);
+    const auto open_ones = tools::check_operands(work, solids);
     const std::size_t open = open_ones.size();
     tools::warn_of_open(work, solids, open_ones);
     const char* const sound = solids.size() == 1 ? "bounds a solid" : "all bound solids";
@@ -154,7 +154,7 @@ exit_status operate(tools::job& work, const boolean_settings& s) {
     const tf::precision precision = tools::written_precision(work, solids);
     std::optional<std::uint32_t> sheet;
     if (s.accept_open && !s.splits()) {
-        const std::vector<std::uint32_t> open = tools::check_solids(work, solids);
+        const std::vector<std::uint32_t> open = tools::check_operands(work, solids);
         if (open.size() > 1)
             return refuse_open(work, solids, open, "--accept-open allows one open input; ");
         if (!open.empty()) sheet = open.front();
@@ -164,7 +164,7 @@ exit_status operate(tools::job& work, const boolean_settings& s) {
     }
     tf::boolean_result result = ask(work, s, solids, sheet, precision);
     if (!result.certificate.open_edges.empty())
-        return refuse_open(work, solids, tools::check_solids(work, solids), {});
+        return refuse_open(work, solids, tools::check_operands(work, solids), {});
     if (!sheet)
         for (tools::json& input : work.entry["inputs"])
             input["closed"] = s.splits() ? tools::json(nullptr) : tools::json(true);

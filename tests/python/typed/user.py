@@ -124,7 +124,7 @@ def watched(mesh: Mesh) -> bool:
 
     try:
         with tf.threads(2):
-            return bool(tf.check_solid(mesh, progress=progress))
+            return bool(tf.check_operand(mesh, progress=progress))
     except tf.Cancelled:
         return False
 

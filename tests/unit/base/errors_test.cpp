@@ -44,7 +44,7 @@ TEST_CASE("errors name the function that was called, the operand, and the caller
         {named("boolean", "operand b: "), [&] { (void)tf::boolean(with_wild, both); }},
         {named("clip", "operand b: "), [&] { (void)tf::clip(with_wild, 0, both); }},
         {named("split", "operand b: "), [&] { (void)tf::split(with_wild); }},
-        {named("check_solid", ""), [&] { (void)tf::check_solid(wild); }},
+        {named("check_operand", ""), [&] { (void)tf::check_operand(wild); }},
         {named("intersection", "operand b: "),
          [&] {
              (void)tf::intersection(tf::prepared_mesh::borrow(good),

@@ -1,4 +1,7 @@
 #include <treeform/mesh/mesh.hpp>
+#include <treeform/mesh/predicates.hpp>
+#include <treeform/mesh/properties.hpp>
+#include <treeform/mesh/repair.hpp>
 #include <treeform/tf.hpp>
 
 #include <doctest/doctest.h>
@@ -42,4 +45,16 @@ TEST_CASE("mesh_view::of: numbers that are not rows of three are refused") {
                          std::invalid_argument);
     CHECK_THROWS_AS((void)tf::mesh_view::of(std::span<const double>{}, corners),
                     std::invalid_argument);
+}
+
+TEST_CASE("box3::mesh: a solid of the box") {
+    const tf::mesh box = tf::box3{{1, 2, 3}, {2, 4, 6}}.mesh();
+    CHECK_FALSE(tf::find_solid_defects(box).any());
+    CHECK(tf::signed_volume(box) == doctest::Approx(6.0));
+    CHECK(*tf::bounding_box(box.points) == tf::box3{{1, 2, 3}, {2, 4, 6}});
+}
+
+TEST_CASE("rays: origins and directions are points, too") {
+    const tf::ray3 ray{tf::point3{1, 2, 3}, tf::point3{0, 0, 1}};
+    CHECK((ray.origin[2] == 3.0 && ray.direction[2] == 1.0));
 }

@@ -362,36 +362,36 @@ TEST_CASE("boolean: open operands are named with the place") {
         };
         for (const tf::point3& end : result.certificate.open_edges[i]) CHECK(holds(end));
     }
-    CHECK(tf::check_solid(open).open_count == 3);
-    CHECK(tf::check_solid(box(1, 1, 1)).open_edges.empty());
-    CHECK(tf::check_solid(tf::mesh{}).open_edges.empty());
+    CHECK(tf::check_operand(open).open_count == 3);
+    CHECK(tf::check_operand(box(1, 1, 1)).open_edges.empty());
+    CHECK(tf::check_operand(tf::mesh{}).open_edges.empty());
 }
 
 TEST_CASE("boolean: open edges are counted as the operand has them, and by what is wrong there") {
     // A box without a face, and a wall through two of its open edges, which stay as they are.
     tf::mesh open = box(2, 2, 2);
     open.faces.erase(open.faces.begin());  // 0, 2, 1
-    const tf::certificate plain = tf::check_solid(open);
+    const tf::certificate plain = tf::check_operand(open);
     CHECK(plain.boundary_edges == 3);
     CHECK(plain.misoriented_edges == 0);
     CHECK(plain.message() ==
           "its surface ends at 3 edges, the first from (0, 0, 0) to (2, 0, 0) at face 3");
     const tf::mesh wall = moved(box(0.5, 4, 4), {0.5, -1, -1});
     const tf::mesh both = together(open, wall);
-    const tf::certificate cut = tf::check_solid(both);
+    const tf::certificate cut = tf::check_operand(both);
     CHECK(cut.open_count == 3);
     CHECK(cut.boundary_edges == 3);
     CHECK(cut.message().starts_with("its surface ends at 3 edges, the first from "));
 
     tf::mesh odd = box(2, 2, 2);
     std::swap(odd.faces[0][1], odd.faces[0][2]);
-    const tf::certificate flipped = tf::check_solid(odd);
+    const tf::certificate flipped = tf::check_operand(odd);
     CHECK(flipped.boundary_edges == 0);
     CHECK(flipped.misoriented_edges == 3);
     CHECK(flipped.message().starts_with(
         "its surface is inconsistently oriented at 3 edges, the first from (0, 0, 0) to "));
     CHECK(
-        tf::check_solid(together(open, moved(odd, {5, 5, 5})))
+        tf::check_operand(together(open, moved(odd, {5, 5, 5})))
             .message()
             .starts_with("its surface ends at 3 edges and is inconsistently oriented at 3 edges"));
 
@@ -401,7 +401,7 @@ TEST_CASE("boolean: open edges are counted as the operand has them, and by what 
     split.points.push_back({1, 0, 0});
     split.faces[0] = {0, 2, 8};
     split.faces.push_back({8, 2, 1});
-    const tf::certificate unknown = tf::check_solid(split);
+    const tf::certificate unknown = tf::check_operand(split);
     CHECK(unknown.open_count == 3);
     CHECK(unknown.boundary_edges == 0);
     CHECK(unknown.message().starts_with("its surface is open at 3 pieces of edges, the first "));
@@ -413,7 +413,7 @@ TEST_CASE("boolean: edges that fit together piece by piece leave nothing open") 
     b.faces[0] = {0, 2, 8};
     b.faces.push_back({8, 2, 1});
     CHECK(tf::find_open_edge(b).has_value());
-    CHECK(tf::check_solid(b).open_edges.empty());
+    CHECK(tf::check_operand(b).open_edges.empty());
     CHECK(volume_of({b}, "a") == 8.0);
 }
 

@@ -27,7 +27,7 @@ std::vector<std::uint64_t> measured(const std::filesystem::path& path) {
     const tf::mesh_file file = tf::read(path);
     const tf::mesh mesh = file.indexed ? file.mesh : tf::join_equal_points(file.mesh);
     std::vector<std::uint64_t> row{mesh.faces.size(),
-                                   tf::find_defects(mesh).degenerate_faces.size()};
+                                   tf::find_invalid_faces(mesh).degenerate_faces.size()};
     const auto found = tf::self_intersections(mesh);
     row.insert(row.end(), found.counts.begin(), found.counts.end());
     return row;

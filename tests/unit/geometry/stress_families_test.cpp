@@ -166,7 +166,7 @@ TEST_CASE("meshes have about the number of faces asked for, and are sound") {
             const mesh m = stress_mesh(family, faces, 7);
             CHECK(m.faces.size() <= faces);
             CHECK(m.faces.size() >= faces / 3);
-            const tf::mesh_defects defects = tf::find_defects(m);
+            const tf::invalid_faces defects = tf::find_invalid_faces(m);
             CHECK(defects.out_of_range_faces.empty());
             CHECK(defects.nonfinite_points.empty());
         }

@@ -261,7 +261,7 @@ TEST_CASE("point streams: a writer takes what was announced, and leaves nothing 
         const std::string said =
             (here.folder / "a.ply").string() +
             ": point 1: a coordinate is not a float32 value, as the header declares; "
-            "write_options::precision says how to write it";
+            "choose the option precision";
         CHECK_THROWS_WITH_AS(writer.write(other.points, other.properties), said.c_str(),
                              std::invalid_argument);
     }

@@ -131,7 +131,7 @@ TEST_CASE("closest point query: what cannot be meant is refused by name") {
     const tf::detail::nearness::closest_point_query query(mesh);
     const std::vector<tf::point3> queries{{0, 0, 0}, {0, infinity, 0}};
     CHECK_THROWS_WITH_AS((void)query.nearest(queries),
-                         "treeform::closest_point: query 1 is not finite", std::invalid_argument);
+                         "treeform::closest_point: point 1 is not finite", std::invalid_argument);
     CHECK_THROWS_AS((void)query.nearest(queries[1]), std::invalid_argument);
     CHECK_THROWS_AS((void)query.nearest(queries[0], -1.0), std::invalid_argument);
     mesh.points[3].y = std::numeric_limits<double>::quiet_NaN();

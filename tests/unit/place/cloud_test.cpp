@@ -228,7 +228,7 @@ TEST_CASE("clouds: they bound nothing, and add nothing to a solid") {
             CHECK(tf::self_intersections(given).pairs.empty());
             CHECK(tf::resolve_self_intersections(given).mesh.faces.empty());
             CHECK(tf::hollow(given, 0.1, {}).mesh.faces.empty());
-            CHECK(tf::find_defects(given).degenerate_faces.empty());
+            CHECK(tf::find_invalid_faces(given).degenerate_faces.empty());
         }
     const tf::mesh collapsed{{{0, 0, 0}, {1, 1, 1}}, {{0, 1, 1}}};  // its only face has no area
     CHECK(tf::unite(solid, collapsed).value().faces.size() == solid.faces.size());

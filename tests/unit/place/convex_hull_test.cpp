@@ -30,7 +30,7 @@ int above(const points& p, const tf::face& f, const tf::point3& q) {
 }
 
 /// What the header says of a hull that spans space, by looking at everything.
-void check_solid(const points& p, const tf::convex_hull_result& hull) {
+void check_operand(const points& p, const tf::convex_hull_result& hull) {
     REQUIRE(hull.dimension == 3);
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> side_of_edge;
     std::size_t faces = 0;
@@ -149,7 +149,7 @@ points random_points(test::random& source, std::size_t count) {
 TEST_CASE("convex hull: a box has six sides of two triangles, measured exactly") {
     const tf::mesh box = test::box(2, 3, 4);
     const auto hull = tf::convex_hull(box.points);
-    check_solid(box.points, hull);
+    check_operand(box.points, hull);
     REQUIRE(hull.sides.size() == 6);
     std::multiset<double> areas;
     for (const tf::hull_side& side : hull.sides) {
@@ -184,7 +184,7 @@ TEST_CASE("convex hull: of few dimensions, equal points, one point and none") {
         CHECK(std::abs(side.normal.x + side.normal.y) < 1e-15);
     const points bump{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0x1p-1074}, {0.5, 0.5, 0}};
     CHECK(tf::convex_hull(bump).dimension == 3);
-    check_solid(bump, tf::convex_hull(bump));
+    check_operand(bump, tf::convex_hull(bump));
 }
 
 TEST_CASE("convex hull: points in a plane have two sides of the same corners") {
@@ -217,7 +217,7 @@ TEST_CASE("convex hull agrees with all planes of three points, on random and lat
                                  : random_points(source, 4 + source.below(14));
         const auto hull = tf::convex_hull(p);
         if (hull.dimension < 3) continue;
-        check_solid(p, hull);
+        check_operand(p, hull);
         CHECK(corners_by_hull(p, hull) == corners_by_brute_force(p));
         // of equal points the first
         for (const tf::face& f : hull.faces)
@@ -245,7 +245,7 @@ TEST_CASE("convex hull: many points in planes, on lines, on spheres, far away, l
         cluster[i] = {cluster[i].x * 1e-200, cluster[i].y * 1e-12, cluster[i].z};
     for (const points* p : {&faces_of_cube, &sphere, &grid, &far, &cluster}) {
         const auto hull = tf::convex_hull(*p);
-        check_solid(*p, hull);
+        check_operand(*p, hull);
         for (const double scale : {0x1p-900, 0x1p900}) {
             if (p == &cluster) continue;  // would be rounded
             points other = *p;

@@ -21,7 +21,7 @@ using bytes = std::vector<std::uint8_t>;
 /// As many faces as may be called certified: none is degenerate, no two of them meet.
 bytes certified_faces(const tf::mesh& mesh, const std::vector<tf::face_pair>& pairs) {
     bytes certified(mesh.faces.size(), 1);
-    for (const std::uint32_t f : tf::find_defects(mesh).degenerate_faces) certified[f] = 0;
+    for (const std::uint32_t f : tf::find_invalid_faces(mesh).degenerate_faces) certified[f] = 0;
     for (const tf::face_pair& pair : pairs)
         if (certified[pair.a] != 0) certified[pair.b] = 0;
     return certified;
@@ -63,7 +63,7 @@ TEST_CASE("faults: what is certified is not looked at, and all else is found aga
             const auto found =
                 tf::detail::round::find_faults(mesh, {.certified = certified, .solid = false});
             CHECK(found.pairs == pairs);
-            CHECK(found.degenerate == tf::find_defects(mesh).degenerate_faces);
+            CHECK(found.degenerate == tf::find_invalid_faces(mesh).degenerate_faces);
         }
         met += pairs.size();
     }

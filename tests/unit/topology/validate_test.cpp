@@ -21,14 +21,14 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool degenerate(const tf::point3& a, const tf::point3& b, const tf::point3& c) {
     const tf::mesh mesh{{a, b, c}, {{0, 1, 2}}};
-    return !tf::find_defects(mesh).degenerate_faces.empty();
+    return !tf::find_invalid_faces(mesh).degenerate_faces.empty();
 }
 
 }  // namespace
 
 TEST_CASE("validate: a clean mesh and an empty one have no defects") {
-    CHECK(tf::find_defects(tf::mesh{}) == tf::mesh_defects{});
-    CHECK(tf::find_defects(test::grid(10)) == tf::mesh_defects{});
+    CHECK(tf::find_invalid_faces(tf::mesh{}) == tf::invalid_faces{});
+    CHECK(tf::find_invalid_faces(test::grid(10)) == tf::invalid_faces{});
 }
 
 TEST_CASE("validate: a face is in one list, the worst") {
@@ -41,7 +41,7 @@ TEST_CASE("validate: a face is in one list, the worst") {
          {2, 0, 0},
          {0, 0, not_a_number}},
         {{0, 1, 2}, {0, 1, 3}, {4, 4, 4}, {0, 1, 5}, {0, 0, 2}, {3, 7, 0}, {0, 1, 4000000000}}};
-    const tf::mesh_defects found = tf::find_defects(mesh);
+    const tf::invalid_faces found = tf::find_invalid_faces(mesh);
     CHECK(found.nonfinite_points == ids{3, 4, 6});
     CHECK(found.nonfinite_faces == ids{1, 2});
     CHECK(found.degenerate_faces == ids{3, 4});
@@ -50,9 +50,9 @@ TEST_CASE("validate: a face is in one list, the worst") {
 
 TEST_CASE("validate: the first number past the last point is out of range, the last is not") {
     tf::mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
-    CHECK(tf::find_defects(mesh).out_of_range_faces.empty());
+    CHECK(tf::find_invalid_faces(mesh).out_of_range_faces.empty());
     mesh.faces[0][1] = 3;
-    CHECK(tf::find_defects(mesh).out_of_range_faces == ids{0});
+    CHECK(tf::find_invalid_faces(mesh).out_of_range_faces == ids{0});
 }
 
 TEST_CASE("validate: collinear is exact, at any size") {
@@ -88,6 +88,6 @@ TEST_CASE("validate: on a lattice as whole numbers say, on any number of threads
     REQUIRE(expected.size() > 1000);
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        CHECK((tf::find_defects(soup).degenerate_faces == expected));
+        CHECK((tf::find_invalid_faces(soup).degenerate_faces == expected));
     }
 }

@@ -29,6 +29,23 @@ TEST_CASE("transform: rows hold the matrix and then the translation") {
     CHECK(shear(tf::point3{1, 10, 100}) == tf::point3{325, 15, 106});
 }
 
+TEST_CASE("transform: quarter turns about coordinate axes are exact, others keep lengths") {
+    using map = tf::transform<3>;
+    const tf::point3 p{1, 2, 3};
+    CHECK(map::rotation(tf::point3{0, 0, 1}, 90)(p) == tf::point3{-2, 1, 3});
+    CHECK(map::rotation(tf::point3{0, 0, -7}, 90)(p) == tf::point3{2, -1, 3});
+    CHECK(map::rotation(tf::point3{2, 0, 0}, 180)(p) == tf::point3{1, -2, -3});
+    CHECK(map::rotation(tf::point3{0, 1, 0}, -450)(p) == tf::point3{-3, 2, 1});
+    CHECK(map::rotation(tf::point3{0, 1, 0}, 360)(p) == p);
+    const tf::point3 half = map::rotation(tf::point3{1, 1, 1}, 120)(p);  // permutes the axes
+    for (std::size_t k = 0; k < 3; ++k) CHECK(half[k] == doctest::Approx(p[(k + 2) % 3]));
+    CHECK(map::rotation(tf::point3{0, 0, 1}, 30)(tf::point3{2, 0, 0}).y == doctest::Approx(1.0));
+    CHECK_THROWS_AS((void)map::rotation(tf::point3{}, 90), std::invalid_argument);
+    CHECK_THROWS_AS(
+        (void)map::rotation(tf::point3{1, 0, 0}, std::numeric_limits<double>::infinity()),
+        std::invalid_argument);
+}
+
 TEST_CASE("transform: `after` is the outer map of what the inner one gives") {
     const tf::transform<2> move = tf::transform<2>::translation(tf::point2{3, 4});
     const tf::point2 p{1, 2};

@@ -17,6 +17,7 @@ static_assert(TREEFORM_STATUS_VANISHED == static_cast<int>(tf::status::vanished)
 static_assert(TREEFORM_STATUS_OUT_OF_RANGE == static_cast<int>(tf::status::out_of_range));
 static_assert(TREEFORM_STATUS_NO_PLACEMENT == static_cast<int>(tf::status::no_placement));
 static_assert(TREEFORM_STATUS_CANCELLED == static_cast<int>(tf::status::cancelled));
+const char* treeform_status_name(treeform_status value) { return glue::name_of<tf::status>(value); }
 
 static_assert(sizeof(treeform_element) == sizeof(tf::operand_element));
 static_assert(offsetof(treeform_element, operand) == offsetof(tf::operand_element, operand));

@@ -14,6 +14,9 @@ static_assert(TREEFORM_DUPLICATE == static_cast<int>(tf::pair_kind::duplicate));
 static_assert(TREEFORM_PIERCE == static_cast<int>(tf::pair_kind::pierce));
 static_assert(TREEFORM_TOUCHING == static_cast<int>(tf::pair_kind::touching));
 static_assert(TREEFORM_DEGENERATE == static_cast<int>(tf::pair_kind::degenerate));
+const char* treeform_pair_kind_name(treeform_pair_kind value) {
+    return glue::name_of<tf::pair_kind>(value);
+}
 
 static_assert(sizeof(treeform_face_pair) == sizeof(tf::face_pair));
 static_assert(offsetof(treeform_face_pair, a) == offsetof(tf::face_pair, a));
@@ -147,9 +150,9 @@ treeform_code treeform_group_pairs(const treeform_mesh* mesh, const treeform_fac
     });
 }
 
-treeform_code treeform_intersections(const treeform_mesh* a, const treeform_mesh* b,
-                                     const treeform_intersection_options* options,
-                                     treeform_pairs** pairs) {
+treeform_code treeform_mesh_intersections(const treeform_mesh* a, const treeform_mesh* b,
+                                          const treeform_intersection_options* options,
+                                          treeform_pairs** pairs) {
     return glue::guard([&] {
         glue::start(pairs);
         return glue::give(

@@ -16,6 +16,9 @@ static_assert(TREEFORM_ALIGN_OUT_OF_ITERATIONS ==
               static_cast<int>(tf::align_end::out_of_iterations));
 static_assert(TREEFORM_ALIGN_DOUBTFUL == static_cast<int>(tf::align_end::doubtful));
 static_assert(TREEFORM_ALIGN_NOTHING == static_cast<int>(tf::align_end::nothing_to_align));
+const char* treeform_align_end_name(treeform_align_end value) {
+    return glue::name_of<tf::align_end>(value);
+}
 
 tf::lay_flat_options glue::read(const treeform_lay_flat_options* options) {
     return read(chosen(options, treeform_lay_flat_options_init));

@@ -33,6 +33,14 @@ treeform_code treeform_mesh_create_float(const float* points, size_t point_count
     });
 }
 
+treeform_code treeform_mesh_of(const treeform_arrays* arrays, uint32_t flags,
+                               treeform_mesh** mesh) {
+    return glue::guard([&] {
+        glue::start(mesh);
+        return glue::give(glue::mesh_of(arrays, flags), mesh);
+    });
+}
+
 treeform_code treeform_mesh_arrays(const treeform_mesh* mesh, treeform_arrays* result) {
     return glue::guard([&] {
         (void)glue::need(result, "result");

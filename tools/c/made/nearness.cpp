@@ -23,6 +23,12 @@ static_assert(TREEFORM_RELATION_PENETRATING == static_cast<int>(tf::mesh_relatio
 static_assert(TREEFORM_RELATION_CLOSER_THAN_CLEARANCE ==
               static_cast<int>(tf::mesh_relation::closer_than_clearance));
 static_assert(TREEFORM_RELATION_CLEAR == static_cast<int>(tf::mesh_relation::clear));
+const char* treeform_location_name(treeform_location value) {
+    return glue::name_of<tf::location>(value);
+}
+const char* treeform_mesh_relation_name(treeform_mesh_relation value) {
+    return glue::name_of<tf::mesh_relation>(value);
+}
 
 static_assert(sizeof(treeform_hit) == sizeof(tf::mesh_hit));
 static_assert(offsetof(treeform_hit, face) == offsetof(tf::mesh_hit, face));

@@ -24,6 +24,9 @@ static_assert(TREEFORM_END_NOT_REPRESENTABLE ==
 static_assert(TREEFORM_END_TOO_MANY_STEPS == static_cast<int>(tf::placement_end::too_many_steps));
 static_assert(TREEFORM_END_OUT_OF_RANGE == static_cast<int>(tf::placement_end::out_of_range));
 static_assert(TREEFORM_END_CANCELLED == static_cast<int>(tf::placement_end::cancelled));
+const char* treeform_placement_end_name(treeform_placement_end value) {
+    return glue::name_of<tf::placement_end>(value);
+}
 
 tf::placement_options glue::read(const treeform_place_options* options) {
     return read(chosen(options, treeform_place_options_init));

@@ -32,7 +32,7 @@ void glue::fill(keeper&, const tf::topology_counts& from, treeform_topology& to)
     to.closed = from.closed;
 }
 
-void glue::fill(keeper&, const tf::mesh_defects& from, treeform_defects& to) {
+void glue::fill(keeper&, const tf::invalid_faces& from, treeform_invalid_faces& to) {
     to.nonfinite_points = or_null(from.nonfinite_points);
     to.nonfinite_point_count = from.nonfinite_points.size();
     to.nonfinite_faces = or_null(from.nonfinite_faces);
@@ -128,12 +128,12 @@ treeform_code treeform_is_solid(const treeform_mesh* mesh, int32_t* result) {
     });
 }
 
-treeform_code treeform_check_solid(const treeform_mesh* mesh, treeform_progress progress,
-                                   void* progress_data, treeform_certificate** certificate) {
+treeform_code treeform_check_operand(const treeform_mesh* mesh, treeform_progress progress,
+                                     void* progress_data, treeform_certificate** certificate) {
     return glue::guard([&] {
         glue::start(certificate);
         return glue::give(
-            tf::check_solid(glue::ref(mesh, "mesh"), glue::progress(progress, progress_data)),
+            tf::check_operand(glue::ref(mesh, "mesh"), glue::progress(progress, progress_data)),
             certificate);
     });
 }
@@ -150,10 +150,11 @@ treeform_code treeform_face_components(const treeform_mesh* mesh, uint32_t* comp
     return glue::guard([&] { glue::face_components(glue::view(mesh), component, count); });
 }
 
-treeform_code treeform_find_defects(const treeform_mesh* mesh, treeform_defects** defects) {
+treeform_code treeform_find_invalid_faces(const treeform_mesh* mesh,
+                                          treeform_invalid_faces** faces) {
     return glue::guard([&] {
-        glue::start(defects);
-        return glue::give(tf::find_defects(glue::ref(mesh, "mesh")), defects);
+        glue::start(faces);
+        return glue::give(tf::find_invalid_faces(glue::ref(mesh, "mesh")), faces);
     });
 }
 

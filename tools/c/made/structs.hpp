@@ -41,7 +41,7 @@ void fill(keeper& kept, const tf::certificate& from, treeform_certificate& to);
 void fill(keeper& kept, const tf::rounding_effects& from, treeform_rounding& to);
 void fill(keeper& kept, const tf::mass_properties& from, treeform_mass_properties& to);
 void fill(keeper& kept, const tf::topology_counts& from, treeform_topology& to);
-void fill(keeper& kept, const tf::mesh_defects& from, treeform_defects& to);
+void fill(keeper& kept, const tf::invalid_faces& from, treeform_invalid_faces& to);
 void fill(keeper& kept, const tf::mesh_feature& from, treeform_feature& to);
 [[nodiscard]] tf::feature_options read(const treeform_feature_options* options);
 [[nodiscard]] tf::feature_options read(const treeform_feature_options& o);

@@ -1,4 +1,5 @@
 #include "bindings.hpp"
+#include "carrying.hpp"
 #include "state.hpp"
 
 namespace binding {
@@ -47,6 +48,22 @@ py::object scene(const held_meshes& meshes, const std::vector<std::string>& name
     const auto members = list_of(files, [](const tf::mesh_file& one) { return &one; });
     return mesh_of(
         run([&](const tf::progress_callback&) { return tf::scene_of(members, names, names); }));
+}
+
+/// The parts of a mesh by name. Those without a name are called "1", "2", ..., by their positions.
+py::dict split_parts(const held_mesh& mesh) {
+    const tf::mesh_file whole = file_of(mesh);
+    require_rows(whole, 0);
+    std::vector<tf::file_part> parts =
+        run([&](const tf::progress_callback&) { return tf::split_parts({&whole, {}}); });
+    py::dict all;
+    for (tf::file_part& one : parts) {
+        const std::string name = one.name.empty() ? std::to_string(all.size() + 1) : one.name;
+        std::string key = name;
+        for (int i = 2; all.contains(key); ++i) key = name + " (" + std::to_string(i) + ")";
+        all[py::str(key)] = mesh_of(std::move(one.file));
+    }
+    return all;
 }
 
 py::object write(const std::filesystem::path& path, const held_mesh& mesh, bool certified,
@@ -237,6 +254,7 @@ void add_files(py::module_& module) {
     add_job(module, "read", &read, job_kind::long_work);              // -> Mesh
     add_job(module, "read_bytes", &read_bytes, job_kind::long_work);  // -> Mesh
     add_job(module, "scene", &scene);                                 // -> Mesh
+    add_job(module, "split_parts", &split_parts);                     // -> dict[str, Mesh]
     add_job(module, "write", &write, job_kind::writes);               // -> Written
 }
 

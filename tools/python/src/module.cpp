@@ -19,16 +19,11 @@ void raise_file_error(const std::string& text, std::error_code reason, const std
 /// A message of C++ in words of Python, without the name of the function in front.
 std::string in_python(std::string message) {
     if (message.starts_with("treeform:")) message.erase(0, message.find(": ") + 2);
-    for (const auto& [there, here] :
-         {std::pair{"precision::float32",
-                    "precision='float32': treeform.boolean(\"a-b\", a, b, precision=\"float32\")"},
-          std::pair{"set write_options::precision to float64", "say precision='float64'"},
-          std::pair{"set write_options::round", "say round=True"}})
-        if (const std::size_t at = message.find(there); at != std::string::npos)
-            message.replace(at, std::string(there).size(), here);
     const auto tells = [&](const char* of) { return message.find(of) != std::string::npos; };
     if (tells(" is not finite") && (tells("point ") || tells("corner ")))
         message += "; read(..., drop_non_finite=True) drops such points";
+    if (tells("precision float32, "))
+        message += "; for a - b: treeform.boolean(\"a-b\", a, b, precision=\"float32\")";
     return message;
 }
 

@@ -21,27 +21,6 @@ void require_faces(const held_meshes& meshes, const std::vector<std::string>& na
 
 namespace {
 
-// ---- booleans ----
-
-/// The objects in a mesh, in order, with their attributes; empty if there is only one.
-py::list objects_of(const held_mesh& mesh) {
-    py::list objects;
-    if (mesh.data().is_none()) return objects;
-    if (mesh.data().cast<const file_data&>().file().attributes.parts.size() < 2) return objects;
-    const tf::mesh_file whole = file_of(mesh);
-    require_rows(whole, 0);
-    std::vector<tf::file_part> parts;
-    without_lock([&] { parts = tf::split_parts({&whole, {}}); });
-    if (parts.size() < 2) return objects;
-    for (tf::file_part& part : parts) {
-        tf::mesh made = std::exchange(part.file.mesh, {});
-        held_mesh object(as_array(std::move(made.points)), as_array(std::move(made.faces)), false);
-        object.set_data(py::cast(file_data(std::move(part.file))));
-        objects.append(py::cast(std::move(object)));
-    }
-    return objects;
-}
-
 // ---- cuts ----
 
 tf::oriented_plane plane_of(const std::array<double, 3>& at, const std::array<double, 3>& normal) {
@@ -203,7 +182,6 @@ py::array distance(const held_mesh& a, const held_mesh& b, const array_of<double
 }  // namespace
 
 void add_verbs(py::module_& module) {
-    module.def("objects_of", &objects_of);  // -> list[HeldMesh]
     py::class_<tf::section_result>(module, "SectionData")
         .def("__len__",
              [](const tf::section_result& all) -> std::size_t { return all.loops.size(); })

@@ -17,13 +17,13 @@ from ._core import Attributes
 from ._arrays import NONE
 from ._assembly import (ClashResult, NearestPoints, PartClash, PoseClashes, RELATIONS, check_poses,
                         clash, closest_points, distance, intersects)
-from ._booleans import (BooleanResult, boolean, check_solid, clip, difference, intersection, split,
-                        symmetric_difference, union)
+from ._booleans import (BooleanResult, boolean, check_operand, clip, difference, intersection,
+                        split, symmetric_difference, union)
 from ._cuts import (CutPiece, CutPieces, MassProperties, MeshPart, Section, SectionLoop, components,
                     concatenate, cut, cut_along, cut_to_fit, layer_heights, mass_properties,
                     section, submesh, transformed)
 from ._errors import Cancelled, CertificateError, Error, FileError, NotCertifiedError, NotSolidError
-from ._files import Written, read, write
+from ._files import Written, read, split_parts, write
 from ._from_others import from_meshio, from_open3d, from_pyvista, from_trimesh, from_vtk
 from ._intersections import (FacePairs, FilePairs, KINDS, Region, SharedSearch, faces_in_box,
                              intersection_curves, intersection_regions, mesh_intersections,
@@ -35,8 +35,8 @@ from ._nearness import (AllRayHits, ClosestPoints, Deviation, RayHits, closest_p
 from ._placement import (Alignment, Contacts, Depth, Impact, LaidFlat, Measure, PackedPart, Packing,
                          Placement, SearchEffort, align, drop, lay_flat, mate, mate_features,
                          measure, pack, penetration_depth, separate, slide, time_of_impact, turn)
-from ._properties import (Feature, MeshDefects, SolidDefects, Topology, count_inside_out,
-                          count_topology, face_components, find_defects, find_features,
+from ._properties import (Feature, InvalidFaces, SolidDefects, Topology, count_inside_out,
+                          count_topology, face_components, find_features, find_invalid_faces,
                           find_solid_defects)
 from ._repair import (ConvexHull, MadeMesh, RepairResult, convex_hull, find_rounding_defects,
                       join_equal_points, repair, resolve_self_intersections, rounded)
@@ -53,19 +53,19 @@ from ._weld import SharedWeld, WeldResult, WeldStreamResult, count_nearly_equal,
 __all__ = ["Alignment", "AllRayHits", "Attributes", "BooleanResult", "BoxTree", "Cancelled",
            "Certificate", "CertificateError", "ClashResult", "ClosestPoints", "Contacts",
            "ConvexHull", "CutPiece", "CutPieces", "Depth", "Deviation", "Error", "FacePairs",
-           "Feature", "FileError", "FilePairs", "Impact", "Isoline", "Isolines", "Joint", "KINDS",
-           "LaidFlat", "MadeMesh", "MassProperties", "Measure", "Mesh", "MeshDefects", "MeshLike",
-           "MeshPart", "NONE", "NearestPoints", "Neighbors", "NotCertifiedError", "NotSolidError",
-           "OffsetResult", "OrientedBox", "PackedPart", "Packing", "PartClash", "Picture",
-           "Placement", "PointTree", "PoseClashes", "RELATIONS", "RayHits", "Region",
+           "Feature", "FileError", "FilePairs", "Impact", "InvalidFaces", "Isoline", "Isolines",
+           "Joint", "KINDS", "LaidFlat", "MadeMesh", "MassProperties", "Measure", "Mesh",
+           "MeshLike", "MeshPart", "NONE", "NearestPoints", "Neighbors", "NotCertifiedError",
+           "NotSolidError", "OffsetResult", "OrientedBox", "PackedPart", "Packing", "PartClash",
+           "Picture", "Placement", "PointTree", "PoseClashes", "RELATIONS", "RayHits", "Region",
            "RepairResult", "Robot", "SearchEffort", "Section", "SectionLoop", "SharedSearch",
            "SharedWeld", "SimplifyResult", "SolidDefects", "Thickness", "Topology", "View",
            "WeldResult", "WeldStreamResult", "Written", "__version__", "align", "boolean",
-           "check_poses", "check_solid", "clash", "clip", "closest_point", "closest_points",
+           "check_operand", "check_poses", "clash", "clip", "closest_point", "closest_points",
            "components", "concatenate", "contains", "convex_hull", "count_inside_out",
            "count_nearly_equal", "count_topology", "cut", "cut_along", "cut_to_fit", "deviation",
-           "difference", "distance", "drop", "face_components", "faces_in_box", "find_defects",
-           "find_features", "find_rounding_defects", "find_solid_defects", "from_meshio",
+           "difference", "distance", "drop", "face_components", "faces_in_box", "find_features",
+           "find_invalid_faces", "find_rounding_defects", "find_solid_defects", "from_meshio",
            "from_open3d", "from_pyvista", "from_trimesh", "from_vtk", "hollow", "intersection",
            "intersection_curves", "intersection_regions", "intersects", "isolines",
            "join_equal_points", "lay_flat", "layer_heights", "locate", "mass_properties", "mate",
@@ -73,9 +73,10 @@ __all__ = ["Alignment", "AllRayHits", "Attributes", "BooleanResult", "BoxTree", 
            "penetration_depth", "plot", "raycast", "raycast_all", "raycast_any", "read",
            "read_urdf", "repair", "resolve_self_intersections", "rounded", "section",
            "self_intersections", "self_intersections_of_file", "separate", "show",
-           "signed_distance", "simplify", "slide", "split", "submesh", "symmetric_difference",
-           "thicken", "thread_count", "threads", "time_of_impact", "transformed", "turn", "union",
-           "wall_thickness", "weld", "weld_stream", "winding_number", "wrap", "write"]
+           "signed_distance", "simplify", "slide", "split", "split_parts", "submesh",
+           "symmetric_difference", "thicken", "thread_count", "threads", "time_of_impact",
+           "transformed", "turn", "union", "wall_thickness", "weld", "weld_stream",
+           "winding_number", "wrap", "write"]
 # end
 
 __version__: str = _core.version()

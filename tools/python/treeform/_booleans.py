@@ -15,8 +15,8 @@ from ._mesh import Mesh, MeshLike, MeshResult, each, held, listed
 from ._progress import Progress
 from ._results import Certificate
 
-__all__ = ["BooleanResult", "boolean", "check_solid", "clip", "difference", "intersection", "split",
-           "symmetric_difference", "union"]
+__all__ = ["BooleanResult", "boolean", "check_operand", "clip", "difference", "intersection",
+           "split", "symmetric_difference", "union"]
 # end
 
 
@@ -35,7 +35,8 @@ def combined(operation: str, meshes: tuple[Any, ...], how: _core.BooleanOptions,
     """The set operation. Except in a union, a single mesh stands for the objects in it."""
     operands = operands_of(meshes)
     if len(operands) == 1 and operation != "union":
-        operands = _core.objects_of(operands[0]) or operands
+        parts = _core.split_parts(operands[0]).values()
+        operands = [held(one) for one in parts] if len(parts) > 1 else operands
     return _core.boolean_of(operands, operation, "", [], how, progress=progress)
 
 
@@ -58,7 +59,7 @@ def clipped(sheet: MeshLike, solids: tuple[Any, ...], keep: str, how: _core.Bool
 
 # made of headers:
 #   BooleanResult union intersection difference symmetric_difference boolean clip split
-#   check_solid
+#   check_operand
 @dataclass(frozen=True, repr=False)
 class BooleanResult(MeshResult):
     """The surface of a solid, with its certificate. Every function that takes a mesh also takes a
@@ -375,17 +376,18 @@ def split(*meshes: MeshesLike, precision: str = "float64", max_displacement: flo
     return checked(_core.split(operands_of(meshes), how, progress=progress), check)
 
 
-def check_solid(mesh: MeshLike, *, progress: Progress = None) -> Certificate:
-    """Whether a mesh bounds a solid, as operands of `boolean` must; else where it is open. If edges
-    do not match as they are, the mesh is first cut along itself: they may still match in pieces.
+def check_operand(mesh: MeshLike, *, progress: Progress = None) -> Certificate:
+    """Whether a mesh can be an operand of `boolean`, that is, whether it is closed; else where it
+    is open. It may intersect itself: `find_solid_defects` is stricter. If edges do not match as
+    they are, the mesh is first cut along itself: they may still match in pieces.
 
     Raises ValueError as `boolean`.
 
     >>> import treeform
-    >>> bool(treeform.check_solid(treeform.read("data/cube.stl")))
+    >>> bool(treeform.check_operand(treeform.read("data/cube.stl")))
     True
-    >>> treeform.check_solid(([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])).open_count
+    >>> treeform.check_operand(([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])).open_count
     3
     """
-    return _core.check_solid(held(mesh), progress=progress)
+    return _core.check_operand(held(mesh), progress=progress)
 # end

@@ -265,7 +265,7 @@ def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0)
     """
     how = options(_core.CutOptions, locals())
     return checked(_core.cut(held(mesh), _arrays.vector(normal, "normal"), _arrays.vector(at, "at"),
-                             heights_of(heights), how, progress=progress), check, of_one=True)
+                             heights_of(heights), how, progress=progress), check, of="")
 
 
 def cut_to_fit(mesh: MeshLike, size: ArrayLike, *, precision: str = "float64",
@@ -295,7 +295,7 @@ def cut_to_fit(mesh: MeshLike, size: ArrayLike, *, precision: str = "float64",
     """
     how = options(_core.CutOptions, locals())
     return checked(_core.cut_to_fit(held(mesh), _arrays.vector(size, "size"), how,
-                                    progress=progress), check, of_one=True)
+                                    progress=progress), check, of="")
 
 
 def cut_along(mesh: MeshLike, values: ArrayLike, levels: ArrayLike, *, check: bool = True,
@@ -324,7 +324,7 @@ def cut_along(mesh: MeshLike, values: ArrayLike, levels: ArrayLike, *, check: bo
     """
     return checked(_core.cut_along(held(mesh), _arrays.floats(values, "values"),
                                    np.atleast_1d(_arrays.floats(levels, "levels")),
-                                   progress=progress), check, of_one=True)
+                                   progress=progress), check, of="")
 
 
 @dataclass(frozen=True, repr=False)

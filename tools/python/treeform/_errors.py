@@ -65,14 +65,13 @@ class CertificateError(Error, ValueError):
     certificate instead.
     """
 
-    def __init__(self, certificate: Certificate, of_one: bool = False) -> None:
-        message = certificate.message
-        super().__init__(message.replace(" of operand a", "") if of_one else message)
+    def __init__(self, certificate: Certificate, of: str = " of operand a") -> None:
+        super().__init__(certificate.message.replace(" of operand a", of))
         self.certificate = certificate
-        self._of_one = of_one
+        self._of = of
 
-    def __reduce__(self) -> tuple[type[CertificateError], tuple[Certificate, bool]]:
-        return type(self), (self.certificate, self._of_one)
+    def __reduce__(self) -> tuple[type[CertificateError], tuple[Certificate, str]]:
+        return type(self), (self.certificate, self._of)
 
 
 class NotSolidError(CertificateError):
@@ -98,14 +97,14 @@ class NotCertifiedError(CertificateError):
         return self.certificate.meeting
 
 
-def require(certificate: Certificate, *also: str, of_one: bool = False) -> None:
-    """Raises an error unless the status is ok, or one of `also`. `of_one`: the message is about a
-    single mesh, not about operands."""
+def require(certificate: Certificate, *also: str, of: str = " of operand a") -> None:
+    """Raises an error unless the status is ok, or one of `also`. `of` is the name of an only
+    operand in the message."""
     if certificate or certificate.status in also:
         return
     if certificate.status == "open_input":
-        raise NotSolidError(certificate, of_one)
-    raise NotCertifiedError(certificate, of_one)
+        raise NotSolidError(certificate, of)
+    raise NotCertifiedError(certificate, of)
 
 
 class _Certified(Protocol):
@@ -116,10 +115,10 @@ class _Certified(Protocol):
 _Result = TypeVar("_Result", bound=_Certified)
 
 
-def checked(made: _Result, check: bool, of_one: bool = False) -> _Result:
+def checked(made: _Result, check: bool, of: str = " of operand a") -> _Result:
     """A result, if its certificate is ok or `check` is False."""
     if check:
-        require(made.certificate, "sheet", of_one=of_one)
+        require(made.certificate, "sheet", of=of)
     return made
 
 

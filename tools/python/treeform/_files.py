@@ -14,11 +14,11 @@ from warnings import warn
 from . import _arrays, _core
 from ._arrays import path_of
 from ._errors import FileError, file_error, options
-from ._mesh import Mesh, MeshLike, as_mesh, listed
+from ._mesh import Mesh, MeshLike, as_mesh, held, listed
 from ._progress import Progress
 from ._results import Result
 
-__all__ = ["Written", "read", "write"]
+__all__ = ["Written", "read", "split_parts", "write"]
 # end
 
 Path = Union[str, "os.PathLike[str]"]
@@ -106,6 +106,29 @@ def _scene_of(parts: Mapping[str, Any]) -> tuple[Mesh, bool]:
 
 
 # made of headers:
+#   split_parts
+def split_parts(mesh: MeshLike, *, progress: Progress = None) -> dict[str, Mesh]:
+    """The parts of a mesh that was read from a file, by name: the objects, groups or nodes of the
+    file. Each has its own vertices and faces, and their attributes. Parts whose open edges coincide
+    are patches of one surface, and are combined into one part; solids that touch are not combined.
+    Parts without a name are called "1", "2", ... For the connected parts of any mesh, see
+    `components`.
+
+    Raises ValueError naming the lowest face with a corner out of range.
+
+    Cost: O(V log V + F log F), and O(V + F) for each part and column.
+
+    >>> import treeform
+    >>> cube = treeform.read("data/cube.stl")
+    >>> written = treeform.write("two.3mf", {"lid": cube, "box": (cube.vertices - 3, cube.faces)})
+    >>> treeform.split_parts(treeform.read("two.3mf"))
+    {'lid': Mesh(8 vertices, 12 faces), 'box': Mesh(8 vertices, 12 faces)}
+    """
+    return _core.split_parts(held(mesh), progress=progress)
+# end
+
+
+# made of headers:
 #   read Written write
 def read(path: Path | IO[bytes], format: str = "", *, join: bool = True,
          columns: Columns | None = None, drop_non_finite: bool = False,
@@ -115,7 +138,7 @@ def read(path: Path | IO[bytes], format: str = "", *, join: bool = True,
     detected by content first, then by extension.
 
     Coordinates are as stored: float32 widened to double, decimal text rounded once to the nearest
-    double. NaN and infinity are kept, so that the caller can report them (`find_defects`).
+    double. NaN and infinity are kept, so that the caller can report them (`find_invalid_faces`).
 
     - OBJ: `vt` and `vn` are in `Attributes.corners`. Material files are read if they exist and the
       OBJ has a path: the diffuse colors of its materials become columns red, green, blue and, where

@@ -101,7 +101,7 @@ class Mesh:
     """
 
     __slots__ = ("_vertices", "_faces", "_attributes", "_certificate", "_held", "_formula",
-                 "_solid", "__weakref__")
+                 "_operand", "_solid", "__weakref__")
 
     def __init__(self, vertices: ArrayLike, faces: ArrayLike = (),
                  attributes: Attributes | None = None) -> None:
@@ -120,7 +120,8 @@ class Mesh:
         self._certificate = certificate
         self._held = _core.HeldMesh(vertices, faces, True)
         self._held.data = attributes
-        self._solid: Certificate | None = None
+        self._operand: Certificate | None = None
+        self._solid: bool | None = None
 
     @classmethod
     def _of(cls, vertices: Floats, faces: Ids, attributes: Attributes | None = None,
@@ -162,21 +163,19 @@ class Mesh:
 
     @property
     def is_solid(self) -> bool:
-        """Whether the mesh bounds a solid, as set operations require: it is closed after cutting it
-        along its self-intersections. Exact; computed once. False for a point cloud."""
-        mesh = self._ready()
-        return not mesh._is_cloud() and bool(mesh.solid_certificate)
-
-    def _is_cloud(self) -> bool:
-        return len(self._faces) == 0 and len(self._vertices) != 0
-
-    @property
-    def solid_certificate(self) -> Certificate:
-        """Whether and why the mesh does not bound a solid. Raises ValueError for a point cloud."""
+        """Whether the mesh is a solid: closed, oriented, manifold, free of self-intersections.
+        `find_solid_defects` lists what is missing. Exact; computed once."""
         mesh = self._ready()
         if mesh._solid is None:
-            mesh._solid = _core.check_solid(mesh._held)
+            mesh._solid = not _core.find_solid_defects(mesh._held)
         return mesh._solid
+
+    def _as_operand(self) -> Certificate:
+        """As `check_operand`; computed once."""
+        mesh = self._ready()
+        if mesh._operand is None:
+            mesh._operand = _core.check_operand(mesh._held)
+        return mesh._operand
 
     @property
     def volume(self) -> float:
@@ -378,7 +377,7 @@ class _Formula:
 
 def _operation(sign: str, left: Any, right: Any) -> Mesh:
     sides = []
-    for side in (left, right):
+    for side, which in ((left, "left"), (right, "right")):
         mesh = getattr(side, "mesh", side)
         try:
             mesh = mesh if isinstance(mesh, Mesh) else Mesh(*arrays_of(side))
@@ -387,7 +386,7 @@ def _operation(sign: str, left: Any, right: Any) -> Mesh:
                 return NotImplemented
             raise
         if mesh._formula is None:
-            require(mesh.solid_certificate)
+            require(mesh._as_operand(), of=f" of the {which} operand of {sign}")
         elif mesh._formula.size > _Formula.MOST:
             mesh._ready()
         sides.append(mesh)

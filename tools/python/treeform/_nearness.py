@@ -32,7 +32,7 @@ def located(mesh: MeshLike, points: ArrayLike,
         return _core.locate_points(held(mesh), _arrays.points(points, "points"), progress=progress)
     except ValueError:
         if len(as_mesh(mesh).faces):
-            require(as_mesh(mesh).solid_certificate, of_one=True)
+            require(as_mesh(mesh)._as_operand(), of="")
         raise
 
 
@@ -46,7 +46,7 @@ def distances(mesh: MeshLike, points: ArrayLike, progress: Progress) -> Floats:
     if made is None:
         return np.full(len(cloud), -np.inf)
     if not made.is_signed:
-        raise NotSolidError(as_mesh(mesh).solid_certificate, True)
+        raise NotSolidError(as_mesh(mesh)._as_operand(), "")
     return np.asarray(-made.distances + 0.0)
 
 

@@ -34,8 +34,8 @@ def arrays_of(mesh: Any) -> tuple[ArrayLike, ArrayLike]:
         return _arrays_of_vtk(mesh)
     hint = ": read the file by treeform.read" if isinstance(mesh, str) else (
         ": pass a list of its values" if isinstance(mesh, dict) else
-        ": use hull.mesh(points)" if type(mesh).__name__ == "ConvexHull" else
-        ": pass its `parts`" if type(mesh).__name__ == "Packing" else "")
+        ": pass its `parts`" if type(mesh).__name__ == "Packing" else
+        ": a mesh is (vertices, faces), and comes before points" if hasattr(mesh, "dtype") else "")
     raise ValueError(f"mesh: {type(mesh).__name__} has no vertices and faces{hint}")
 
 

@@ -12,14 +12,14 @@ from ._mesh import MeshLike, held
 from ._progress import Progress
 from ._results import Result
 
-__all__ = ["Feature", "MeshDefects", "SolidDefects", "Topology", "count_inside_out",
-           "count_topology", "face_components", "find_defects", "find_features",
+__all__ = ["Feature", "InvalidFaces", "SolidDefects", "Topology", "count_inside_out",
+           "count_topology", "face_components", "find_features", "find_invalid_faces",
            "find_solid_defects"]
 # end
 
 
 # made of headers:
-#   SolidDefects find_solid_defects MeshDefects find_defects Topology count_topology
+#   SolidDefects find_solid_defects InvalidFaces find_invalid_faces Topology count_topology
 #   count_inside_out face_components Feature find_features
 @dataclass(frozen=True, repr=False)
 class SolidDefects(Result):
@@ -79,8 +79,8 @@ def find_solid_defects(mesh: MeshLike, *, progress: Progress = None) -> SolidDef
 
 
 @dataclass(frozen=True, repr=False)
-class MeshDefects(Result):
-    """Points and faces with defects, ascending. A face is in at most one list.
+class InvalidFaces(Result):
+    """Faces and points that are invalid, or have no area, ascending. A face is in at most one list.
 
     nonfinite_points: (n,) with a NaN or infinite coordinate.
     nonfinite_faces: (n,) with a corner that is not finite.
@@ -94,8 +94,9 @@ class MeshDefects(Result):
     out_of_range_faces: Ids
 
 
-def find_defects(mesh: MeshLike, *, progress: Progress = None) -> MeshDefects:
-    """Finds the points and faces that algorithms refuse or treat specially.
+def find_invalid_faces(mesh: MeshLike, *, progress: Progress = None) -> InvalidFaces:
+    """Finds faces and points that most operations refuse or ignore. Other defects, such as open
+    edges: `find_solid_defects`.
 
     Collinearity is exact: a face with a repeated corner or two equal corners is degenerate, a
     sliver is not, however thin. A face is first tested for corners out of range, then for corners
@@ -107,11 +108,11 @@ def find_defects(mesh: MeshLike, *, progress: Progress = None) -> MeshDefects:
 
     >>> import treeform
     >>> mesh = ([[0, 0, 0], [1, 1, 1], [3, 3, 3], [0, float("nan"), 0]], [[0, 1, 2], [0, 1, 3]])
-    >>> found = treeform.find_defects(mesh)
+    >>> found = treeform.find_invalid_faces(mesh)
     >>> found.nonfinite_points.tolist(), found.degenerate_faces.tolist()
     ([3], [0])
     """
-    return _core.find_defects(held(mesh), progress=progress)
+    return _core.find_invalid_faces(held(mesh), progress=progress)
 
 
 @dataclass(frozen=True, repr=False)

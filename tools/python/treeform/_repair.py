@@ -14,7 +14,7 @@ from ._arrays import Floats, Ids
 from ._errors import checked, options
 from ._mesh import Body, Mesh, MeshLike, MeshResult, held, points_of
 from ._progress import Progress
-from ._results import Certificate, Result
+from ._results import Certificate
 
 __all__ = ["ConvexHull", "MadeMesh", "RepairResult", "convex_hull", "find_rounding_defects",
            "join_equal_points", "repair", "resolve_self_intersections", "rounded"]
@@ -45,7 +45,7 @@ def steps_of(steps: Iterable[str]) -> dict[str, bool]:
 # made of headers:
 #   ConvexHull
 @dataclass(frozen=True, repr=False)
-class ConvexHull(Result):
+class ConvexHull(MeshResult):
     """The convex hull of points: triangles, grouped by flat sides.
 
     dimension: The dimension that the points span: 3, 2 in a plane, 1 on a line, 0 if all are equal,
@@ -54,6 +54,7 @@ class ConvexHull(Result):
     first_face: (S,) the first face of each flat side; its faces are consecutive.
     areas: (S,) the area of each side.
     normals: (S, 3) the outward normal of each side, of length 1.
+    mesh: The hull as a closed mesh, with only the points that it uses.
     """
 
     dimension: int
@@ -61,13 +62,8 @@ class ConvexHull(Result):
     first_face: Ids
     areas: Floats
     normals: Floats
+    mesh: Mesh
 # end
-
-    def mesh(self, points: Body) -> Mesh:
-        """The hull of `points` as a closed mesh, with only the vertices that it uses."""
-        used, faces = np.unique(self.faces, return_inverse=True)
-        return Mesh(points_of(points)[used], faces.reshape(-1, 3))
-
 
 # made of headers:
 #   RepairResult resolve_self_intersections repair convex_hull rounded find_rounding_defects
@@ -160,7 +156,7 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, fill_rule
     """
     how = options(_core.ResolveOptions, locals())
     return checked(_core.resolve_self_intersections(held(mesh), _arrays.word(mode, "mode"), how,
-                                                    progress=progress), check, of_one=True)
+                                                    progress=progress), check, of="")
 
 
 def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = None,
@@ -222,7 +218,7 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
     (True, 40, 2)
     """
     how = options(_core.RepairOptions, locals(), **steps_of(steps))
-    return checked(_core.repair(held(mesh), how, progress=progress), check, of_one=True)
+    return checked(_core.repair(held(mesh), how, progress=progress), check, of="")
 
 
 def convex_hull(points: Body, *, progress: Progress = None) -> ConvexHull:

@@ -131,7 +131,7 @@ def offset(mesh: MeshLike, distance: float, *, resolution: float | None = None,
     """
     how = options(_core.OffsetOptions, locals())
     return checked(_core.offset(held(mesh), _arrays.number(distance, "distance"), how,
-                                progress=progress), check, of_one=True)
+                                progress=progress), check, of="")
 
 
 def hollow(mesh: MeshLike, wall: float, *, drains: ArrayLike = (), resolution: float | None = None,
@@ -170,7 +170,7 @@ def hollow(mesh: MeshLike, wall: float, *, drains: ArrayLike = (), resolution: f
     """
     how = options(_core.OffsetOptions, locals())
     return checked(_core.hollow(held(mesh), _arrays.number(wall, "wall"), drains_of(drains), how,
-                                progress=progress), check, of_one=True)
+                                progress=progress), check, of="")
 
 
 def thicken(mesh: MeshLike, thickness: float, *, resolution: float | None = None,
@@ -210,7 +210,7 @@ def thicken(mesh: MeshLike, thickness: float, *, resolution: float | None = None
     """
     how = options(_core.OffsetOptions, locals())
     return checked(_core.thicken(held(mesh), _arrays.number(thickness, "thickness"), how,
-                                 progress=progress), check, of_one=True)
+                                 progress=progress), check, of="")
 
 
 def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision: str = "float64",
@@ -245,7 +245,7 @@ def wrap(mesh: MeshLike, size: float, *, offset: float | None = None, precision:
     """
     how = options(_core.OffsetOptions, locals())
     return checked(_core.wrap(held(mesh), _arrays.number(size, "size"), how,
-                              progress=progress), check, of_one=True)
+                              progress=progress), check, of="")
 
 
 @dataclass(frozen=True, repr=False)
@@ -325,7 +325,7 @@ def simplify(mesh: MeshLike, max_distance: float, *, face_groups: ArrayLike | No
     how = options(_core.SimplifyOptions, locals())
     return checked(_core.simplify(held(mesh), _arrays.number(max_distance, "max_distance"),
                                   _arrays.labels(face_groups, "face_groups"), how,
-                                  progress=progress), check, of_one=True)
+                                  progress=progress), check, of="")
 
 
 @dataclass(frozen=True, repr=False)

@@ -64,7 +64,7 @@ struct part_options {
     /// If greater than 0, points within this distance are joined, as by `weld`, after equal points.
     double tolerance = 0.0;
     std::optional<box3> box{};  ///< only faces that have a point in the box
-    bool details = false;       ///< also compute `component` and `distinct`
+    bool details = false;       ///< also compute `component`, and count different points
 };
 
 /// The usable part of a file's mesh: its finite faces; with a box, only those that meet the box.

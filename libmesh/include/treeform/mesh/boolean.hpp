@@ -239,12 +239,13 @@ template <std::convertible_to<std::string_view> Text>
 [[nodiscard]] TREEFORM_API boolean_result split(const mesh_refs& operands,
                                                 const boolean_options& options = {});
 
-/// Whether a mesh bounds a solid, as operands of `boolean` must; else where it is open. If edges do
-/// not match as they are, the mesh is first cut along itself: they may still match in pieces.
+/// Whether a mesh can be an operand of `boolean`, that is, whether it is closed; else where it is
+/// open. It may intersect itself: `find_solid_defects` is stricter. If edges do not match as they
+/// are, the mesh is first cut along itself: they may still match in pieces.
 ///
 /// \throws std::invalid_argument as `boolean`
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API certificate check_solid(const mesh_ref& mesh,
+[[nodiscard]] TREEFORM_API certificate check_operand(const mesh_ref& mesh,
                                                    const progress_callback& progress = {});
 
 }  // namespace treeform

@@ -16,7 +16,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
+#include <utility>
 #include <vector>
 
 #ifdef __clang__
@@ -49,6 +49,7 @@ struct point3 {
     [[nodiscard]] constexpr double& operator[](std::size_t axis) {
         return axis == 0 ? x : axis == 1 ? y : z;
     }
+    operator std::array<double, 3>() const { return {x, y, z}; }  // NOLINT: for rays and boxes
     friend constexpr bool operator==(const point3&, const point3&) = default;
 };
 
@@ -58,16 +59,15 @@ using points_view = std::span<const point3>;  ///< [V]
 using face = std::array<std::uint32_t, 3>;
 
 namespace detail {
-template <class Rows, class Row, class... Number>
-concept array_of_rows = std::ranges::contiguous_range<Rows> && std::ranges::borrowed_range<Rows> &&
-    (std::same_as<std::ranges::range_value_t<Rows>, Row> || ... ||
-     (std::same_as<std::ranges::range_value_t<Rows>, Number> ||
-      std::same_as<std::ranges::range_value_t<Rows>, std::array<Number, 3>>));
-
-template <class Row, class Rows>
-[[nodiscard]] std::span<const Row> as_rows(const Rows& rows) {
-    constexpr std::size_t per_row = sizeof(Row) / sizeof(std::ranges::range_value_t<const Rows>);
-    static_assert(std::is_standard_layout_v<Row> && sizeof(Row) == sizeof(Row{}[0]) * 3);
+template <class Row, class... Number, class Rows>
+[[nodiscard]] std::span<const Row> as_rows(Rows&& rows) {
+    using given = std::ranges::range_value_t<Rows>;
+    static_assert(std::ranges::contiguous_range<Rows> && std::ranges::borrowed_range<Rows>,
+                  "the array must be contiguous, and must not be a temporary");
+    static_assert((std::same_as<given, Row> || ... ||
+                   (std::same_as<given, Number> || std::same_as<given, std::array<Number, 3>>)),
+                  "points are doubles; corners of faces are 32-bit integers: convert others first");
+    constexpr std::size_t per_row = sizeof(Row) / sizeof(given);
     const std::size_t count = std::ranges::size(rows);
     if (count % per_row != 0)
         throw std::invalid_argument("treeform::mesh_view::of: " + std::to_string(count) +
@@ -88,11 +88,10 @@ struct mesh_view {
     /// Refers to other arrays of the same bytes: x, y, z, x, y, z, ... as doubles, and three point
     /// numbers for each face, as 32-bit integers; or rows `std::array` of three of them.
     /// \throws std::invalid_argument unless the counts of numbers are multiples of 3
-    template <
-        detail::array_of_rows<point3, double> Points,
-        detail::array_of_rows<face, std::uint32_t, std::int32_t> Faces = std::span<const face>>
+    template <class Points, class Faces = std::span<const face>>
     [[nodiscard]] static mesh_view of(Points&& points, Faces&& faces = {}) {
-        return {detail::as_rows<point3>(points), detail::as_rows<face>(faces)};
+        return {detail::as_rows<point3, double>(std::forward<Points>(points)),
+                detail::as_rows<face, std::uint32_t, std::int32_t>(std::forward<Faces>(faces))};
     }
 };
 
@@ -125,12 +124,12 @@ struct box3 {
 
     /// Length of the diagonal, rounded; the largest double if it overflows.
     [[nodiscard]] TREEFORM_API double diagonal() const;
-
+    /// The box as a solid of 8 points and 12 faces.
+    [[nodiscard]] TREEFORM_API treeform::mesh mesh() const;
     friend bool operator==(const box3&, const box3&) = default;
 };
 
 /// The smallest box around all finite points; empty if there is no finite point.
-///
 /// \cost O(V) time
 /// \same on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<box3> bounding_box(points_view points);

@@ -16,16 +16,17 @@
 
 namespace treeform {
 
-/// Points and faces with defects, ascending. A face is in at most one list.
-struct mesh_defects {
+/// Faces and points that are invalid, or have no area, ascending. A face is in at most one list.
+struct invalid_faces {
     std::vector<std::uint32_t> nonfinite_points;    ///< with a NaN or infinite coordinate
     std::vector<std::uint32_t> nonfinite_faces;     ///< with a corner that is not finite
     std::vector<std::uint32_t> degenerate_faces;    ///< finite, with exactly collinear corners
     std::vector<std::uint32_t> out_of_range_faces;  ///< with a corner out of range
-    friend bool operator==(const mesh_defects&, const mesh_defects&) = default;
+    friend bool operator==(const invalid_faces&, const invalid_faces&) = default;
 };
 
-/// Finds the points and faces that algorithms refuse or treat specially.
+/// Finds faces and points that most operations refuse or ignore. Other defects, such as open
+/// edges: `find_solid_defects`.
 ///
 /// Collinearity is exact: a face with a repeated corner or two equal corners is degenerate, a
 /// sliver is not, however thin. A face is first tested for corners out of range, then for corners
@@ -34,7 +35,7 @@ struct mesh_defects {
 /// \throws std::invalid_argument for more than 2^32 - 1 points or faces
 /// \cost   O(V + F) time; memory for the result
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API mesh_defects find_defects(const mesh_ref& mesh);
+[[nodiscard]] TREEFORM_API invalid_faces find_invalid_faces(const mesh_ref& mesh);
 
 /// Counts over the faces with three different corner numbers. Faces that repeat a corner have no
 /// edges here and are counted separately. Faces with collinear corners, and duplicates, are counted

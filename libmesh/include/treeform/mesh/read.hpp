@@ -26,7 +26,7 @@ namespace treeform {
 /// detected by content first, then by extension.
 ///
 /// Coordinates are as stored: float32 widened to double, decimal text rounded once to the nearest
-/// double. NaN and infinity are kept, so that the caller can report them (`find_defects`).
+/// double. NaN and infinity are kept, so that the caller can report them (`find_invalid_faces`).
 ///
 /// - OBJ: `vt` and `vn` are in `attributes::corners`. Material files are read if they exist and the
 ///   OBJ has a path: the diffuse colors of its materials become columns red, green, blue and, where

@@ -21,7 +21,7 @@ class TREEFORM_API solid {
   public:
     /// \throws not_certified_error if the mesh does not bound a solid, as operands of `boolean`
     ///         must, with the open edges; std::invalid_argument as `boolean`
-    /// \cost   as `check_solid`
+    /// \cost   as `check_operand`
     explicit solid(treeform::mesh&& owned);
     explicit solid(usable_mesh&& owned);
     /// The same for a copy.

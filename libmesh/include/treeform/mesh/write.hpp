@@ -37,7 +37,8 @@ struct write_options {
     std::vector<std::string> drop{};
     /// Renamed columns of points, as pairs (new name, present name).
     std::vector<std::pair<std::string, std::string>> rename{};
-    /// For LAS and LAZ; none: scale and offset of the file, else chosen by `write`.
+    /// For LAS and LAZ: coordinates are multiples of this, plus the offset. By default those of the
+    /// file that was read, else chosen by `write`.
     std::optional<std::array<double, 3>> las_scale{};
     std::optional<std::array<double, 3>> las_offset{};
     /// Allow rounding of certified coordinates, which may invalidate the certificate. Coordinates

@@ -2,6 +2,8 @@
 /// \file
 /// Axis-aligned boxes, and affine maps of the plane and of space.
 
+#include <treeform/tree/detail/export.hpp>
+
 #include <array>
 #include <cmath>
 #include <concepts>
@@ -134,6 +136,15 @@ struct transform {
         return result;
     }
 
+    /// The rotation about an axis through the origin, anything with []; counterclockwise if the axis
+    /// points to the viewer. Quarter turns about a coordinate axis are exact.
+    ///
+    /// \throws std::invalid_argument if the axis is zero, or it or the angle is not finite
+    template <class Vector>
+    [[nodiscard]] static transform rotation(const Vector& axis, double degrees) requires(D == 3) {
+        return about({axis[0], axis[1], axis[2]}, degrees);
+    }
+
     /// The composition: the map that applies `inner` first, then this map. Entries are rounded.
     [[nodiscard]] constexpr transform after(const transform& inner) const {
         transform result;
@@ -180,12 +191,16 @@ struct transform {
     friend constexpr bool operator==(const transform&, const transform&) = default;
 
   private:
+    static transform about(std::array<double, 3> axis, double degrees);
     static constexpr std::array<row, D> unit() {
         std::array<row, D> result{};
         for (std::size_t k = 0; k < D; ++k) result[k][k] = 1.0;
         return result;
     }
 };
+
+template <>
+TREEFORM_API transform<3> transform<3>::about(std::array<double, 3> axis, double degrees);
 
 namespace detail {
 

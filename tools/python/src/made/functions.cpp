@@ -5,9 +5,9 @@ namespace binding {
 
 namespace {
 
-py::object check_solid(const held_mesh& mesh) {
+py::object check_operand(const held_mesh& mesh) {
     return as_python(run([&](const tf::progress_callback& report) {
-        return require_faces(mesh, "mesh"), tf::check_solid(mesh.view(), report);
+        return require_faces(mesh, "mesh"), tf::check_operand(mesh.view(), report);
     }));
 }
 
@@ -81,12 +81,6 @@ py::object wrap(const held_mesh& mesh, double size, tf::offset_options options) 
     }));
 }
 
-py::object convex_hull(const points_array& points) {
-    return as_python(run([&](const tf::progress_callback& report) {
-        return tf::convex_hull(points_of(points), report);
-    }));
-}
-
 py::object rounded(const points_array& points, const std::string& precision) {
     return as_python(run([&](const tf::progress_callback&) {
         return tf::rounded(
@@ -116,9 +110,9 @@ py::object surface_area(const held_mesh& mesh) {
         run([&](const tf::progress_callback&) { return tf::surface_area(mesh.view()); }));
 }
 
-py::object find_defects(const held_mesh& mesh) {
+py::object find_invalid_faces(const held_mesh& mesh) {
     return as_python(
-        run([&](const tf::progress_callback&) { return tf::find_defects(mesh.view()); }));
+        run([&](const tf::progress_callback&) { return tf::find_invalid_faces(mesh.view()); }));
 }
 
 py::object count_topology(const held_mesh& mesh) {
@@ -285,7 +279,7 @@ py::object clash_in_poses(const held_meshes& parts, const array_of<double>& pose
 }  // namespace
 
 void add_functions(py::module_& module) {
-    add_job(module, "check_solid", &check_solid);
+    add_job(module, "check_operand", &check_operand);
     add_job(module, "section", &section);
     add_job(module, "layer_heights", &layer_heights);
     add_job(module, "mass_properties", &mass_properties);
@@ -296,13 +290,12 @@ void add_functions(py::module_& module) {
     add_job(module, "oriented_box", &oriented_box);
     add_job(module, "isolines", &isolines);
     add_job(module, "wrap", &wrap, job_kind::long_work);
-    add_job(module, "convex_hull", &convex_hull);
     add_job(module, "rounded", &rounded);
     add_job(module, "find_rounding_defects", &find_rounding_defects);
     add_job(module, "bounds", &bounds);
     add_job(module, "signed_volume", &signed_volume);
     add_job(module, "surface_area", &surface_area);
-    add_job(module, "find_defects", &find_defects);
+    add_job(module, "find_invalid_faces", &find_invalid_faces);
     add_job(module, "count_topology", &count_topology);
     add_job(module, "face_components", &face_components);
     add_job(module, "count_inside_out", &count_inside_out);

@@ -129,6 +129,13 @@ py::object repair(const held_mesh& mesh, tf::repair_options options) {
                      attributes);
 }
 
+py::object convex_hull(const points_array& points) {
+    return as_python(run([&](const tf::progress_callback& report) {
+                         return tf::convex_hull(points_of(points), report);
+                     }),
+                     points_of(points));
+}
+
 py::object slide(const held_mesh& moving, const held_meshes& onto,
                  const array_of<double>& direction, tf::placement_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
@@ -226,6 +233,7 @@ void add_operations(py::module_& module) {
     add_job(module, "simplify", &simplify, job_kind::long_work);
     add_job(module, "resolve_self_intersections", &resolve_self_intersections);
     add_job(module, "repair", &repair);
+    add_job(module, "convex_hull", &convex_hull);
     add_job(module, "slide", &slide);
     add_job(module, "drop", &drop);
     add_job(module, "mate", &mate);

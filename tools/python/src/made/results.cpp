@@ -186,13 +186,14 @@ py::object object(of_result, tf::repair_result&& from, const carrying& attribute
     return object_of("treeform._repair", "RepairResult", made);
 }
 
-py::object object(of_result, tf::convex_hull_result&& from) {
+py::object object(of_result, tf::convex_hull_result&& from, tf::points_view cloud) {
     py::dict made;
     made["dimension"] = as_python(std::move(from.dimension));
     made["faces"] = as_python(std::move(from.faces));
     made["first_face"] = column(from.sides, [](const auto& one) { return one.first_face; });
     made["areas"] = column(from.sides, [](const auto& one) { return one.area; });
     made["normals"] = column(from.sides, [](const auto& one) { return one.normal; });
+    made["mesh"] = mesh_object(from.mesh(cloud), py::none(), py::none());
     return object_of("treeform._repair", "ConvexHull", made);
 }
 
@@ -215,13 +216,13 @@ py::object object(of_result, tf::solid_defects&& from) {
     return object_of("treeform._properties", "SolidDefects", made);
 }
 
-py::object object(of_result, tf::mesh_defects&& from) {
+py::object object(of_result, tf::invalid_faces&& from) {
     py::dict made;
     made["nonfinite_points"] = as_python(std::move(from.nonfinite_points));
     made["nonfinite_faces"] = as_python(std::move(from.nonfinite_faces));
     made["degenerate_faces"] = as_python(std::move(from.degenerate_faces));
     made["out_of_range_faces"] = as_python(std::move(from.out_of_range_faces));
-    return object_of("treeform._properties", "MeshDefects", made);
+    return object_of("treeform._properties", "InvalidFaces", made);
 }
 
 py::object object(of_result, tf::topology_counts&& from) {

@@ -217,6 +217,8 @@ enum {
     /// stopped by `progress`; there is no result
     TREEFORM_STATUS_CANCELLED = 9
 };
+/// The name of a value, as in reports: "ok"; "unknown" for others.
+TREEFORM_C_API const char* treeform_status_name(treeform_status value);
 
 /// The outcome of checking a mesh that an operation (`treeform_boolean`,
 /// `treeform_resolve_self_intersections`, `treeform_slide`, `treeform_pack`) returns or places:

@@ -34,6 +34,8 @@ enum {
     /// the faces meet, and one of them has no area
     TREEFORM_DEGENERATE = 6
 };
+/// The name of a value, as in reports: "crossing"; "unknown" for others.
+TREEFORM_C_API const char* treeform_pair_kind_name(treeform_pair_kind value);
 // end
 
 /// All kinds. A set of kinds is a sum of `1u << kind`.
@@ -41,7 +43,7 @@ enum {
 
 // made of the headers of C++:
 //   face_pair intersection_result intersection_options self_intersections()
-//   intersection_region regions group_pairs() intersections=mesh_intersections() intersects()
+//   intersection_region regions group_pairs() mesh_intersections() intersects()
 //   intersects_poses() faces_in_box() intersection_curves() curve_path curve_network
 //   intersection_paths() write_curves() color_pairs() stream_search_options
 //   stream_search_result self_intersections_of_file() is_searched_in_tiles()
@@ -66,7 +68,7 @@ typedef struct treeform_pairs {
 /// do not concern it.
 typedef struct treeform_intersection_options {
     size_t struct_size;
-    /// [12] `treeform_intersections`: applied to each mesh first. The answer is exact for the
+    /// [12] `treeform_mesh_intersections`: applied to each mesh first. The answer is exact for the
     /// moved corners, which are rounded to double. The mesh itself is not changed; or null
     const double* move_a;
     const double* move_b;  ///< [12]; or null
@@ -125,9 +127,9 @@ TREEFORM_C_API treeform_code treeform_group_pairs(const treeform_mesh* mesh,
 /// inside the other that does not touch it gives no pair. `a` and `b` may be the same mesh. For
 /// meshes without an index, only the faces that reach into the intersection of both bounding boxes
 /// (after the transforms) are indexed.
-TREEFORM_C_API treeform_code treeform_intersections(const treeform_mesh* a, const treeform_mesh* b,
-                                                    const treeform_intersection_options* options,
-                                                    treeform_pairs** pairs);
+TREEFORM_C_API treeform_code
+treeform_mesh_intersections(const treeform_mesh* a, const treeform_mesh* b,
+                            const treeform_intersection_options* options, treeform_pairs** pairs);
 
 /// Whether a face of `a` and a face of `b` have a common point, each moved by a matrix (null: not
 /// moved); exact.

@@ -284,6 +284,8 @@ enum {
     /// there are no points, or no point has a partner
     TREEFORM_ALIGN_NOTHING = 3
 };
+/// The name of a value, as in reports: "converged"; "unknown" for others.
+TREEFORM_C_API const char* treeform_align_end_name(treeform_align_end value);
 
 /// The motion found.
 typedef struct treeform_align_result {

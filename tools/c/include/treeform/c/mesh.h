@@ -16,7 +16,8 @@ enum {
 };
 
 // made of the headers of C++:
-//   mesh_create() mesh_create_float() mesh_arrays() mesh_is_cloud() mesh_indexes_built()
+//   mesh_create() mesh_create_float() mesh_of() mesh_arrays() mesh_is_cloud()
+//   mesh_indexes_built()
 /// A mesh of `points` [point_count][3] and `faces` [face_count][3]; without faces, a point cloud,
 /// which can be measured, moved, welded and aligned like a mesh. Queries take each point of a
 /// cloud as a degenerate face, so face numbers are point numbers. A cloud bounds no solid.
@@ -35,6 +36,10 @@ TREEFORM_C_API treeform_code treeform_mesh_create(const double* points, size_t p
 TREEFORM_C_API treeform_code treeform_mesh_create_float(const float* points, size_t point_count,
                                                         const uint32_t* faces, size_t face_count,
                                                         uint32_t flags, treeform_mesh** mesh);
+
+/// The mesh of the arrays of a result, as `result->mesh`; `flags` as in `treeform_mesh_create`.
+TREEFORM_C_API treeform_code treeform_mesh_of(const treeform_arrays* arrays, uint32_t flags,
+                                              treeform_mesh** mesh);
 
 /// The arrays of a mesh, valid as long as the mesh exists.
 TREEFORM_C_API treeform_code treeform_mesh_arrays(const treeform_mesh* mesh,

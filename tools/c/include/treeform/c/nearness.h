@@ -52,6 +52,8 @@ TREEFORM_C_API treeform_code treeform_distance_poses(const treeform_mesh* a, con
 /// The position of a point relative to a surface or curve.
 typedef int32_t treeform_location;
 enum { TREEFORM_OUTSIDE = 0, TREEFORM_INSIDE = 1, TREEFORM_BOUNDARY = 2 };
+/// The name of a value, as in reports: "outside"; "unknown" for others.
+TREEFORM_C_API const char* treeform_location_name(treeform_location value);
 
 /// The positions of `points` [count][3] relative to a closed mesh, exactly. `where` [count] is a
 /// `treeform_location` for each; `winding` [count] how often the surface winds around the point;
@@ -151,6 +153,8 @@ enum {
     /// separate, by at least the clearance
     TREEFORM_RELATION_CLEAR = 4
 };
+/// The name of a value, as in reports: "separate"; "unknown" for others.
+TREEFORM_C_API const char* treeform_mesh_relation_name(treeform_mesh_relation value);
 
 /// The relation and distance of two meshes.
 typedef struct treeform_relation {

@@ -47,6 +47,8 @@ enum {
     /// stopped by `progress`; the rest is invalid
     TREEFORM_END_CANCELLED = 13
 };
+/// The name of a value, as in reports: "contact"; "unknown" for others.
+TREEFORM_C_API const char* treeform_placement_end_name(treeform_placement_end value);
 
 /// A pair of faces that meet, or are at the clearance, at the place.
 typedef struct treeform_contact {

@@ -6,8 +6,8 @@
 #include <treeform/c/mesh.h>
 
 // made of the headers of C++:
-//   volume() area() mass_properties find_mass_properties() bounds() is_solid() check_solid()
-//   topology_counts count_topology() face_components() mesh_defects find_defects()
+//   volume() area() mass_properties find_mass_properties() bounds() is_solid() check_operand()
+//   topology_counts count_topology() face_components() invalid_faces find_invalid_faces()
 //   find_open_edge() closing_tolerance() same_triangles() feature_kind mesh_feature features
 //   feature_options find_features() feature_at_face() feature_at_point() fit_feature()
 //   hull_side
@@ -36,15 +36,15 @@ TREEFORM_C_API treeform_code treeform_find_mass_properties(const treeform_mesh* 
 /// -infinity. O(V).
 TREEFORM_C_API treeform_code treeform_bounds(const treeform_mesh* mesh, treeform_box* result);
 
-/// Whether the mesh bounds a solid, as operands of `treeform_boolean` must.
+/// Whether the mesh is a solid: closed, oriented, manifold, free of self-intersections.
 TREEFORM_C_API treeform_code treeform_is_solid(const treeform_mesh* mesh, int32_t* result);
 
-/// Whether a mesh bounds a solid, as operands of `treeform_boolean` must; else where it is open.
-/// If edges do not match as they are, the mesh is first cut along itself: they may still match in
-/// pieces.
-TREEFORM_C_API treeform_code treeform_check_solid(const treeform_mesh* mesh,
-                                                  treeform_progress progress, void* progress_data,
-                                                  treeform_certificate** certificate);
+/// Whether a mesh can be an operand of `treeform_boolean`, that is, whether it is closed; else
+/// where it is open. It may intersect itself: `treeform_find_solid_defects` is stricter. If edges
+/// do not match as they are, the mesh is first cut along itself: they may still match in pieces.
+TREEFORM_C_API treeform_code treeform_check_operand(const treeform_mesh* mesh,
+                                                    treeform_progress progress, void* progress_data,
+                                                    treeform_certificate** certificate);
 
 /// Counts over the faces with three different corner numbers. Faces that repeat a corner have no
 /// edges here and are counted separately. Faces with collinear corners, and duplicates, are
@@ -74,8 +74,8 @@ TREEFORM_C_API treeform_code treeform_count_topology(const treeform_mesh* mesh,
 TREEFORM_C_API treeform_code treeform_face_components(const treeform_mesh* mesh,
                                                       uint32_t* component, size_t* count);
 
-/// Points and faces with defects, ascending. A face is in at most one list.
-typedef struct treeform_defects {
+/// Faces and points that are invalid, or have no area, ascending. A face is in at most one list.
+typedef struct treeform_invalid_faces {
     void* owner;
     /// [nonfinite_point_count] with a NaN or infinite coordinate
     const uint32_t* nonfinite_points;
@@ -89,15 +89,16 @@ typedef struct treeform_defects {
     /// [out_of_range_face_count] with a corner out of range
     const uint32_t* out_of_range_faces;
     size_t out_of_range_face_count;
-} treeform_defects;
+} treeform_invalid_faces;
 
-/// Finds the points and faces that algorithms refuse or treat specially.
+/// Finds faces and points that most operations refuse or ignore. Other defects, such as open
+/// edges: `treeform_find_solid_defects`.
 ///
 /// Collinearity is exact: a face with a repeated corner or two equal corners is degenerate, a
 /// sliver is not, however thin. A face is first tested for corners out of range, then for corners
 /// that are not finite.
-TREEFORM_C_API treeform_code treeform_find_defects(const treeform_mesh* mesh,
-                                                   treeform_defects** defects);
+TREEFORM_C_API treeform_code treeform_find_invalid_faces(const treeform_mesh* mesh,
+                                                         treeform_invalid_faces** faces);
 
 /// The point numbers of the lowest edge at which the mesh is open; both `TREEFORM_NONE` if the
 /// mesh is closed, so that winding numbers are defined.

@@ -8,8 +8,8 @@
 
 namespace treeform::detail::boolean {
 
-/// As `treeform::check_solid`; errors name the function `called`.
-[[nodiscard]] certificate check_solid(const char* called, mesh_view mesh,
+/// As `treeform::check_operand`; errors name the function `called`.
+[[nodiscard]] certificate check_operand(const char* called, mesh_view mesh,
                                       const progress_callback& progress = {});
 
 }  // namespace treeform::detail::boolean
