@@ -14,11 +14,11 @@ namespace treeform {
 /// A block of candidate pairs: `first[i]` and `second[i]`, as places in leaf order.
 ///
 /// `tree.ids()[place]` is the primitive. If you store your data in leaf order, a block accesses
-/// places that are near each other in memory. In a search of two trees, `first` are places of the
-/// first and `second` of the second. In a search of one tree, `first[i] < second[i]`.
+/// places that are near each other in memory. In a search of two trees, `first` has places of the
+/// first tree, and `second` of the second. In a search of one tree, `first[i] < second[i]`.
 struct candidate_block {
     std::span<const std::uint32_t> first;   ///< [up to `max_candidates`]
-    std::span<const std::uint32_t> second;  ///< [same]
+    std::span<const std::uint32_t> second;  ///< [as many]
 };
 inline constexpr std::size_t max_candidates = 1024;
 
@@ -81,7 +81,7 @@ struct answer_lists {
     std::vector<Answer> answers;
 
     [[nodiscard]] std::size_t size() const { return begin.empty() ? 0 : begin.size() - 1; }
-    /// The list of a query, in this object, which must outlive it.
+    /// The list of a query, as a view into this object.
     [[nodiscard]] std::span<const Answer> operator[](std::size_t query) const& {
         return std::span(answers).subspan(begin[query], begin[query + 1] - begin[query]);
     }

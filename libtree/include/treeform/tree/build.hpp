@@ -71,8 +71,8 @@ class builder {
 ///
 /// \throws std::invalid_argument naming an element whose box is not finite or is empty; if the
 ///         range has more than `tree<D>::max_size` elements
-/// \cost   O(N log N) expected time; in space about 56 bytes an element at the peak, of which the
-///         tree keeps 32, and the boxes of a range without random access
+/// \cost   O(N log N) expected time. With D = 3, about 56 bytes an element at the peak, of which
+///         the tree keeps 32; plus the boxes of a range without random access
 /// \same   on any number of threads. A random-access range of known size is read in parallel:
 ///         `make_aabb` is called up to twice for each element, by several threads at once. Any
 ///         other range is read once, in order

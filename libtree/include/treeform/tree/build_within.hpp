@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Trees over only the primitives that reach into a box.
+/// Trees over only those primitives whose boxes meet a given box.
 
 #include <treeform/tree/aabb.hpp>
 #include <treeform/tree/build.hpp>

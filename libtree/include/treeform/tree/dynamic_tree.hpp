@@ -44,10 +44,10 @@ struct update_counts {
 /// A primitive keeps its id until it is removed. Ids of removed primitives are reused, the last
 /// removed first. The tree keeps a copy of the boxes.
 ///
-/// It consists of a few packed trees, each at least four times as large as the next.
+/// It consists of a few packed trees, each at least four times as large as the next smaller one.
 /// - A primitive that moves a little is updated in its slot. "A little" means within the box of its
 ///   neighborhood (up to 64 primitives around it in leaf order) at the time when their tree was
-///   built, widened by a quarter. So no box above the leaf blocks grows by more.
+///   built, widened by a quarter. So no box above the leaf blocks grows by more than that.
 /// - A primitive that moves further, or is removed, leaves an empty slot, which does not slow down
 ///   searches. A tree with more empty slots than full ones is dissolved.
 /// - New primitives, those that moved further, and those of dissolved trees form a new tree,
@@ -56,12 +56,12 @@ struct update_counts {
 /// So there are always at most 2 + log4(N / 32) trees, each at least half full. Searches usually
 /// visit up to 3 times as many nodes as in a new tree.
 ///
-/// \cost   About 90 bytes a primitive in space. An update of K primitives costs O(K log N), plus a
-///         pass over N / 8 bytes if K is above N / 128, plus builds. Amortized over all updates,
-///         the builds have at most 64 + 3.2 log2 N primitives for each primitive that is inserted,
-///         or moved beyond its neighborhood, one at a time (far fewer in batches), and 5 for each
-///         that is removed. A batch of N / 10 such moves costs a build of N / 10 primitives, and
-///         every third batch a build of all
+/// \cost   About 90 bytes a primitive with D = 3. An update of K primitives costs O(K log N), plus
+///         a pass over N / 8 bytes if K is above N / 128, plus builds. Amortized over all updates,
+///         builds process at most 64 + 3.2 log2 N primitives for each one that is inserted or moves
+///         beyond its neighborhood, and 5 for each one that is removed; far fewer in batches. A
+///         batch of N / 10 such moves builds a tree of N / 10 primitives; every third batch
+///         rebuilds all
 /// \same   on any number of threads
 /// \source the logarithmic method of Bentley and Saxe, Decomposable Searching Problems I, J.
 ///         Algorithms 1 (1980); refits after van den Bergen, JGT 2 (1997)
@@ -98,7 +98,7 @@ class TREEFORM_API dynamic_tree {
     /// Gives primitive `ids[i]` the box of element i of `range`, or `boxes[i]`.
     ///
     /// \throws std::invalid_argument as `remove`; naming the id whose new box is not finite or is
-    ///         empty; unless there is one box for each id; the tree is then unchanged
+    ///         empty; if there are not as many boxes as ids; the tree is then unchanged
     void move(std::span<const std::uint32_t> ids, std::span<const box_type> boxes);
     template <std::ranges::random_access_range Range, class MakeBox = std::identity>
     void move(std::span<const std::uint32_t> ids, const Range& range,

@@ -25,7 +25,7 @@ namespace treeform {
 
 /// The order in which nodes are opened. It affects the time, not the results.
 enum class node_order : std::uint8_t {
-    depth_first,   ///< the children of one node by distance
+    depth_first,   ///< the children of a node before its siblings, the nearest first
     top_k_sorted,  ///< a stack whose top is sorted after each node, as in the paper
     best_first     ///< the nearest of all unopened nodes first: opens the fewest nodes
 };
@@ -124,8 +124,8 @@ void visit_near(const Tree& tree, const Query& query, const Visit& visit,
                       detail::squared_radius("treeform::visit_near", radius), order, visit);
 }
 
-/// The nearest primitive; of equally near ones, the lowest number. None if the tree is empty or all
-/// primitives are beyond the radius.
+/// The nearest primitive; of equally near ones, the one with the lowest id. None if the tree is
+/// empty or all primitives are beyond the radius.
 ///
 /// `distance_of(id)` returns the squared distance from the query to a primitive: a number, or a
 /// struct with a member `squared_distance`, which becomes `neighbor::answer`. Its relative error
@@ -149,7 +149,7 @@ template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceO
     return one.best;
 }
 
-/// The k nearest primitives, ascending by distance, then by number; fewer if fewer are within the
+/// The k nearest primitives, ascending by distance, then by id; fewer if fewer are within the
 /// radius. See `nearest` for `distance_of`.
 ///
 /// \throws std::invalid_argument as `visit_near`
@@ -170,7 +170,7 @@ template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceO
     return std::move(found.sorted());
 }
 
-/// All primitives within `radius` (inclusive), ascending by distance, then by number. See `nearest`
+/// All primitives within `radius` (inclusive), ascending by distance, then by id. See `nearest`
 /// for `distance_of`.
 ///
 /// \throws std::invalid_argument as `visit_near`

@@ -72,7 +72,7 @@ template <std::size_t D, class Queries, class Search>
 ///
 /// \throws std::invalid_argument as `nearest`, naming the query
 /// \cost   O(Q) plus the searches, which run in parallel and in spatial order, so that each reuses
-///         the cached nodes of the previous one, and is bounded by its answer
+///         the cached nodes of the previous one, and its answer as the first bound
 /// \same   on any number of threads; the same result as `nearest` for each query
 template <any_tree Tree, std::ranges::random_access_range Queries, class DistanceOf>
 [[nodiscard]] auto nearest_batch(const Tree& tree, const Queries& queries,

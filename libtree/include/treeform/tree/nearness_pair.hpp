@@ -83,9 +83,9 @@ template <std::size_t D, class A, class B, class Kept, class DistanceOf>
 
 }  // namespace detail
 
-/// The k nearest pairs of a primitive of `a` and one of `b`, as `neighbor` with an `id_pair`,
-/// ascending by distance, then by their numbers; fewer when there are fewer within `radius` (not
-/// squared, inclusive).
+/// The k nearest pairs of a primitive of `first` and one of `second`, ascending by distance, then
+/// by ids; fewer if fewer are within `radius` (not squared, inclusive). Each is a `neighbor` whose
+/// id is an `id_pair`.
 ///
 /// `distance_of(a, b)` returns the squared distance of two primitives, as in `nearest`. It is
 /// called from several threads at once, at most once for each pair. Either tree may be
@@ -120,7 +120,7 @@ template <any_placed_tree A, any_placed_tree B, class DistanceOf>
     return std::move(found.sorted());
 }
 
-/// The nearest pair; of equally near pairs, that of the lowest numbers; of pairs at distance zero,
+/// The nearest pair; of equally near pairs, the one with the lowest ids; of pairs at distance zero,
 /// any, but the same in every run. None if a tree is empty or all pairs are beyond the radius. See
 /// `k_nearest_pairs`.
 template <any_placed_tree A, any_placed_tree B, class DistanceOf>

@@ -22,7 +22,7 @@ using progress_callback = std::function<bool(double done)>;
 /// rethrown, and chunks that have not begun may be skipped.
 ///
 /// \pre  grain > 0
-/// \cost a few microseconds a call beyond the first chunk; loops of one chunk run in place
+/// \cost a few microseconds of overhead; none for one chunk, which runs on the calling thread
 TREEFORM_API void for_chunks(
     std::size_t count, std::size_t grain,
     detail::function_ref<void(std::size_t begin, std::size_t end, std::size_t chunk)> body);

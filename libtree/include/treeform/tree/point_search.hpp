@@ -82,12 +82,12 @@ concept positions = std::ranges::sized_range<const Points> &&
 ///
 /// Distances are computed in double. The relative error of a squared distance is at most 2^-50; a
 /// distance below 1e-150 times the largest coordinate of the query and the cloud may be wrong by
-/// that much. Equally near points are ordered by number. Points may be equal.
+/// that much. Equally near points are ordered by id. Points may be equal.
 ///
-/// Queries are const and may run on any threads. `radius` is inclusive and not squared.
+/// Queries are const and may run concurrently. `radius` is inclusive and not squared.
 /// Coordinates of a query that are not finite, or a negative radius, throw std::invalid_argument.
 ///
-/// \cost   56 bytes a point in space, 40 in the plane. A search opens O(log N + k) nodes for most
+/// \cost   56 bytes a point with D = 3, 40 with D = 2. A search opens O(log N + k) nodes for most
 ///         queries; many if the query is further away than 1e5 times the extent of the cloud
 /// \source the tree and its search: nearness.hpp
 template <std::size_t D>

@@ -104,8 +104,8 @@ void visit_along(const Tree& tree, const ray<T, Tree::dimensions>& ray, const Vi
     detail::trace(tree, detail::in_double(ray), visit);
 }
 
-/// The hit with the least t; of hits with equal t, the one of the lowest primitive. None if there
-/// is no hit.
+/// The hit with the least t; of hits with equal t, the one with the lowest id. None if there is no
+/// hit.
 ///
 /// `hit_of(id)` returns whether and where the ray hits a primitive: a `std::optional` of a number
 /// t, or of a struct with a member t. A t outside [t_min, t_max], or NaN, is no hit. A hit must lie
@@ -133,7 +133,7 @@ template <any_tree Tree, std::floating_point T, class HitOf>
     return best;
 }
 
-/// All hits, ascending by t, then by primitive. See `first_hit` for `hit_of`.
+/// All hits, ascending by t, then by id. See `first_hit` for `hit_of`.
 ///
 /// \throws std::invalid_argument as `visit_along`
 /// \cost   O(log N + boxes met + H log H) for most rays, H hits
@@ -197,9 +197,8 @@ TREEFORM_API void sweep(const transformed<D>& a, const transformed<D>& b,
 
 /// Calls `visit(i, j)` for every pair of a primitive i of `a` and j of `b` whose boxes may have a
 /// common point at some time t in [0, latest], when `a` is moved by t times `motion` (anything with
-/// []). Pairs that may meet early usually come first. `visit` returns a new bound: pairs that can
-/// only meet later are skipped; pairs that may meet exactly then are not. A larger bound than
-/// before has no effect.
+/// []). Pairs that may meet early usually come first. `visit` returns a new `latest`: pairs that
+/// can only meet after it are skipped. A larger value than before has no effect.
 ///
 /// Either side may be `transformed{tree, map}`. Only boxes are swept: `visit` must determine
 /// whether and when two primitives meet.

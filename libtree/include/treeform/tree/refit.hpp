@@ -39,9 +39,9 @@ template <std::size_t D>
 ///
 /// \cost O(N / 8)
 /// \same on any number of threads
-/// \source Crofton: the planes that meet a convex body measure as its mean width, which is
-///         proportional to the sum of the extents of a box. Goldsmith and Salmon, Automatic
-///         Creation of Object Hierarchies for Ray Tracing, IEEE CG&A 7 (1987), for lines
+/// \source Crofton: the measure of the planes that meet a convex body is its mean width, for a box
+///         proportional to the sum of its extents. Goldsmith and Salmon, Automatic Creation of
+///         Object Hierarchies for Ray Tracing, IEEE CG&A 7 (1987), for lines
 template <std::size_t D>
 [[nodiscard]] TREEFORM_API double relative_extent(const tree<D>& tree);
 

@@ -28,11 +28,12 @@ namespace treeform {
 /// Calls `apply(id)` for the primitives that match `query`, in leaf order, until `apply` returns
 /// true (it may also return nothing). Returns counts of visited nodes and boxes.
 ///
-/// A box matches the primitives whose boxes overlap it, touching included. A check is a function of
-/// boxes in the coordinates of the primitives; it matches the primitives whose box, and all boxes
-/// above it, it accepts. If it accepts a box, it must accept every larger box around it. Boxes are
-/// those of the tree, rounded outward: no match is missed, and some primitives are included whose
-/// boxes miss by less than the rounding. An empty box matches nothing; an infinite box is valid.
+/// A box matches the primitives whose boxes overlap it, touching included. A check is a function
+/// that gets a box, in the coordinates of the primitives, and returns whether to accept it. A check
+/// that accepts a box must accept every larger box around it. It matches the primitives whose boxes
+/// it accepts. Boxes are those of the tree, rounded outward: no match is missed, and some
+/// primitives are included whose boxes miss by less than the rounding. An empty box matches
+/// nothing; an infinite box is valid.
 ///
 /// \throws std::invalid_argument if a box has a NaN coordinate
 /// \cost   O(log N + P) for P matches, if the query is not larger than the primitives
@@ -61,7 +62,7 @@ search_statistics search_broad(const Tree& tree, const Query& query, const Apply
     });
 }
 
-/// Whether `accept(id)` is true for a primitive that matches `query`.
+/// Whether `accept(id)` is true for some primitive that matches `query`.
 template <any_tree Tree, tree_query<Tree::dimensions> Query, class Accept>
 [[nodiscard]] bool search_any(const Tree& tree, const Query& query, const Accept& accept) {
     bool found = false;
@@ -111,7 +112,7 @@ class node_marks {
 
 }  // namespace detail
 
-/// The search of a tree by itself, cut into chunks that depend on the tree alone.
+/// The search of a tree against itself, cut into chunks that depend on the tree alone.
 ///
 /// The caller runs the chunks, usually with `for_chunks(search.chunks(), 1, ...)`, and keeps a
 /// state of its own for each: chunks share nothing, and joining the states in order gives the same

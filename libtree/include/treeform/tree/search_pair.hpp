@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Overlap searches of two trees of any kind: every pair of primitives, one of each tree, whose
-/// boxes overlap, once: `search`, `search_any`, `search_all`, and `search_broad` for blocks.
+/// Overlap searches of two trees of any kind. They find each pair of primitives, one of each tree,
+/// whose boxes overlap: `search`, `search_any`, `search_all`, and `search_broad` for blocks.
 
 #include <treeform/tree/answers.hpp>
 #include <treeform/tree/detail/export.hpp>

@@ -45,7 +45,7 @@ struct tree_frame {
 /// ids()[8i + s]. On the levels above, node i holds the boxes of its children, nodes 8i ... 8i+7 of
 /// the level below. Level 0 is the root. So node i of level l covers the places [i * capacity(l),
 /// (i + 1) * capacity(l)), up to N, and every level has an eighth of the nodes of the level below
-/// it. Memory: 32 bytes a primitive in space, 23 in the plane, ids included, plus up to one partly
+/// it. Memory: 32 bytes a primitive with D = 3, 23 with D = 2, ids included, plus up to one partly
 /// filled node for each level. The tree owns its data; copies are deep.
 ///
 /// \source the balanced n-ary layout of Sajovic, Knez and Korez, tf::tree, section III-A, with
@@ -157,11 +157,11 @@ concept any_tree = detail::is_tree<T> || tree_of_trees<T>;
 /// A tree of any kind that is searched as if an affine map had moved its primitives:
 /// `search(transformed{tree, map}, other, ...)`.
 ///
-/// Nothing is rebuilt. Boxes are moved when a search opens their node. A moved box is larger than
-/// the original, except for a translation or a quarter turn: under another rotation up to sqrt(D)
-/// times its longest side in each direction. It contains the exact images of the primitives, and
-/// also the images that `transform::operator()` rounds to double. So no pair is missed, whether you
-/// test exact or rounded images.
+/// Nothing is rebuilt. Boxes are moved when a search opens their node. Under a translation or a
+/// quarter turn, a box keeps its size. Under any other rotation it grows: its sides are at most
+/// sqrt(D) times the longest side of the original. A moved box contains the exact images of the
+/// primitives, and also the images that `transform::operator()` rounds to double. So no pair is
+/// missed, whether you test exact or rounded images.
 ///
 /// \source Arvo, Transforming Axis-Aligned Bounding Boxes, Graphics Gems, 1990
 template <std::size_t D, class Tree = tree<D>>

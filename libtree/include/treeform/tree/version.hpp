@@ -19,8 +19,8 @@
 
 namespace treeform {
 
-/// The version of the loaded library, comparable with `TREEFORM_VERSION`. They differ if a program
-/// runs with another shared library than it was compiled for.
+/// The version of the loaded library, comparable with `TREEFORM_VERSION`. The two differ if a
+/// program runs with a shared library of another version than its headers.
 [[nodiscard]] TREEFORM_API int version() noexcept;
 
 /// The same as text: "0.1.0".
