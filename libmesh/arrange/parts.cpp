@@ -90,7 +90,7 @@ class ray_follower {
         std::optional<crossing> first;
         std::uint32_t first_face = 0;
         double distance = infinite;
-        visit_along(tree_, ray_along_x(edge.from), [&](std::uint32_t id) {
+        visit_ray(tree_, ray_along_x(edge.from), [&](std::uint32_t id) {
             const std::uint32_t g = ids_[id];
             const auto met = ray.meet(corners(g));
             if (!met) return distance;

@@ -253,7 +253,7 @@ std::int64_t surface_components::winding_around(std::size_t c, const point3& q) 
     const arrange::perturbed_ray ray = arrange::ray_beside(q, along);
     const std::uint32_t* const own = faces_.data() + of.begin;
     std::int64_t winding = 0;
-    visit_along(of.index, ray_from(q, along), [&](std::uint32_t i) {
+    visit_ray(of.index, ray_from(q, along), [&](std::uint32_t i) {
         if (const auto met = ray.meet(corners(own[i]))) winding += met->faces;
         return infinite;
     });

@@ -201,7 +201,7 @@ point_location located(mesh_view mesh, const tree<3>& faces, const point3& point
     if (!is_finite(point)) refuse("locate: the point is not finite");
     constexpr double infinite = std::numeric_limits<double>::infinity();
     tally found;
-    visit_along(faces, ray<double, 3>{{point.x, point.y, point.z}, {1, 0, 0}},
+    visit_ray(faces, ray<double, 3>{{point.x, point.y, point.z}, {1, 0, 0}},
                 [&](std::uint32_t id) {
                     const face& f = mesh.faces[id];
                     if (counts(id))
@@ -280,7 +280,7 @@ point_location curve_locator::locate(const point2& point) const {
     if (!is_finite(point)) refuse("curve_locator: the point is not finite");
     constexpr double infinite = std::numeric_limits<double>::infinity();
     tally found;
-    visit_along(tree_, ray<double, 2>{{point.x, point.y}, {1, 0}}, [&](std::uint32_t id) {
+    visit_ray(tree_, ray<double, 2>{{point.x, point.y}, {1, 0}}, [&](std::uint32_t id) {
         const auto& [from, to] = edges_[id];
         count_edge(points_[from], points_[to], point, id, found);
         return infinite;

@@ -82,7 +82,7 @@ triangle3 ray_query::corners(std::uint32_t id) const {
 std::optional<mesh_hit> ray_query::first(const ray3& ray) const {
     check(ray, 0);
     std::optional<face_contact> best;
-    visit_along(*tree_, ray, [&](std::uint32_t id) {
+    visit_ray(*tree_, ray, [&](std::uint32_t id) {
         if (const auto contact = treeform::intersect(ray, corners(id))) {
             const face_contact found{id, *contact};
             const int after = best ? order(mesh_, ray, found, *best) : -1;
@@ -96,7 +96,7 @@ std::optional<mesh_hit> ray_query::first(const ray3& ray) const {
 std::vector<mesh_hit> ray_query::all(const ray3& ray) const {
     check(ray, 0);
     std::vector<face_contact> found;
-    visit_along(*tree_, ray, [&](std::uint32_t id) {
+    visit_ray(*tree_, ray, [&](std::uint32_t id) {
         if (const auto contact = treeform::intersect(ray, corners(id)))
             found.push_back({id, *contact});
         return ray.t_max;

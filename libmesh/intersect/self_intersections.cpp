@@ -81,7 +81,7 @@ intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
     const detail::node_marks<3> fields =
         own.filtered ? detail::intersect::find_height_fields(mesh.points, faces.span(), tree)
                      : detail::node_marks<3>(tree);
-    const self_search<3> search(tree, fields);
+    const self_search_chunks<3> search(tree, fields);
     std::vector<detail::intersect::narrow_phase_output> found(search.chunks());
     detail::intersect::search_progress progress(options.progress, search.chunks());
     std::atomic<std::size_t> last{search.chunks()};  // the first chunk that found enough

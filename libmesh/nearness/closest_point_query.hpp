@@ -30,7 +30,7 @@ namespace treeform::detail::nearness {
 ///       than 1e5 times the extent of the mesh
 class TREEFORM_API closest_point_query {
   public:
-    static constexpr double any_distance = std::numeric_limits<double>::infinity();
+    static constexpr double unlimited_radius = std::numeric_limits<double>::infinity();
 
     /// An empty mesh; queries find nothing.
     closest_point_query() = default;
@@ -47,14 +47,14 @@ class TREEFORM_API closest_point_query {
     /// \throws std::invalid_argument for a query that is not finite, or a radius that is negative
     ///         or NaN
     [[nodiscard]] std::optional<closest_point_result> nearest(const point3& query,
-                                                              double radius = any_distance) const;
+                                                              double radius = unlimited_radius) const;
 
     /// [Q] The nearest point of each query, in the given order. Queries run in parallel, sorted
     /// along a space-filling curve.
     /// \throws std::invalid_argument naming the query
     /// \same   on any number of threads: as the single queries
     [[nodiscard]] std::vector<std::optional<closest_point_result>> nearest(
-        std::span<const point3> queries, double radius = any_distance) const;
+        std::span<const point3> queries, double radius = unlimited_radius) const;
 
     /// [Q] The same for queries that are already in a spatial order, with one radius for each;
     /// smaller radii are faster.

@@ -23,9 +23,9 @@ namespace {
 /// Lengths are multiplied by this power of two, so that squares stay in the range of double.
 double unit_for(const transformed<3>& a, const transformed<3>& b) {
     const tree_frame<3> frame =
-        detail::common_frame(a.original().frame(), a.by(), b.original().frame(), b.by());
-    const double span = std::max(detail::span_in(a.original().frame(), a.by(), frame),
-                                 detail::span_in(b.original().frame(), b.by(), frame));
+        detail::common_frame(a.original().frame(), a.map(), b.original().frame(), b.map());
+    const double span = std::max(detail::span_in(a.original().frame(), a.map(), frame),
+                                 detail::span_in(b.original().frame(), b.map(), frame));
     if (!(span < std::numeric_limits<double>::max())) return 0x1p-1000;
     const int exponent = std::ilogb(span);
     return -400 < exponent && exponent < 400 ? 1.0
@@ -72,7 +72,7 @@ class placed_faces {
 
   private:
     placed_faces(const transformed<3>& tree, double unit)
-        : ids_(tree.original().ids().data()), by_(tree.by()), moves_(tree.moves()), unit_(unit) {}
+        : ids_(tree.original().ids().data()), by_(tree.map()), moves_(tree.moves()), unit_(unit) {}
 
     mesh_view mesh_;
     const detail::nearness::eight_triangles* blocks_ = nullptr;

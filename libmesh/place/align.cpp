@@ -104,14 +104,15 @@ class alignment {
     static constexpr std::size_t few_samples = 1000;
     static constexpr std::size_t coarse_samples = 5000;
     static constexpr std::size_t doubt_samples = 500;
-    static constexpr std::size_t refined = 3;      ///< of other starts, the best
-    static constexpr std::size_t doubts = 24;      ///< starts to try in doubt
-    static constexpr double little_held = 0.02;    ///< stiffness of motions that are tried out
-    static constexpr double not_held = 1e-4;       ///< stiffness of motions that mean nothing
-    static constexpr double exact = 1e-9;          ///< distances that are none
-    static constexpr double like_noise = 0.15;     ///< correlation of neighbors
-    static constexpr double like_thickness = 0.6;  ///< share of it that neighbors may be off
-    static constexpr double bearable = 2e-3;  ///< share of the diagonal that regions may be off
+    static constexpr std::size_t refined = 3;           ///< of other starts, the best
+    static constexpr std::size_t doubts = 24;           ///< starts to try in doubt
+    static constexpr double weak_stiffness = 0.02;      ///< stiffness of motions that are tried out
+    static constexpr double min_stiffness = 1e-4;       ///< stiffness of motions that mean nothing
+    static constexpr double negligible = 1e-9;          ///< distances that are none
+    static constexpr double noise_correlation = 0.15;   ///< correlation of neighbors
+    static constexpr double max_thickness_error = 0.6;  ///< share of it that neighbors may be off
+    static constexpr double max_region_error =
+        2e-3;                               ///< share of the diagonal that regions may be off
     static constexpr double most_in = 0.7;  ///< share of the points that tells a place from another
     static constexpr double growth = 2.0;   ///< of the scale from a start, at most
 
@@ -139,8 +140,8 @@ class alignment {
                                    [&](unsigned i) { return may_continue(before + i); });
         end.iterations += before;
         end.at_bound = task_.scale && task_.least_scale < task_.most_scale &&
-                       (end.map.scale <= fine.least_scale * (1.0 + exact) ||
-                        end.map.scale >= fine.most_scale * (1.0 - exact));
+                       (end.map.scale <= fine.least_scale * (1.0 + negligible) ||
+                        end.map.scale >= fine.most_scale * (1.0 - negligible));
         return end;
     }
 
@@ -187,9 +188,9 @@ class alignment {
     void slide_if_better() {
         matching last;
         const quality here = quality_at(task_, few_, best_.map, best_.width, last);
-        if (here.rms <= exact) return;
-        const auto starts = starts_along(freedoms_of(last.partners, best_.map.shift), little_held,
-                                         best_.map, frame_.diagonal);
+        if (here.rms <= negligible) return;
+        const auto starts = starts_along(freedoms_of(last.partners, best_.map.shift),
+                                         weak_stiffness, best_.map, frame_.diagonal);
         const search_task near = without_outliers(last.partners);
         const auto tried = try_starts(
             near, few_, starts, [&](std::size_t i) { return work_.step(0.75, 0.78, i, 10.0); });
@@ -245,7 +246,7 @@ class alignment {
         found.left = residuals_of(judges.size() < few_samples ? of_all_.partners : judges);
         found.freedoms = freedoms_of(of_all_.partners, best_.map.shift);
         found.uncertainty =
-            uncertainty_of(residuals_of(of_all_.partners), found.freedoms, not_held);
+            uncertainty_of(residuals_of(of_all_.partners), found.freedoms, min_stiffness);
         found.move = move_by(judges, task_.scale);
         return found;
     }
@@ -254,17 +255,17 @@ class alignment {
     /// cloud may be held by its points alone.
     [[nodiscard]] bool is_determined(const evidence& found) const {
         if (best_.at_bound) return false;
-        if (!target_.is_cloud() || found.left.rms <= exact) return true;
-        return std::max(found.uncertainty, found.move) <= bearable * frame_.diagonal &&
-               found.freedoms.front().stiffness >= not_held;
+        if (!target_.is_cloud() || found.left.rms <= negligible) return true;
+        return std::max(found.uncertainty, found.move) <= max_region_error * frame_.diagonal &&
+               found.freedoms.front().stiffness >= min_stiffness;
     }
 
     /// Whether what remains is noise, or too little for a doubt.
     [[nodiscard]] bool is_noise(const residuals& left) const {
-        if (left.rms <= exact) return true;
-        if (left.common() <= like_thickness * left.noise) return true;
+        if (left.rms <= negligible) return true;
+        if (left.common() <= max_thickness_error * left.noise) return true;
         const double by_chance = 4.0 / std::sqrt(static_cast<double>(left.pairs + 1));
-        return left.pairs >= 400 && left.correlation <= std::max(like_noise, by_chance);
+        return left.pairs >= 400 && left.correlation <= std::max(noise_correlation, by_chance);
     }
 
     /// Whether some other start ends at a better place than the best, by the same weights.
@@ -297,7 +298,7 @@ class alignment {
         if (is_noise(found.left))
             return leaves_out_many() && other_is_better(doubts / 2) ? align_end::doubtful
                                                                     : align_end::converged;
-        if (target_.is_cloud() || found.left.common() > bearable * frame_.diagonal ||
+        if (target_.is_cloud() || found.left.common() > max_region_error * frame_.diagonal ||
             other_is_better(doubts))
             return align_end::doubtful;
         return align_end::converged;
@@ -330,7 +331,7 @@ class alignment {
 };
 
 std::uint64_t alignment::inliers() const {
-    const double most = 4.5 * median_distance(of_all_.partners) + exact;
+    const double most = 4.5 * median_distance(of_all_.partners) + negligible;
     return static_cast<std::uint64_t>(
         std::count_if(of_all_.partners.begin(), of_all_.partners.end(),
                       [most](const partner& p) { return p.distance <= most; }));

@@ -9,12 +9,12 @@
 namespace treeform::detail::place {
 namespace {
 
-constexpr unsigned still_steps = 5;    ///< without a fall of the cost
-constexpr double still_move = 1e-11;   ///< of a step that moves nothing
-constexpr double least_width = 1e-10;  ///< of Welsch's function: distances are as good as 0
-constexpr double least_share = 0.35;   ///< of the points to be within the width
-constexpr double like_bound = 1e-9;    ///< of the scale, by its rounding
-constexpr double nothing = 1e-28;      ///< costs differ by their rounding
+constexpr unsigned still_steps = 5;      ///< without a fall of the cost
+constexpr double still_move = 1e-11;     ///< of a step that moves nothing
+constexpr double least_width = 1e-10;    ///< of Welsch's function: distances are as good as 0
+constexpr double least_share = 0.35;     ///< of the points to be within the width
+constexpr double like_bound = 1e-9;      ///< of the scale, by its rounding
+constexpr double cost_rounding = 1e-28;  ///< costs differ by their rounding
 
 using row7 = vector<7>;
 
@@ -77,10 +77,10 @@ class descent {
 
     /// Close to the end costs differ by their rounding alone, and the last place is the best.
     [[nodiscard]] bool as_good_as_any(double cost) const {
-        return cost <= least_ * (1.0 + 1e-12) + nothing;
+        return cost <= least_ * (1.0 + 1e-12) + cost_rounding;
     }
     void add(double cost) {
-        still_ = cost < least_ * (1.0 - tolerance_) - nothing ? 0 : still_ + 1;
+        still_ = cost < least_ * (1.0 - tolerance_) - cost_rounding ? 0 : still_ + 1;
         least_ = std::min(least_, cost);
     }
     [[nodiscard]] bool still() const { return still_ >= steps_; }

@@ -190,7 +190,7 @@ bool pairs_by_tree(const near_pairs_task& task) {
         return box;
     });
 
-    const self_search<3> search(tree);
+    const self_search_chunks<3> search(tree);
     const std::uint64_t most = patience * (finite.size() + 1024);
     std::atomic<std::uint64_t> taken = 0;
     std::atomic<bool> stopped = false;

@@ -110,7 +110,7 @@ template void lift_inner(tree<3>&, std::span<const leaf_slots>);
 }  // namespace detail
 
 template <std::size_t D>
-double relative_extent(const tree<D>& tree) {
+double search_cost(const tree<D>& tree) {
     if (tree.empty()) return 1.0;
     const detail::node_bounds<D> bounds(tree.level(0)[0]);
     wide_node<D> whole;
@@ -135,7 +135,7 @@ double relative_extent(const tree<D>& tree) {
 }
 
 template <std::size_t D>
-std::vector<std::uint32_t> places_in_leaf_order(const tree<D>& tree) {
+std::vector<std::uint32_t> leaf_positions(const tree<D>& tree) {
     std::vector<std::uint32_t> places(tree.size());
     for_chunks(tree.size(), std::size_t{1} << 14,
                [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -145,9 +145,9 @@ std::vector<std::uint32_t> places_in_leaf_order(const tree<D>& tree) {
     return places;
 }
 
-template double relative_extent(const tree<2>&);
-template double relative_extent(const tree<3>&);
-template std::vector<std::uint32_t> places_in_leaf_order(const tree<2>&);
-template std::vector<std::uint32_t> places_in_leaf_order(const tree<3>&);
+template double search_cost(const tree<2>&);
+template double search_cost(const tree<3>&);
+template std::vector<std::uint32_t> leaf_positions(const tree<2>&);
+template std::vector<std::uint32_t> leaf_positions(const tree<3>&);
 
 }  // namespace treeform

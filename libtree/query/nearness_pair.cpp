@@ -323,9 +323,9 @@ HWY_EXPORT(visit_3);
 template <std::size_t D>
 pair_walk<D>::pair_walk(const transformed<D>& a, const transformed<D>& b, double unit)
     : a_(&a.original()), b_(&b.original()), bound_of_(1.0) {
-    const tree_frame<D> frame = common_frame(a_->frame(), a.by(), b_->frame(), b.by());
-    map_a_ = map_into(a_->frame(), a.by(), frame);
-    map_b_ = map_into(b_->frame(), b.by(), frame);
+    const tree_frame<D> frame = common_frame(a_->frame(), a.map(), b_->frame(), b.map());
+    map_a_ = map_into(a_->frame(), a.map(), frame);
+    map_b_ = map_into(b_->frame(), b.map(), frame);
     bound_of_ = near_bound(frame.scale, unit);
 }
 

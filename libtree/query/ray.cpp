@@ -277,7 +277,7 @@ void dispatch(const tree<3>& t, const framed_ray<3>& ray, place_visitor visit) {
 template <std::size_t D>
 void check(const ray<double, D>& ray) {
     const auto refuse = [](const char* what) {
-        throw std::invalid_argument(std::string("treeform::visit_along: the ray's ") + what);
+        throw std::invalid_argument(std::string("treeform::visit_ray: the ray's ") + what);
     };
     for (std::size_t k = 0; k < D; ++k) {
         if (!std::isfinite(ray.origin[k])) refuse("origin is not finite");

@@ -341,13 +341,13 @@ template <std::size_t D>
 two_trees<D> in_one_frame(const transformed<D>& a, const transformed<D>& b, bool in_both_frames) {
     const tree_frame<D>& frame_a = a.original().frame();
     const tree_frame<D>& frame_b = b.original().frame();
-    const tree_frame<D> common = common_frame(frame_a, a.by(), frame_b, b.by());
-    two_trees<D> trees{&a.original(), &b.original(), map_into(frame_a, a.by(), common),
-                       map_into(frame_b, b.by(), common)};
+    const tree_frame<D> common = common_frame(frame_a, a.map(), frame_b, b.map());
+    two_trees<D> trees{&a.original(), &b.original(), map_into(frame_a, a.map(), common),
+                       map_into(frame_b, b.map(), common)};
     if (!in_both_frames || a.moves() == b.moves() || a.original().empty() || b.original().empty())
         return trees;
-    const auto back = a.moves() ? map_back(frame_b, a.by(), a.original())
-                                : map_back(frame_a, b.by(), b.original());
+    const auto back = a.moves() ? map_back(frame_b, a.map(), a.original())
+                                : map_back(frame_a, b.map(), b.original());
     trees.both_frames = back.has_value();
     if (back) (a.moves() ? trees.own_b : trees.own_a) = *back;
     return trees;
@@ -367,7 +367,7 @@ constexpr std::size_t small_block = 56;
 }  // namespace detail
 
 template <std::size_t D>
-pair_search<D>::pair_search(const transformed<D>& a, const transformed<D>& b, bool in_both_frames)
+pair_search_chunks<D>::pair_search_chunks(const transformed<D>& a, const transformed<D>& b, bool in_both_frames)
     : trees_(detail::in_one_frame(a, b, in_both_frames)) {
     if (trees_.a->empty() || trees_.b->empty()) return;
     detail::frontier cut =
@@ -378,12 +378,12 @@ pair_search<D>::pair_search(const transformed<D>& a, const transformed<D>& b, bo
 }
 
 template <std::size_t D>
-std::size_t pair_search<D>::chunks() const {
+std::size_t pair_search_chunks<D>::chunks() const {
     return chunk_count(items_.size(), detail::items_per_chunk);
 }
 
 template <std::size_t D>
-search_statistics pair_search<D>::visit(
+search_statistics pair_search_chunks<D>::visit(
     std::size_t chunk, detail::function_ref<bool(const candidate_block&)> visit) const {
     const std::size_t begin = chunk * detail::items_per_chunk;
     const std::size_t count = std::min(detail::items_per_chunk, items_.size() - begin);
@@ -392,7 +392,7 @@ search_statistics pair_search<D>::visit(
 }
 
 template <std::size_t D>
-search_statistics pair_search<D>::visit_all(
+search_statistics pair_search_chunks<D>::visit_all(
     const transformed<D>& a, const transformed<D>& b,
     detail::function_ref<bool(const candidate_block&)> visit, bool in_both_frames) {
     if (a.original().empty() || b.original().empty()) return {};
@@ -402,8 +402,8 @@ search_statistics pair_search<D>::visit_all(
                                 detail::small_block, visit);
 }
 
-template class pair_search<2>;
-template class pair_search<3>;
+template class pair_search_chunks<2>;
+template class pair_search_chunks<3>;
 
 }  // namespace treeform
 #endif

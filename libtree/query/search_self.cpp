@@ -176,7 +176,7 @@ constexpr std::size_t items_per_chunk = 16;
 }  // namespace detail
 
 template <std::size_t D>
-self_search<D>::self_search(const tree<D>& tree, const detail::node_marks<D>* skipped)
+self_search_chunks<D>::self_search_chunks(const tree<D>& tree, const detail::node_marks<D>* skipped)
     : tree_(&tree), skipped_(skipped) {
     if (tree.empty()) return;
     items_ = {{0, 0}};
@@ -190,12 +190,12 @@ self_search<D>::self_search(const tree<D>& tree, const detail::node_marks<D>* sk
 }
 
 template <std::size_t D>
-std::size_t self_search<D>::chunks() const {
+std::size_t self_search_chunks<D>::chunks() const {
     return chunk_count(items_.size(), detail::items_per_chunk);
 }
 
 template <std::size_t D>
-search_statistics self_search<D>::visit(
+search_statistics self_search_chunks<D>::visit(
     std::size_t chunk, detail::function_ref<bool(const candidate_block&)> visit) const {
     const std::size_t begin = chunk * detail::items_per_chunk;
     const std::size_t count = std::min(detail::items_per_chunk, items_.size() - begin);
@@ -203,8 +203,8 @@ search_statistics self_search<D>::visit(
                                 visit);
 }
 
-template class self_search<2>;
-template class self_search<3>;
+template class self_search_chunks<2>;
+template class self_search_chunks<3>;
 
 }  // namespace treeform
 #endif

@@ -85,9 +85,9 @@ class sweep_walk {
                const std::array<double, D>& motion)
         : a_(a.original()),
           b_(b.original()),
-          frame_(common_frame(a_.frame(), a.by(), b_.frame(), b.by())),
-          map_a_(map_into(a_.frame(), a.by(), frame_)),
-          map_b_(map_into(b_.frame(), b.by(), frame_)),
+          frame_(common_frame(a_.frame(), a.map(), b_.frame(), b.map())),
+          map_a_(map_into(a_.frame(), a.map(), frame_)),
+          map_b_(map_into(b_.frame(), b.map(), frame_)),
           slabs_(motion) {}
 
     /// Returns how many pairs of nodes were opened or visited: `most`, or one more where it ended
@@ -116,7 +116,7 @@ class sweep_walk {
     /// Units of the frame in one of space: times of boxes are those of space when the motion is
     /// scaled alike.
     [[nodiscard]] static double scale(const transformed<D>& a, const transformed<D>& b) {
-        return common_frame(a.original().frame(), a.by(), b.original().frame(), b.by()).scale;
+        return common_frame(a.original().frame(), a.map(), b.original().frame(), b.map()).scale;
     }
 
   private:

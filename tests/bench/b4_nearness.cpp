@@ -147,7 +147,7 @@ job own_by_function(const shared_input& input, node_order order) {
             const auto squared = [&](std::uint32_t f) {
                 return closest_point(triangle_of(*input->mesh, f), q).squared_distance;
             };
-            const auto best = nearest(*tree, q, squared, any_distance, order);
+            const auto best = nearest(*tree, q, squared, unlimited_radius, order);
             found.push_back(std::sqrt(best->answer));
         }
         return found;

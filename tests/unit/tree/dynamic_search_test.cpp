@@ -108,7 +108,7 @@ void check_ray(const twin<D>& both, const box<D>& query, test::random& random) {
     REQUIRE(found == expected);
     REQUIRE(tf::any_hit(both.tree, ray, hit_of) == !expected.empty());
     std::size_t visits = 0;
-    tf::visit_along(both.tree, ray, [&](std::uint32_t) {
+    tf::visit_ray(both.tree, ray, [&](std::uint32_t) {
         ++visits;
         return -infinity;
     });

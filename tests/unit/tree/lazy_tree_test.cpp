@@ -76,7 +76,7 @@ void check_answers(const boxes<3>& of, std::uint64_t seed) {
         REQUIRE(found.has_value() == first.has_value());
         if (first) REQUIRE(found->id == first->id);
         REQUIRE(tf::any_hit(tree, ray, hit_of) == first.has_value());
-        REQUIRE(tree.split() <= tree.blocks());
+        REQUIRE(tree.built_block_count() <= tree.block_count());
     }
 }
 
@@ -96,22 +96,22 @@ TEST_CASE("lazy_tree: splits only what a search comes into") {
     const boxes<3> of = along_a_line(100'000, 5);
     const tf::lazy_tree tree(of, itself);
     CHECK(tree.size() == 100'000);
-    CHECK(tree.blocks() == 25);
-    CHECK(tree.split() == 0);
+    CHECK(tree.block_count() == 25);
+    CHECK(tree.built_block_count() == 0);
     const box3 query = test::box_at<3>({0.5, 0.05, 0.25}, 1e-3);
     CHECK(!tf::search_any(tree, query, [](std::uint32_t) { return false; }));
-    const std::size_t split = tree.split();
+    const std::size_t split = tree.built_block_count();
     CHECK(split >= 1);
     CHECK(split <= 3);
     CHECK(!tf::search_any(tree, query, [](std::uint32_t) { return false; }));
-    CHECK(tree.split() == split);
+    CHECK(tree.built_block_count() == split);
 }
 
 TEST_CASE("lazy_tree: elements in random order are built at once") {
     const boxes<3> of = shuffled(along_a_line(50'000, 6), 7);
     const tf::lazy_tree tree(of, itself);
-    CHECK(tree.blocks() == 1);
-    CHECK(tree.split() == 1);
+    CHECK(tree.block_count() == 1);
+    CHECK(tree.built_block_count() == 1);
 }
 
 TEST_CASE("lazy_tree: two trees have a contact where brute force finds one, on 1, 2, 8 threads") {
@@ -126,7 +126,7 @@ TEST_CASE("lazy_tree: two trees have a contact where brute force finds one, on 1
             const tf::thread_scope scope(threads);
             const tf::lazy_tree first(a, itself), second(b, itself);
             CHECK(tf::search_any(first, second, exact) == expected);
-            if (by == 0.2) CHECK(first.split() + second.split() == 0);
+            if (by == 0.2) CHECK(first.built_block_count() + second.built_block_count() == 0);
         }
     }
 }
@@ -140,14 +140,14 @@ TEST_CASE("lazy_tree: searches on several threads split a block once") {
         tf::search(tree, box3{{0, 0, 0}, {2, 2, 2}}, [&](std::uint32_t) { ++found[i]; });
     });
     for (const std::size_t one : found) CHECK(one == of.size());
-    CHECK(tree.split() == tree.blocks());
+    CHECK(tree.built_block_count() == tree.block_count());
 }
 
 TEST_CASE("lazy_tree: pairs, k nearest, batches and all hits are those of a whole tree") {
     const boxes<3> of = along_a_line(20'000, 12), few = along_a_line(300, 13);
     const auto whole = tf::build(of, itself);
     const tf::lazy_tree tree(of, itself);
-    REQUIRE(tree.blocks() > 1);
+    REQUIRE(tree.block_count() > 1);
     const auto self = [&](std::uint32_t x, std::uint32_t y) { return overlaps(of[x], of[y]); };
     CHECK(tf::search_self_all(tree, self) == tf::search_self_all(whole, self));
     CHECK(tf::search_self_any(tree, self));
@@ -183,7 +183,7 @@ TEST_CASE("lazy_tree: pairs, k nearest, batches and all hits are those of a whol
 TEST_CASE("lazy_tree: of nothing finds nothing") {
     const boxes<3> none;
     const tf::lazy_tree tree(none, itself);
-    CHECK(tree.blocks() == 0);
+    CHECK(tree.block_count() == 0);
     const box3 query = test::box_at<3>({0, 0, 0}, 1.0);
     CHECK(!tf::search_any(tree, query, [](std::uint32_t) { return true; }));
     CHECK(!tf::search_any(tree, tree, [](std::uint32_t, std::uint32_t) { return true; }));

@@ -66,11 +66,11 @@ void compare_with_brute_force(const std::string& family, std::size_t count) {
         const answers all = neighbors_by_brute_force(of, query);
         const double radius = all.empty() ? 1.0 : std::sqrt(all[all.size() / 2].answer);
         const tf::node_order order = node_orders[turn++ % node_orders.size()];
-        const auto one = tf::nearest(tree, query, distance_of, tf::any_distance, order);
+        const auto one = tf::nearest(tree, query, distance_of, tf::unlimited_radius, order);
         REQUIRE(one.has_value() == !all.empty());
         if (one) REQUIRE(*one == all[0]);
         for (const std::size_t k : {std::size_t{1}, std::size_t{7}, std::size_t{40}, count + 1})
-            REQUIRE(tf::k_nearest(tree, query, k, distance_of, tf::any_distance, order) ==
+            REQUIRE(tf::k_nearest(tree, query, k, distance_of, tf::unlimited_radius, order) ==
                     first(all, k));
         const answers inside = neighbors_by_brute_force(of, query, radius);
         REQUIRE(tf::all_within(tree, query, radius, distance_of, order) == inside);
@@ -136,8 +136,8 @@ TEST_CASE("nearness: of equally near primitives the lowest comes first") {
     const tf::aabb<double, 3> query = test::box_at<3>({0, 0, 0}, 0.5);
     const auto distance_of = [&](std::uint32_t id) { return squared_between(same[id], query); };
     for (const tf::node_order order : node_orders) {
-        CHECK(tf::nearest(tree, query, distance_of, tf::any_distance, order)->id == 2);
-        const auto some = tf::k_nearest(tree, query, 20, distance_of, tf::any_distance, order);
+        CHECK(tf::nearest(tree, query, distance_of, tf::unlimited_radius, order)->id == 2);
+        const auto some = tf::k_nearest(tree, query, 20, distance_of, tf::unlimited_radius, order);
         for (std::uint32_t i = 0; i < 20; ++i) CHECK(some[i].id == i + 2);
     }
 }

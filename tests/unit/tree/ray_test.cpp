@@ -119,7 +119,7 @@ whole_ray<D> any_whole_ray(test::random& random, std::size_t side) {
 template <std::size_t D>
 std::vector<std::uint32_t> visited(const tf::tree<D>& tree, const tf::ray<double, D>& ray) {
     std::vector<std::uint32_t> ids;
-    tf::visit_along(tree, ray, [&](std::uint32_t id) {
+    tf::visit_ray(tree, ray, [&](std::uint32_t id) {
         ids.push_back(id);
         return ray.t_max;
     });
@@ -260,11 +260,11 @@ TEST_CASE("ray: what is no number is refused") {
     const auto tree = tf::build(std::vector{ray_box<3>{{0, 0, 0}, {1, 1, 1}}}, itself);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const auto visit = [](std::uint32_t) { return 1.0; };
-    CHECK_THROWS_AS(tf::visit_along(tree, tf::ray<double, 3>{{nan, 0, 0}, {1, 0, 0}}, visit),
+    CHECK_THROWS_AS(tf::visit_ray(tree, tf::ray<double, 3>{{nan, 0, 0}, {1, 0, 0}}, visit),
                     std::invalid_argument);
-    CHECK_THROWS_AS(tf::visit_along(tree, tf::ray<double, 3>{{0, 0, 0}, {infinite, 0, 0}}, visit),
+    CHECK_THROWS_AS(tf::visit_ray(tree, tf::ray<double, 3>{{0, 0, 0}, {infinite, 0, 0}}, visit),
                     std::invalid_argument);
-    CHECK_THROWS_AS(tf::visit_along(tree, tf::ray<double, 3>{{0, 0, 0}, {1, 0, 0}, nan}, visit),
+    CHECK_THROWS_AS(tf::visit_ray(tree, tf::ray<double, 3>{{0, 0, 0}, {1, 0, 0}, nan}, visit),
                     std::invalid_argument);
 }
 

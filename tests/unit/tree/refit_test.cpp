@@ -56,7 +56,7 @@ void check_partial(std::size_t count, std::size_t changed, std::uint64_t seed) {
     const boxes<D> others = box_family<D>("random", count, seed + 1);
     auto tree = tf::build(of, itself);
     auto whole = tree;
-    const std::vector<std::uint32_t> place_of = tf::places_in_leaf_order(tree);
+    const std::vector<std::uint32_t> place_of = tf::leaf_positions(tree);
     std::vector<std::uint32_t> places;
     for (std::size_t i = 0; i < changed; ++i) {
         const std::size_t id = random.below(count);
@@ -141,7 +141,7 @@ TEST_CASE("refit: refuses a box that is not finite, naming the element, and can 
         const std::string complaint =
             "treeform::refit: the box of element 12345 is empty or not finite";
         CHECK_THROWS_WITH_AS(tf::refit(tree, of, itself), complaint.c_str(), std::invalid_argument);
-        const std::vector<std::uint32_t> places{3, tf::places_in_leaf_order(tree)[12'345], 77};
+        const std::vector<std::uint32_t> places{3, tf::leaf_positions(tree)[12'345], 77};
         CHECK_THROWS_WITH_AS(tf::refit(tree, of, itself, places), complaint.c_str(),
                              std::invalid_argument);
         tf::refit(tree, sound, itself);
@@ -163,20 +163,20 @@ TEST_CASE("refit: refuses a range that is not of the size of the tree") {
                         std::invalid_argument);
 }
 
-TEST_CASE("relative_extent: is 1 for one node, grows when neighbors part, and is not of a unit") {
-    CHECK(tf::relative_extent(tf::tree<3>{}) == 1.0);
-    CHECK(tf::relative_extent(tf::build(box_family<3>("random", 8, 1), itself)) == 1.0);
-    CHECK(tf::relative_extent(tf::build(box_family<2>("equal", 500, 1), itself)) ==
+TEST_CASE("search_cost: is 1 for one node, grows when neighbors part, and is not of a unit") {
+    CHECK(tf::search_cost(tf::tree<3>{}) == 1.0);
+    CHECK(tf::search_cost(tf::build(box_family<3>("random", 8, 1), itself)) == 1.0);
+    CHECK(tf::search_cost(tf::build(box_family<2>("equal", 500, 1), itself)) ==
           doctest::Approx(1.0 + 8.0 + 63.0).epsilon(1e-6));
     boxes<3> of = box_family<3>("random", 5000, 2);
     auto tree = tf::build(of, itself);
-    const double fresh = tf::relative_extent(tree);
+    const double fresh = tf::search_cost(tree);
     CHECK(fresh > 1.0);
     for (auto& box : of)
         for (std::size_t k = 0; k < 3; ++k) box.min[k] *= 1024.0, box.max[k] *= 1024.0;
-    CHECK(tf::relative_extent(tf::build(of, itself)) == doctest::Approx(fresh).epsilon(1e-6));
+    CHECK(tf::search_cost(tf::build(of, itself)) == doctest::Approx(fresh).epsilon(1e-6));
     tf::refit(tree, box_family<3>("random", 5000, 3), itself);
-    CHECK(tf::relative_extent(tree) > 2.0 * fresh);
+    CHECK(tf::search_cost(tree) > 2.0 * fresh);
     for (const std::string& name : test::box_families)
-        CHECK(std::isfinite(tf::relative_extent(tf::build(box_family<3>(name, 700, 1), itself))));
+        CHECK(std::isfinite(tf::search_cost(tf::build(box_family<3>(name, 700, 1), itself))));
 }

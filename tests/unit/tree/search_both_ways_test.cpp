@@ -33,11 +33,11 @@ id_pairs pairs_of(const tf::transformed<D>& a, const tf::transformed<D>& b,
                                b.original().ids()[block.second[i]]);
         return true;
     };
-    const tf::pair_search<D> search(a, b, in_both_frames);
+    const tf::pair_search_chunks<D> search(a, b, in_both_frames);
     for (std::size_t chunk = 0; chunk < search.chunks(); ++chunk) search.visit(chunk, add);
     const id_pairs cut = pairs;
     pairs.clear();
-    tf::pair_search<D>::visit_all(a, b, add, in_both_frames);
+    tf::pair_search_chunks<D>::visit_all(a, b, add, in_both_frames);
     REQUIRE(pairs == cut);
     std::sort(pairs.begin(), pairs.end());
     return pairs;

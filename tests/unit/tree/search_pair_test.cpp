@@ -172,7 +172,7 @@ TEST_CASE("search of two trees: boxes that only touch are a pair, boxes one ulp 
 TEST_CASE("search of two trees: no pair comes twice, and statistics count them") {
     const auto a = tf::build(box_family<3>("grid", 3000, 9), itself);
     const auto b = tf::build(box_family<3>("random", 2000, 10), itself);
-    const tf::pair_search<3> search(a, b);
+    const tf::pair_search_chunks<3> search(a, b);
     id_pairs all;
     tf::search_statistics seen;
     for (std::size_t chunk = 0; chunk < search.chunks(); ++chunk)
@@ -187,7 +187,7 @@ TEST_CASE("search of two trees: no pair comes twice, and statistics count them")
     CHECK(seen.box_tests >= seen.nodes);
     id_pairs at_once;
     const auto seen_at_once =
-        tf::pair_search<3>::visit_all(a, b, [&](const tf::candidate_block& block) {
+        tf::pair_search_chunks<3>::visit_all(a, b, [&](const tf::candidate_block& block) {
             for (std::size_t i = 0; i < block.first.size(); ++i)
                 at_once.emplace_back(block.first[i], block.second[i]);
             return true;
@@ -203,10 +203,10 @@ TEST_CASE("search of two trees: what is out of reach is not looked at") {
     for (auto& box : away) box.min[0] += 1.5, box.max[0] += 1.5;
     const auto a = tf::build(box_family<3>("random", 20'000, 12), itself);
     const auto b = tf::build(away, itself);
-    CHECK(tf::pair_search<3>(a, b).chunks() == 0);
+    CHECK(tf::pair_search_chunks<3>(a, b).chunks() == 0);
     for (auto& box : away) box.min[0] -= 0.5, box.max[0] -= 0.5;  // 0.05 in common
     const auto seen =
-        tf::pair_search<3>::visit_all(a, tf::build(away, itself), [](const auto&) { return true; });
+        tf::pair_search_chunks<3>::visit_all(a, tf::build(away, itself), [](const auto&) { return true; });
     CHECK(seen.candidates > 0);
     CHECK(seen.nodes < 20'000 / 8);
 }

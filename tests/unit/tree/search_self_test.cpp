@@ -74,9 +74,9 @@ TEST_CASE("search_self_any: says whether some pair is accepted") {
     CHECK_FALSE(tf::search_self_any(tree, [](std::uint32_t, std::uint32_t) { return false; }));
 }
 
-TEST_CASE("self_search: statistics count the candidates") {
+TEST_CASE("self_search_chunks: statistics count the candidates") {
     const auto tree = tf::build(box_family<3>("random", 5'000, 3), itself);
-    const tf::self_search<3> search(tree);
+    const tf::self_search_chunks<3> search(tree);
     tf::search_statistics seen;
     std::size_t candidates = 0;
     for (std::size_t chunk = 0; chunk < search.chunks(); ++chunk)

@@ -209,7 +209,7 @@ TEST_CASE("search_self: boxes that only touch are a pair, boxes one ulp apart ar
 TEST_CASE("search_self: no pair comes twice") {
     const boxes<3> of = test::box_family<3>("grid", 3000, 3);
     const tf::tree<3> tree = tf::build(of, itself);
-    const tf::self_search<3> search(tree);
+    const tf::self_search_chunks<3> search(tree);
     numbered_pairs all;
     for (std::size_t chunk = 0; chunk < search.chunks(); ++chunk)
         search.visit(chunk, [&](const tf::candidate_block& block) {
@@ -247,7 +247,7 @@ TEST_CASE("tree: boxes far from the origin are not blown up by their float form"
     const boxes<3> of = test::box_family<3>("far", 20'000, 7);
     const auto count = [](const tf::tree<3>& tree) {
         std::size_t candidates = 0;
-        const tf::self_search<3> search(tree);
+        const tf::self_search_chunks<3> search(tree);
         for (std::size_t chunk = 0; chunk < search.chunks(); ++chunk)
             search.visit(chunk, [&](const tf::candidate_block& block) {
                 candidates += block.first.size();

@@ -94,9 +94,11 @@ class lazy_tree {
         return one.boxes;
     }
 
-    [[nodiscard]] std::size_t blocks() const { return top_.size(); }
+    [[nodiscard]] std::size_t block_count() const { return top_.size(); }
     /// Number of blocks that were built so far.
-    [[nodiscard]] std::size_t split() const { return split_->load(std::memory_order_relaxed); }
+    [[nodiscard]] std::size_t built_block_count() const {
+        return split_->load(std::memory_order_relaxed);
+    }
 
   private:
     using box = aabb<double, D>;

@@ -32,7 +32,7 @@ enum class node_order : std::uint8_t {
 
 /// An infinite radius, which excludes nothing. Radii are not squared, and inclusive: the root of an
 /// answer's squared distance is at most the radius.
-inline constexpr double any_distance = std::numeric_limits<double>::infinity();
+inline constexpr double unlimited_radius = std::numeric_limits<double>::infinity();
 
 /// The query, from which distances are measured: a box `treeform::aabb<T, D>`, or a point, which is
 /// anything else with [].
@@ -119,7 +119,7 @@ class nearest_one {
 template <any_tree Tree, nearness_query<Tree::dimensions> Query, class Visit>
 requires std::is_invocable_r_v<double, const Visit&, std::uint32_t>
 void visit_near(const Tree& tree, const Query& query, const Visit& visit,
-                double radius = any_distance, node_order order = node_order::depth_first) {
+                double radius = unlimited_radius, node_order order = node_order::depth_first) {
     detail::walk_near(tree, detail::box_of_query<Tree::dimensions>(query),
                       detail::squared_radius("treeform::visit_near", radius), order, visit);
 }
@@ -137,7 +137,7 @@ void visit_near(const Tree& tree, const Query& query, const Visit& visit,
 /// \same   as a loop over all primitives, for any `order`
 template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceOf>
 [[nodiscard]] auto nearest(const Tree& tree, const Query& query, const DistanceOf& distance_of,
-                           double radius = any_distance,
+                           double radius = unlimited_radius,
                            node_order order = node_order::depth_first) {
     using answer = std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t>>;
     detail::nearest_one<answer> one(detail::squared_radius("treeform::nearest", radius));
@@ -157,7 +157,7 @@ template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceO
 /// \same   as sorting all primitives, for any `order`
 template <any_tree Tree, nearness_query<Tree::dimensions> Query, class DistanceOf>
 [[nodiscard]] auto k_nearest(const Tree& tree, const Query& query, std::size_t k,
-                             const DistanceOf& distance_of, double radius = any_distance,
+                             const DistanceOf& distance_of, double radius = unlimited_radius,
                              node_order order = node_order::depth_first) {
     using answer = std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::uint32_t>>;
     detail::nearest_k<neighbor<answer>> found(

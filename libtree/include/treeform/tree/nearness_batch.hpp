@@ -76,7 +76,7 @@ template <std::size_t D, class Queries, class Search>
 /// \same   on any number of threads; the same result as `nearest` for each query
 template <any_tree Tree, std::ranges::random_access_range Queries, class DistanceOf>
 [[nodiscard]] auto nearest_batch(const Tree& tree, const Queries& queries,
-                                 const DistanceOf& distance_of, double radius = any_distance,
+                                 const DistanceOf& distance_of, double radius = unlimited_radius,
                                  node_order order = node_order::depth_first) {
     using answer =
         std::remove_cvref_t<std::invoke_result_t<const DistanceOf&, std::size_t, std::uint32_t>>;
@@ -111,7 +111,7 @@ template <any_tree Tree, std::ranges::random_access_range Queries, class Distanc
 /// \same   on any number of threads; the same result as `k_nearest` for each query
 template <any_tree Tree, std::ranges::random_access_range Queries, class DistanceOf>
 [[nodiscard]] auto k_nearest_batch(const Tree& tree, const Queries& queries, std::size_t k,
-                                   const DistanceOf& distance_of, double radius = any_distance,
+                                   const DistanceOf& distance_of, double radius = unlimited_radius,
                                    node_order order = node_order::depth_first) {
     return detail::lists_of<Tree::dimensions>(queries, [&](std::size_t query) {
         return k_nearest(

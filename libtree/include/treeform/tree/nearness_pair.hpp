@@ -102,7 +102,7 @@ template <std::size_t D, class A, class B, class Kept, class DistanceOf>
 /// \source Sajovic, Knez and Korez, tf::tree, section III-D, without its upper bound from boxes,
 ///         which does not hold for primitives smaller than their boxes; the larger box is opened,
 ///         eight children at a time
-template <any_placed_tree A, any_placed_tree B, class DistanceOf>
+template <any_tree_or_transformed A, any_tree_or_transformed B, class DistanceOf>
 [[nodiscard]] auto k_nearest_pairs(const A& first, const B& second, std::size_t k,
                                    const DistanceOf& distance_of,
                                    double radius = std::numeric_limits<double>::infinity()) {
@@ -113,7 +113,7 @@ template <any_placed_tree A, any_placed_tree B, class DistanceOf>
     detail::nearest_k<neighbor<answer, id_pair>> found(
         k, detail::squared_radius("treeform::k_nearest_pairs", radius));
     if (k == 0) return found.sorted();
-    if constexpr (placed_tree<A> && placed_tree<B>)
+    if constexpr (tree_or_transformed<A> && tree_or_transformed<B>)
         found = detail::nearest_pairs<false>(a, b, k, std::move(found), distance_of);
     else
         found = detail::nearest_pairs_of_parts(a, b, k, std::move(found), distance_of);
@@ -123,7 +123,7 @@ template <any_placed_tree A, any_placed_tree B, class DistanceOf>
 /// The nearest pair; of equally near pairs, the one with the lowest ids; of pairs at distance zero,
 /// any, but the same in every run. None if a tree is empty or all pairs are beyond the radius. See
 /// `k_nearest_pairs`.
-template <any_placed_tree A, any_placed_tree B, class DistanceOf>
+template <any_tree_or_transformed A, any_tree_or_transformed B, class DistanceOf>
 [[nodiscard]] auto nearest_pair(const A& a, const B& b, const DistanceOf& distance_of,
                                 double radius = std::numeric_limits<double>::infinity()) {
     auto pairs = k_nearest_pairs(a, b, 1, distance_of, radius);

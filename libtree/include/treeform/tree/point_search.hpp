@@ -121,20 +121,20 @@ class TREEFORM_API point_search {
 
     /// The nearest point; none if all are beyond the radius.
     [[nodiscard]] std::optional<near_point> nearest(const point& query,
-                                                    double radius = any_distance) const;
+                                                    double radius = unlimited_radius) const;
     /// The k nearest points, nearest first.
     [[nodiscard]] std::vector<near_point> k_nearest(const point& query, std::size_t k,
-                                                    double radius = any_distance) const;
+                                                    double radius = unlimited_radius) const;
     /// All points within `radius`, nearest first.
     [[nodiscard]] std::vector<near_point> all_within(const point& query, double radius) const;
     template <detail::position<D> Query>
     [[nodiscard]] std::optional<near_point> nearest(const Query& query,
-                                                    double radius = any_distance) const {
+                                                    double radius = unlimited_radius) const {
         return nearest(detail::coordinates_of<D>(query), radius);
     }
     template <detail::position<D> Query>
     [[nodiscard]] std::vector<near_point> k_nearest(const Query& query, std::size_t k,
-                                                    double radius = any_distance) const {
+                                                    double radius = unlimited_radius) const {
         return k_nearest(detail::coordinates_of<D>(query), k, radius);
     }
     template <detail::position<D> Query>
@@ -145,12 +145,12 @@ class TREEFORM_API point_search {
     /// [Q] The same for many queries in parallel, in the order of the queries, with the same
     /// results as single searches.
     [[nodiscard]] answer_lists<near_point> k_nearest(std::span<const point> queries, std::size_t k,
-                                                     double radius = any_distance) const;
+                                                     double radius = unlimited_radius) const;
     [[nodiscard]] answer_lists<near_point> all_within(std::span<const point> queries,
                                                       double radius) const;
     template <detail::positions<D> Queries>
     [[nodiscard]] answer_lists<near_point> k_nearest(const Queries& queries, std::size_t k,
-                                                     double radius = any_distance) const {
+                                                     double radius = unlimited_radius) const {
         return k_nearest(std::span<const point>(points_of(queries)), k, radius);
     }
     template <detail::positions<D> Queries>

@@ -40,7 +40,7 @@ struct ray_hit {
 
 namespace detail {
 
-/// Calls `visit` as `visit_along` does.
+/// Calls `visit` as `visit_ray` does.
 template <std::size_t D>
 TREEFORM_API void trace(const tree<D>& tree, const ray<double, D>& ray,
                         function_ref<double(std::uint32_t)> visit);
@@ -100,7 +100,7 @@ template <std::floating_point T, std::size_t D>
 ///         Traversal, JCGT 2 (2013), derived anew for scaled frames in ray.cpp
 template <any_tree Tree, std::floating_point T, class Visit>
 requires std::is_invocable_r_v<double, const Visit&, std::uint32_t>
-void visit_along(const Tree& tree, const ray<T, Tree::dimensions>& ray, const Visit& visit) {
+void visit_ray(const Tree& tree, const ray<T, Tree::dimensions>& ray, const Visit& visit) {
     detail::trace(tree, detail::in_double(ray), visit);
 }
 
@@ -111,7 +111,7 @@ void visit_along(const Tree& tree, const ray<T, Tree::dimensions>& ray, const Vi
 /// t, or of a struct with a member t. A t outside [t_min, t_max], or NaN, is no hit. A hit must lie
 /// in the primitive's box, and the relative error of its t must be at most 2^-40.
 ///
-/// \throws std::invalid_argument as `visit_along`
+/// \throws std::invalid_argument as `visit_ray`
 /// \cost   O(log N + boxes entered before the hit) for most rays
 /// \same   as a loop over all primitives, for any order of the tree
 template <any_tree Tree, std::floating_point T, class HitOf>
@@ -120,7 +120,7 @@ template <any_tree Tree, std::floating_point T, class HitOf>
     const double t_min = static_cast<double>(ray.t_min);
     double t_best = static_cast<double>(ray.t_max);
     std::optional<ray_hit<detail::hit_type<HitOf>>> best;
-    visit_along(tree, ray, [&](std::uint32_t id) {
+    visit_ray(tree, ray, [&](std::uint32_t id) {
         if (auto hit = hit_of(id)) {
             const double t = detail::parameter_of(*hit);
             if (t_min <= t && t <= t_best && (!best || t < t_best || id < best->id)) {
@@ -135,7 +135,7 @@ template <any_tree Tree, std::floating_point T, class HitOf>
 
 /// All hits, ascending by t, then by id. See `first_hit` for `hit_of`.
 ///
-/// \throws std::invalid_argument as `visit_along`
+/// \throws std::invalid_argument as `visit_ray`
 /// \cost   O(log N + boxes met + H log H) for most rays, H hits
 /// \same   as `first_hit`
 template <any_tree Tree, std::floating_point T, class HitOf>
@@ -144,7 +144,7 @@ template <any_tree Tree, std::floating_point T, class HitOf>
     const double t_min = static_cast<double>(ray.t_min);
     const double t_max = static_cast<double>(ray.t_max);
     std::vector<ray_hit<detail::hit_type<HitOf>>> hits;
-    visit_along(tree, ray, [&](std::uint32_t id) {
+    visit_ray(tree, ray, [&](std::uint32_t id) {
         if (auto hit = hit_of(id)) {
             const double t = detail::parameter_of(*hit);
             if (t_min <= t && t <= t_max) hits.push_back({id, std::move(*hit)});
@@ -163,7 +163,7 @@ template <any_tree Tree, std::floating_point T, class HitOf>
 /// primitives than `first_hit`. Here `hit_of` may also return a bool: whether the ray hits the
 /// primitive within [t_min, t_max].
 ///
-/// \throws std::invalid_argument as `visit_along`
+/// \throws std::invalid_argument as `visit_ray`
 /// \cost   at most that of `all_hits`
 /// \same   as `first_hit` in its answer; for which primitives `hit_of` is called may depend on the
 ///         processor
@@ -173,7 +173,7 @@ template <any_tree Tree, std::floating_point T, class HitOf>
     const double t_min = static_cast<double>(ray.t_min);
     const double t_max = static_cast<double>(ray.t_max);
     bool found = false;
-    visit_along(tree, ray, [&](std::uint32_t id) {
+    visit_ray(tree, ray, [&](std::uint32_t id) {
         const auto hit = hit_of(id);
         if constexpr (std::is_same_v<decltype(hit), const bool>) {
             found = hit;
@@ -210,7 +210,7 @@ TREEFORM_API void sweep(const transformed<D>& a, const transformed<D>& b,
 /// \same   order and pairs, on every machine
 /// \source slabs: Kay and Kajiya, Ray Tracing Complex Scenes, SIGGRAPH 1986, for the ray from 0
 ///         along the motion and the box of differences of two boxes
-template <placed_tree A, placed_tree B, class Motion, class Visit>
+template <tree_or_transformed A, tree_or_transformed B, class Motion, class Visit>
 requires std::is_invocable_r_v<double, const Visit&, std::uint32_t, std::uint32_t>
 void visit_swept(const A& a, const B& b, const Motion& motion, const Visit& visit,
                  double latest = std::numeric_limits<double>::infinity()) {

@@ -23,12 +23,12 @@
 
 namespace treeform {
 
-/// [N] the place of each primitive in leaf order: the inverse of `tree.ids()`.
+/// [N] the position of each primitive in leaf order: the inverse of `tree.ids()`.
 ///
 /// \pre  the tree has no empty slots (`build` makes none)
 /// \same on any number of threads
 template <std::size_t D>
-[[nodiscard]] TREEFORM_API std::vector<std::uint32_t> places_in_leaf_order(const tree<D>& tree);
+[[nodiscard]] TREEFORM_API std::vector<std::uint32_t> leaf_positions(const tree<D>& tree);
 
 /// How expensive a tree is to search: the sum of the extents of all node boxes, divided by those of
 /// the root. This is the number of nodes that a random plane (in 2D: line) through the root's box
@@ -43,7 +43,7 @@ template <std::size_t D>
 ///         proportional to the sum of its extents. Goldsmith and Salmon, Automatic Creation of
 ///         Object Hierarchies for Ray Tracing, IEEE CG&A 7 (1987), for lines
 template <std::size_t D>
-[[nodiscard]] TREEFORM_API double relative_extent(const tree<D>& tree);
+[[nodiscard]] TREEFORM_API double search_cost(const tree<D>& tree);
 
 namespace detail {
 
@@ -108,9 +108,9 @@ template <std::size_t D, class BoxOf>
     const std::span<const std::uint32_t> ids = tree.ids();
     const std::uint32_t bad = write_in_chunks(
         tree, tree.size(), std::size_t{1} << 13,
-        [&](slot_writer<D>& writer, std::size_t place) {
-            if (place + ahead < ids.size()) box_of.prefetch(ids[place + ahead]);
-            return writer.put(static_cast<std::uint32_t>(place), box_of(ids[place]));
+        [&](slot_writer<D>& writer, std::size_t position) {
+            if (position + ahead < ids.size()) box_of.prefetch(ids[position + ahead]);
+            return writer.put(static_cast<std::uint32_t>(position), box_of(ids[position]));
         },
         [&](std::size_t begin, std::size_t end) {
             if (tree.levels() == 1) return;
@@ -121,10 +121,10 @@ template <std::size_t D, class BoxOf>
     return bad;
 }
 
-/// Calls `visit(place)` for the places of `slots` until it returns false; returns false in that
+/// Calls `visit(position)` for the positions of `slots` until it returns false; returns false in that
 /// case, else true.
 template <class Visit>
-bool for_places(const leaf_slots& slots, const Visit& visit) {
+bool for_positions(const leaf_slots& slots, const Visit& visit) {
     for (unsigned rest = slots.slots; rest != 0; rest &= rest - 1)
         if (!visit(8 * slots.block + static_cast<std::uint32_t>(std::countr_zero(rest))))
             return false;
@@ -142,8 +142,8 @@ template <std::size_t D, class BoxOf>
         const char* const leaf = reinterpret_cast<const char*>(leaves + later.block);
         for (std::size_t line = 0; line < sizeof(wide_node<D>); line += 64)
             __builtin_prefetch(leaf + line, 1);
-        for_places(later, [&](std::uint32_t place) {
-            if (ids[place] != no_primitive) box_of.prefetch(ids[place]);
+        for_positions(later, [&](std::uint32_t position) {
+            if (ids[position] != no_primitive) box_of.prefetch(ids[position]);
             return true;
         });
     };
@@ -151,9 +151,10 @@ template <std::size_t D, class BoxOf>
         tree, slots.size(), 1024,
         [&](slot_writer<D>& writer, std::size_t i) {
             if (i + ahead < slots.size()) prefetch(slots[i + ahead]);
-            return for_places(slots[i], [&](std::uint32_t place) {
-                if (ids[place] != no_primitive) return writer.put(place, box_of(ids[place]));
-                clear_slot(leaves[place / 8], place % 8);
+            return for_positions(slots[i], [&](std::uint32_t position) {
+                if (ids[position] != no_primitive)
+                    return writer.put(position, box_of(ids[position]));
+                clear_slot(leaves[position / 8], position % 8);
                 return true;
             });
         },
@@ -169,7 +170,7 @@ template <std::size_t D, class BoxOf>
 
 /// Replaces the box of every primitive of `tree` by the one that `make_aabb` returns for its
 /// element of `range`. The leaf order and the frame do not change. Searches are correct for any
-/// boxes, and as fast as before if neighbors stay neighbors (see `relative_extent`). With unchanged
+/// boxes, and as fast as before if neighbors stay neighbors (see `search_cost`). With unchanged
 /// boxes, the tree does not change.
 ///
 /// \throws std::invalid_argument if the size of the range differs from that of the tree; naming an
@@ -187,22 +188,22 @@ void refit(tree<D>& tree, const Range& range, const MakeBox& make_aabb) {
     if (bad != detail::no_primitive) detail::refuse_refit(bad);
 }
 
-/// The same only for the primitives at `places` of the leaf order (`places_in_leaf_order`); all
+/// The same only for the primitives at `positions` of the leaf order (`leaf_positions`); all
 /// others keep their boxes. Places may be in any order, and may repeat.
 ///
-/// \throws std::invalid_argument also naming a place out of range; the tree is then unchanged
-/// \cost   O(P log N) for P places and their ancestors; if P is above N / 128, also a pass over N /
+/// \throws std::invalid_argument also naming a position out of range; the tree is then unchanged
+/// \cost   O(P log N) for P positions and their ancestors; if P is above N / 128, also a pass over N /
 ///         8 bytes
 template <std::size_t D, std::ranges::random_access_range Range, class MakeBox>
 requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>>
 void refit(tree<D>& tree, const Range& range, const MakeBox& make_aabb,
-           std::span<const std::uint32_t> places) {
+           std::span<const std::uint32_t> positions) {
     detail::check_size(tree, range);
-    for (const std::uint32_t place : places)
-        if (place >= tree.size())
-            throw std::invalid_argument("treeform::refit: place " + std::to_string(place) +
+    for (const std::uint32_t position : positions)
+        if (position >= tree.size())
+            throw std::invalid_argument("treeform::refit: position " + std::to_string(position) +
                                         " is not in the tree");
-    const std::vector<detail::leaf_slots> slots = detail::slots_at(places, tree.size());
+    const std::vector<detail::leaf_slots> slots = detail::slots_at(positions, tree.size());
     const std::uint32_t bad =
         detail::refit_slots<D>(tree, slots, detail::element_boxes{range, make_aabb});
     if (bad != detail::no_primitive) detail::refuse_refit(bad);

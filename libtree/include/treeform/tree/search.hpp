@@ -120,15 +120,15 @@ class node_marks {
 ///
 /// \source Sajovic, Knez and Korez, tf::tree, section III-C; one box against eight at a time
 template <std::size_t D>
-class TREEFORM_API self_search {
+class TREEFORM_API self_search_chunks {
   public:
     /// \pre `tree` outlives the search and is not rebuilt meanwhile
-    explicit self_search(const tree<D>& tree) : self_search(tree, nullptr) {}
+    explicit self_search_chunks(const tree<D>& tree) : self_search_chunks(tree, nullptr) {}
 
     /// Omits the pairs among the primitives below a marked node.
     /// \pre also `skipped` outlives the search
-    self_search(const tree<D>& tree, const detail::node_marks<D>& skipped)
-        : self_search(tree, &skipped) {}
+    self_search_chunks(const tree<D>& tree, const detail::node_marks<D>& skipped)
+        : self_search_chunks(tree, &skipped) {}
 
     [[nodiscard]] std::size_t chunks() const;
 
@@ -141,7 +141,7 @@ class TREEFORM_API self_search {
                             detail::function_ref<bool(const candidate_block&)> visit) const;
 
   private:
-    self_search(const tree<D>& tree, const detail::node_marks<D>* skipped);
+    self_search_chunks(const tree<D>& tree, const detail::node_marks<D>* skipped);
 
     const tree<D>* tree_;
     const detail::node_marks<D>* skipped_;
@@ -154,7 +154,7 @@ namespace detail {
 template <std::size_t D>
 [[nodiscard]] auto self_pairs(const tree<D>& tree) {
     const std::uint32_t* const ids = tree.ids().data();
-    return pairs_of_tree(self_search<D>(tree), ids, ids);
+    return pairs_of_tree(self_search_chunks<D>(tree), ids, ids);
 }
 
 /// The pairs of parts that may have pairs of primitives, ascending; each part is also paired with
@@ -170,13 +170,13 @@ template <tree_of_trees Trees>
 template <tree_of_trees Trees>
 [[nodiscard]] auto self_pairs(const Trees& trees) {
     constexpr std::size_t D = Trees::dimensions;
-    pairs_of_parts<self_search<D>, pair_search<D>> pairs;
+    pairs_of_parts<self_search_chunks<D>, pair_search_chunks<D>> pairs;
     const auto add = [&](std::uint32_t x, std::uint32_t y) {
         const tree<D>&a = trees.part(x), &b = trees.part(y);
         if (x == y)
-            pairs.add(self_search<D>(a), a.ids().data(), a.ids().data());
+            pairs.add(self_search_chunks<D>(a), a.ids().data(), a.ids().data());
         else
-            pairs.add(pair_search<D>(a, b), a.ids().data(), b.ids().data());
+            pairs.add(pair_search_chunks<D>(a, b), a.ids().data(), b.ids().data());
     };
     const auto prepare = [&](std::uint32_t x, std::uint32_t y) {
         (void)trees.part(x);
@@ -199,10 +199,10 @@ template <class State, any_tree Tree, class Apply>
 }
 
 /// The same for a `tree`, in blocks of candidates, `apply(state, block)`, to test several at once.
-/// A block has places in leaf order, not ids.
+/// A block has positions in leaf order, not ids.
 template <class State, std::size_t D, class Apply>
 [[nodiscard]] std::vector<State> search_self_broad(const tree<D>& tree, const Apply& apply) {
-    return detail::search_states<State>(self_search<D>(tree),
+    return detail::search_states<State>(self_search_chunks<D>(tree),
                                         [&](State& state, const candidate_block& block) {
                                             return detail::asks_to_stop(apply, state, block);
                                         });
@@ -220,7 +220,7 @@ template <any_tree Tree, class Accept>
             });
     else
         return detail::search_for_any(
-            self_search<Tree::dimensions>(tree), [&](const candidate_block& block) {
+            self_search_chunks<Tree::dimensions>(tree), [&](const candidate_block& block) {
                 const std::uint32_t* const ids = tree.ids().data();
                 return detail::any_of_block<false>(block, ids, ids, accept);
             });

@@ -49,7 +49,7 @@ struct two_trees {
 ///
 /// \source Sajovic, Knez and Korez, tf::tree, Algorithm 2; one box against eight at a time
 template <std::size_t D>
-class TREEFORM_API pair_search {
+class TREEFORM_API pair_search_chunks {
   public:
     /// Boxes of a moved tree count as overlapping if the axis-aligned boxes around them do. With
     /// `in_both_frames`, the same must hold in the frame of the moved tree: about a quarter fewer
@@ -57,7 +57,8 @@ class TREEFORM_API pair_search {
     /// unless exactly one of the trees is moved.
     ///
     /// \pre the trees outlive the search and are not rebuilt meanwhile
-    pair_search(const transformed<D>& a, const transformed<D>& b, bool in_both_frames = false);
+    pair_search_chunks(const transformed<D>& a, const transformed<D>& b,
+                       bool in_both_frames = false);
 
     [[nodiscard]] std::size_t chunks() const;
 
@@ -87,7 +88,7 @@ namespace detail {
 
 template <std::size_t D>
 [[nodiscard]] auto pairs_of(const transformed<D>& a, const transformed<D>& b) {
-    return pairs_of_tree(pair_search<D>(a, b), a.original().ids().data(),
+    return pairs_of_tree(pair_search_chunks<D>(a, b), a.original().ids().data(),
                          b.original().ids().data());
 }
 
@@ -101,14 +102,14 @@ template <std::size_t D, class A, class B>
 [[nodiscard]] auto pairs_of(const transformed<D, A>& first, const transformed<D, B>& second) {
     const trees_side<D, A> a(first);
     const trees_side<D, B> b(second);
-    pairs_of_parts<pair_search<D>> pairs;
+    pairs_of_parts<pair_search_chunks<D>> pairs;
     const auto prepare = [&](std::uint32_t x, std::uint32_t y) {
         (void)a.part(x);
         (void)b.part(y);
     };
     const auto add = [&](std::uint32_t x, std::uint32_t y) {
         const transformed<D> in_a = a.part(x), in_b = b.part(y);
-        pairs.add(pair_search<D>(in_a, in_b), in_a.original().ids().data(),
+        pairs.add(pair_search_chunks<D>(in_a, in_b), in_a.original().ids().data(),
                   in_b.original().ids().data());
     };
     for_parts(pairs_of_parts_of(a, b), prepare, add);
@@ -124,16 +125,16 @@ template <std::size_t D, class A, class B>
 /// the last one returned, and the states contain what a single thread would have found by then.
 ///
 /// Either side may be `transformed{tree, map}`.
-template <class State, any_placed_tree A, any_placed_tree B, class Apply>
+template <class State, any_tree_or_transformed A, any_tree_or_transformed B, class Apply>
 [[nodiscard]] std::vector<State> search(const A& a, const B& b, const Apply& apply) {
     return detail::pair_states<State>(detail::pairs_of(transformed(a), transformed(b)), apply);
 }
 
 /// The same for two `tree`s, in blocks of candidates, `apply(state, block)`, to test several at
-/// once. A block has places in leaf order, not ids.
-template <class State, placed_tree A, placed_tree B, class Apply>
+/// once. A block has positions in leaf order, not ids.
+template <class State, tree_or_transformed A, tree_or_transformed B, class Apply>
 [[nodiscard]] std::vector<State> search_broad(const A& a, const B& b, const Apply& apply) {
-    return detail::search_states<State>(pair_search<A::dimensions>(a, b),
+    return detail::search_states<State>(pair_search_chunks<A::dimensions>(a, b),
                                         [&](State& state, const candidate_block& block) {
                                             return detail::asks_to_stop(apply, state, block);
                                         });
@@ -146,13 +147,13 @@ namespace detail {
 ///
 /// A block may be passed twice. The first few thousand candidates are tested on one thread before
 /// the search is split, so that a collision that is easy to find costs little.
-template <placed_tree A, placed_tree B, class Accept>
+template <tree_or_transformed A, tree_or_transformed B, class Accept>
 [[nodiscard]] bool search_any_broad(const A& a, const B& b, const Accept& accept,
                                     bool in_both_frames = false) {
     constexpr std::size_t serially = 4096;
     bool found = false;
     std::size_t seen = 0;
-    pair_search<A::dimensions>::visit_all(
+    pair_search_chunks<A::dimensions>::visit_all(
         a, b,
         [&](const candidate_block& block) {
             found = accept(block);
@@ -161,16 +162,16 @@ template <placed_tree A, placed_tree B, class Accept>
         },
         in_both_frames);
     if (found || seen < serially) return found;
-    return detail::search_for_any(pair_search<A::dimensions>(a, b, in_both_frames), accept);
+    return detail::search_for_any(pair_search_chunks<A::dimensions>(a, b, in_both_frames), accept);
 }
 
 }  // namespace detail
 
 /// Whether `accept(a, b)` is true for some pair of primitives whose boxes overlap. `accept` is
 /// called from several threads, and may be called twice for a pair.
-template <any_placed_tree A, any_placed_tree B, class Accept>
+template <any_tree_or_transformed A, any_tree_or_transformed B, class Accept>
 [[nodiscard]] bool search_any(const A& first, const B& second, const Accept& accept) {
-    if constexpr (placed_tree<A> && placed_tree<B>) {
+    if constexpr (tree_or_transformed<A> && tree_or_transformed<B>) {
         const transformed<A::dimensions> a(first), b(second);
         const std::uint32_t* const ids_a = a.original().ids().data();
         const std::uint32_t* const ids_b = b.original().ids().data();
@@ -189,13 +190,13 @@ template <any_placed_tree A, any_placed_tree B, class Accept>
 
 /// The pairs (a, b) of primitives whose boxes overlap and for which `accept(a, b)` is true,
 /// ascending. `accept` is called from several threads.
-template <any_placed_tree A, any_placed_tree B, class Accept>
+template <any_tree_or_transformed A, any_tree_or_transformed B, class Accept>
 [[nodiscard]] std::vector<id_pair> search_all(const A& a, const B& b, const Accept& accept) {
     return detail::all_pairs<false>(detail::pairs_of(transformed(a), transformed(b)), accept);
 }
 
 /// The pairs whose boxes, as stored in the trees, overlap.
-template <any_placed_tree A, any_placed_tree B>
+template <any_tree_or_transformed A, any_tree_or_transformed B>
 [[nodiscard]] std::vector<id_pair> search_all(const A& a, const B& b) {
     return search_all(a, b, detail::every_pair);
 }

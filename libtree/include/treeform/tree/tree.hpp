@@ -41,9 +41,9 @@ struct tree_frame {
 /// last of its level.
 ///
 /// The shape follows from N alone and is not stored. `ids()` is a permutation of the primitives.
-/// Leaf block i has the boxes of the primitives at places 8i ... 8i+7: slot s has the box of
+/// Leaf block i has the boxes of the primitives at positions 8i ... 8i+7: slot s has the box of
 /// ids()[8i + s]. On the levels above, node i holds the boxes of its children, nodes 8i ... 8i+7 of
-/// the level below. Level 0 is the root. So node i of level l covers the places [i * capacity(l),
+/// the level below. Level 0 is the root. So node i of level l covers the positions [i * capacity(l),
 /// (i + 1) * capacity(l)), up to N, and every level has an eighth of the nodes of the level below
 /// it. Memory: 32 bytes a primitive with D = 3, 23 with D = 2, ids included, plus up to one partly
 /// filled node for each level. The tree owns its data; copies are deep.
@@ -179,7 +179,7 @@ class transformed {
     transformed(const Tree& tree) : tree_(&tree) {}  // NOLINT: meant to be implicit
 
     [[nodiscard]] const Tree& original() const { return *tree_; }
-    [[nodiscard]] const transform<D>& by() const { return by_; }
+    [[nodiscard]] const transform<D>& map() const { return by_; }
     [[nodiscard]] bool moves() const { return by_ != transform<D>{}; }
 
   private:
@@ -203,11 +203,11 @@ inline constexpr bool is_transformed<transformed<D, Tree>> = true;
 
 /// Either side of a search of two `tree`s: a `tree` or a `transformed` tree.
 template <class T>
-concept placed_tree = detail::is_tree<T> || std::same_as<T, transformed<T::dimensions>>;
-static_assert(placed_tree<tree<3>> && placed_tree<transformed<2>>);
+concept tree_or_transformed = detail::is_tree<T> || std::same_as<T, transformed<T::dimensions>>;
+static_assert(tree_or_transformed<tree<3>> && tree_or_transformed<transformed<2>>);
 
 /// The same for any kind of tree.
 template <class T>
-concept any_placed_tree = any_tree<T> || detail::is_transformed<T>;
+concept any_tree_or_transformed = any_tree<T> || detail::is_transformed<T>;
 
 }  // namespace treeform

@@ -24,9 +24,9 @@ class trees_side {
   public:
     explicit trees_side(const transformed<D, Trees>& at) : at_(at) {}
 
-    [[nodiscard]] transformed<D> top() const { return {at_.original().top(), at_.by()}; }
+    [[nodiscard]] transformed<D> top() const { return {at_.original().top(), at_.map()}; }
     [[nodiscard]] transformed<D> part(std::uint32_t number) const {
-        return {at_.original().part(number), at_.by()};
+        return {at_.original().part(number), at_.map()};
     }
 
   private:
@@ -42,7 +42,7 @@ class trees_side<D, tree<D>> {
         top_ = tree_in_order(std::span(&box, 1));
     }
 
-    [[nodiscard]] transformed<D> top() const { return {top_, at_.by()}; }
+    [[nodiscard]] transformed<D> top() const { return {top_, at_.map()}; }
     [[nodiscard]] transformed<D> part(std::uint32_t) const { return at_; }
 
   private:
