@@ -132,8 +132,8 @@ TREEFORM_C_API treeform_code treeform_clash(const treeform_mesh* const* parts, s
                                             const treeform_clash_options* options,
                                             treeform_clashes** clashes);
 
-/// All pairs of parts of which one matches the pattern `first` by its name, and the other the
-/// pattern `second`; * matches any characters, ? one character. [count / 2][2], for
+/// All pairs of a part whose name matches the pattern `first` and one whose name matches `second`;
+/// * matches any characters, ? one character. Two numbers for each pair, for
 /// `treeform_clash_options::ignored`.
 TREEFORM_C_API treeform_code treeform_pairs_named(const char* const* names, size_t count,
                                                   const char* first, const char* second,
