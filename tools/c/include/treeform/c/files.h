@@ -403,7 +403,7 @@ typedef struct treeform_robot_mesh {
 /// joint.
 typedef struct treeform_robot_joint {
     const char* name;
-    int32_t kind;
+    int32_t kind;     ///< 0 fixed, 1 revolute, 2 continuous, 3 prismatic
     uint32_t parent;  ///< numbers of links
     uint32_t child;
     double lower;  ///< least value; NaN without limits
