@@ -203,11 +203,15 @@ BOUND = [
     Bound("clash_options"),
     Bound("contact_region", kind="part",
           counts={"faces_a": "face_count_a", "faces_b": "face_count_b"}),
-    Bound("part_clash", kind="part", custom={"nearest": [
-        Member("double on_a[3]", "for parts that are too close: the nearest point on a; else NaN",
-               "copy(from.nearest ? (*from.nearest)[0] : nowhere, to.on_a);"),
-        Member("double on_b[3]", "the same on b",
-               "copy(from.nearest ? (*from.nearest)[1] : nowhere, to.on_b);")]}),
+    Bound("part_clash", kind="part", custom={
+        "relation": [Member("treeform_mesh_relation relation", "touching, penetrating or too close",
+                            "to.relation = static_cast<treeform_mesh_relation>(from.relation);")],
+        "nearest": [
+            Member("double on_a[3]",
+                   "for parts that are too close: the nearest point on a; else NaN",
+                   "copy(from.nearest ? (*from.nearest)[0] : nowhere, to.on_a);"),
+            Member("double on_b[3]", "the same on b",
+                   "copy(from.nearest ? (*from.nearest)[1] : nowhere, to.on_b);")]}),
     Bound("clash_result", "clashes", counts={"pairs": "count"}),
     Bound("pose_clash", kind="same"),
     # files.h
@@ -256,6 +260,8 @@ BOUND = [
                              "[F] with `details`: component of each face; else null",
                              "to.component = or_null(from.component);")]}),
     Bound("urdf_joint", "robot_joint", "part", leave="origin axis mimics mimic_line", custom={
+        "kind": [Member("int32_t kind", "0 fixed, 1 revolute, 2 continuous, 3 prismatic",
+                        "to.kind = static_cast<int32_t>(from.kind);")],
         "limits": [Member("double lower", "least value; NaN without limits",
                           "to.lower = from.limits ? (*from.limits)[0] : not_known;"),
                    Member("double upper", "greatest value",

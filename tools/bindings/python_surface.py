@@ -95,7 +95,8 @@ RESULTS = [
            leave="face_of_cut_vertex vanished_at",
            docs={"mesh": "Faces are counter-clockwise from outside.",
                  "certificate": "The outcome of checking its coordinates.",
-                 "face_source": "(F, 2) the lowest operand, and its face, that contain each face.",
+                 "face_source": "(F, 2) for each face, the lowest operand and operand face "
+                                "that contain it.",
                  "vertex_source": "(V, 2) the lowest operand, and its vertex, equal to each "
                                   "vertex; `NONE` for new vertices."},
            custom={"volumes": [Attribute(
@@ -443,8 +444,7 @@ RESULTS = [
                       "std::array{one.a, one.b}"),
                      ("relation", "NDArray[np.uint8]", "(n,) uint8: their relation, an index into "
                       "`RELATIONS`.", "one.relation"),
-                     ("distance", "Floats", "(n,) of those that are closer than the clearance; "
-                                            "else "
+                     ("distance", "Floats", "(n,) for parts that are closer than the clearance; else "
                       "0.", "one.distance"))]]}),
     Result("clash_result", "ClashResult", "_assembly", leave="ignored parts_indexed",
            doc="The clashes of all parts of an assembly.",

@@ -57,8 +57,8 @@ _SEARCH = {"kinds": "as for `self_intersections`.",
 _IN_STEPS = ("`{}` in steps, for many processes on one machine or on several that share a folder, "
              "such as those of Dask, Slurm or `multiprocessing`.\n\nAll processes create it with "
              "the same arguments. One process calls `scatter`; then each calls `{}` for some of "
-             "the tiles; when all are done, one calls `finish` and `remove_folder`. Tiles that are "
-             "finished are not {} again.")
+             "the tiles; when all tiles are finished, one calls `finish` and `remove_folder`. "
+             "Tiles that are finished are not {} again.")
 _FIXED = "a fixed body, or a list of them."
 _BODIES = "`a` and `b` are each a mesh or a cloud (n, 3). Points of a cloud count as faces."
 
@@ -521,9 +521,9 @@ FUNCTIONS = [
             "options: placement_options)",
             "onto.empty() ? tf::drop($moving, options, $direction) : "
             "tf::drop($moving, $onto, options, $direction)", "bed",
-            doc="Moves `moving` down until it rests on the bed or on one of `onto`. Without "
-                "`onto`, a mesh below the bed goes up, back along the direction; with `onto`, it "
-                "has no place.",
+            doc="Moves `moving` down until it rests on the bed or on one of `onto`. A mesh "
+                "below the bed moves up to it, against the direction; but with `onto`, it has no "
+                "place.",
             docs={"onto": _FIXED, "direction": "(3,) the downward direction, of any length.",
                   "bed": "z of the bed. None: no bed if there are fixed bodies, otherwise a bed "
                          "at 0.",

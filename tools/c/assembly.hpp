@@ -55,8 +55,8 @@ inline tf::mesh_file put_back(treeform_bodies* bodies, std::size_t body, const d
     return set.file_of(body).content;
 }
 
-/// All pairs of parts of which one matches the pattern `first` by its name, and the other the
-/// pattern `second`; * matches any characters, ? one character. [count / 2][2], for
+/// All pairs of a part whose name matches the pattern `first` and one whose name matches `second`;
+/// * matches any characters, ? one character. Two numbers for each pair, for
 /// `treeform_clash_options::ignored`.
 inline std::vector<std::uint32_t> pairs_named(std::span<const std::string> names,
                                               const std::string& first, const std::string& second) {

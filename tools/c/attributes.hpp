@@ -38,8 +38,8 @@ inline std::span<const std::uint32_t> numbers(const std::uint32_t* data, std::si
     return all;
 }
 
-/// Gives `file`, whose mesh is a result of the `inputs` [count], their attributes: columns of
-/// vertices and faces, texture coordinates and normals, materials; from a single input, also the
+/// Transfers the attributes of the `inputs` [count] to `file`, whose mesh is their result: columns
+/// of vertices and faces, texture coordinates and normals, materials; from a single input, also the
 /// names of its parts. `face_source` [F], `vertex_source` [V] and `face_of_cut_vertex` ([V] or
 /// null) are members of a `treeform_boolean_result`.
 inline void carry(tf::mesh_file& file, const treeform_carry_source* inputs, std::size_t count,

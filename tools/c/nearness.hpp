@@ -108,9 +108,8 @@ inline void winding_number(const treeform_mesh* mesh, const double* points, std:
     locate(mesh, points, count, nullptr, winding, nullptr);
 }
 
-/// The same for closed curves in the plane: `points` [point_count][2], `edges` [edge_count][2] by
-/// point numbers, with the inside on their left; `queries` [count][2]. Answers as
-/// `treeform_locate`.
+/// Like `treeform_locate`, for closed curves in the plane: `points` [point_count][2], `edges`
+/// [edge_count][2] by point numbers, with the inside on their left; `queries` [count][2].
 inline void locate_in_curves(const double* points, std::size_t point_count,
                              const std::uint32_t* edges, std::size_t edge_count,
                              const double* queries, std::size_t count, std::uint8_t* where,

@@ -100,8 +100,8 @@ inline void shared_weld_tile(shared_weld& weld, std::size_t tile) {
 }
 
 /// Welds the points along the borders of tiles, and writes `output`, completely or not at all. All
-/// tiles must be finished. Needs to be the only handle on the folder, until it is freed; waits as
-/// `scatter`. `result` may be null.
+/// tiles must be finished. From this call until it is freed, the handle must be the only one on the
+/// folder; waits as `scatter` does. `result` may be null.
 inline void shared_weld_finish(treeform_shared_weld* weld, const char* output,
                                treeform_weld_stream_result** result) {
     if (result) *result = nullptr;
@@ -121,7 +121,7 @@ inline std::uint64_t memory_to_weld(const tf::mesh_file& file, std::uint64_t poi
     return tf::weld_stream_options::memory_to_weld(file, points);
 }
 
-/// The least memory in bytes with which they can be welded in tiles.
+/// The least memory in bytes with which `points` points can be welded in tiles.
 inline std::uint64_t memory_to_stream(const tf::mesh_file& file, std::uint64_t points) {
     return tf::weld_stream_options::memory_to_stream(file, points);
 }

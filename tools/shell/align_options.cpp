@@ -63,8 +63,9 @@ void add_align_options(command_line& line, tf::align_options& options) {
                 weights);
     line.option(o.method,
                 {"--metric", "M",
-                 "align: distances to a plane | point | planes, of both\n"
-                 "clouds | auto: planes for a fixed cloud, else plane",
+                 "align: what distances are measured to: plane (of the\n"
+                 "fixed surface) | point | planes (of both clouds) |\n"
+                 "auto (planes for a fixed cloud, else plane)",
                  "auto"},
                 metrics);
     line.option({"--starts", "N",
@@ -72,7 +73,7 @@ void add_align_options(command_line& line, tf::align_options& options) {
                  "principal axes (4), then rotations in all directions",
                  "1"},
                 [&o](std::string_view text) { o.starts = parse_number_of("--starts", text, 1); });
-    line.option({"--iterations", "N", "align: most iterations from each start", "100"},
+    line.option({"--iterations", "N", "align: largest number of steps from each start", "100"},
                 [&o](std::string_view text) {
                     o.max_iterations = parse_number_of("--iterations", text, 0);
                 });

@@ -33,7 +33,9 @@ void add_options(command_line& line, boolean_settings& s) {
     line.repeatable_option(s.matrix_texts,
                            {"--matrix", "N:FILE", "4x4 matrix for INPUT N (repeatable)"});
     line.option(s.fill_rule,
-                {"--fill-rule", "RULE", "winding numbers inside: nonzero |\neven-odd | positive",
+                {"--fill-rule", "RULE",
+                 "which winding numbers are inside: nonzero |\n"
+                 "even-odd | positive",
                  "nonzero"},
                 tools::fill_rules);
     line.flag(s.check, {"--check", "", "only check that the inputs bound solids"});
@@ -64,8 +66,8 @@ void add_outputs(command_line& line, boolean_settings& s, common_options& option
                            "properties P_mesh, P_face of a PLY or GLB",
                            "source"});
     line.flag(s.no_attributes, {"--no-attributes", "",
-                                "no colors, normals, uv or other properties, also of\n"
-                                "corners; no materials, no textures"});
+                                "omit colors, normals, uv and other properties, also\n"
+                                "of corners; omit materials and textures"});
     line.output(s.curves,
                 {"--curves", "FILE", "the lines along which the inputs meet, as OBJ or PLY"});
 }

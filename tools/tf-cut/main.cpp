@@ -157,7 +157,7 @@ int main(int argc, char** argv) {
     command_line line(
         "tf-cut", "MODE [OPTIONS] INPUT...",
         "Cut meshes by planes: sections, halves, pieces for a printer; extract their\n"
-        "parts, and measure them. Every verdict is exact.");
+        "parts, and measure them. Sides of planes and loops are decided exactly.");
     cut_settings s;
     common_options options;
     options.suffix = "-cut";

@@ -15,7 +15,7 @@ void add_distances(command_line& line, shape_settings& s) {
     line.option({"--distance", "D",
                  "simplify, offset: distance of the result from the\n"
                  "input; simplify stays within D; offset grows the solid\n"
-                 "by D, or shrinks it by -D"},
+                 "by D, or shrinks it if D is negative"},
                 [&s](std::string_view v) {
                     const bool shrinks = v.starts_with('-');
                     s.distance = parse_distance("--distance", v.substr(shrinks ? 1 : 0));
@@ -64,8 +64,8 @@ void add_options(command_line& line, cut_settings& s) {
                  "thickness, from the lowest point to the highest"},
                 [&s](std::string_view v) { s.layers = parse_number("--layers", v); });
     line.option(s.lines.value, {"--value", "NAME",
-                                "isolines: which value: height, above --at; distance,\n"
-                                "from --to, negative inside a closed mesh; or a\n"
+                                "isolines: the value: height (above --at), distance\n"
+                                "(from --to, negative inside a closed mesh), or a\n"
                                 "property of vertices, such as red or quality",
                                 "height"});
     line.option({"--to", "MESH", "isolines: the mesh from which distance is measured"},
@@ -111,11 +111,11 @@ void add_options(command_line& line, cut_settings& s) {
 void add_outputs(command_line& line, cut_settings& s) {
     line.group("Output");
     line.output(s.output, {"-o, --output", "FILE",
-                           "the result: lines as svg, dxf, obj or json (\"-\": json\n"
-                           "on standard output); pieces as meshes, or as objects\n"
-                           "of one 3MF, OBJ or GLB. With \"%d\" in the name, or\n"
-                           "\"%03d\" for leading zeros, each layer or piece gets\n"
-                           "its own file, with its number"});
+                           "the result: meshes, or lines as svg, dxf, obj or json\n"
+                           "(\"-\": json on standard output); several meshes become\n"
+                           "objects of one 3MF, OBJ or GLB. With \"%d\" in the\n"
+                           "name, or \"%03d\" for leading zeros, each layer or\n"
+                           "piece gets its own file, with its number"});
     line.option(s.caps, {"--caps", "P",
                          "half, pieces: write the plane number of each cap face\n"
                          "to property P of a PLY or GLB; -1 for other faces"});

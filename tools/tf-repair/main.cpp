@@ -66,7 +66,7 @@ void add_options(command_line& line, repair_settings& s) {
     line.option(
         {.names = "--fill-rule",
          .value = "RULE",
-         .text = "winding numbers inside: auto | nonzero |\neven-odd | positive",
+         .text = "which winding numbers are inside: auto | nonzero |\neven-odd | positive",
          .fallback = "auto",
          .offered = {"auto", "nonzero", "even-odd", "positive"}},
         [&s](std::string_view text) {
@@ -82,7 +82,7 @@ void add_options(command_line& line, repair_settings& s) {
     line.flag(s.check, {"--check", "",
                         "change nothing; list the defects; exit 1 if there\n"
                         "are any"});
-    line.group("Limits (nothing is written beyond them, exit 1)");
+    line.group("Limits (if one is exceeded, nothing is written; exit 1)");
     tools::add_max_loss(line, s.limits);
     tools::add_max_move(line, s.limits);
 }

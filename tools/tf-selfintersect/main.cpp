@@ -95,7 +95,9 @@ void add_repair(command_line& line, request& r) {
                          });
     line.option(r.repair.fill_rule,
                 {"--fill-rule", "RULE",
-                 "for outer: winding numbers inside: nonzero |\neven-odd | positive", "nonzero"},
+                 "for outer: which winding numbers are inside:\n"
+                 "nonzero | even-odd | positive",
+                 "nonzero"},
                 tools::fill_rules);
     line.flag(r.repair.keep_cuts, {"--keep-cuts", "",
                                    "for outer: do not merge coplanar faces that were\n"

@@ -35,7 +35,7 @@ void add_what_is_merged(command_line& line, weld_settings& s, bool& exact) {
                 [&s](std::string_view text) { tools::parse_rule(text, s.options); });
     line.offer("--rule", {"first", "chain"});
     line.option({"--same", "P[=TOL],...",
-                 "merge only points with equal P (or within TOL), such\n"
+                 "merge only points with equal P, or P within TOL, such\n"
                  "as --same classification,nx=0.01"},
                 [&s](std::string_view text) { s.options.same = tools::parse_same(text); });
     line.option({"--ignore-seams", "P,...",

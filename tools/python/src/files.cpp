@@ -238,7 +238,7 @@ but not lists and other elements.
         .def_property_readonly("corners", &corners,
                                "Values of the corners of faces: `texture` (n, 3) and "
                                "`texture_of_corner` (F, 3), "
-                               "which has numbers of rows of `texture`, or 4294967295; likewise "
+                               "which has row numbers in `texture`, or 4294967295; likewise "
                                "`normals`.")  // -> dict[str, NDArray[Any]]
         .def_property_readonly(
             "stored_face", &stored_face,

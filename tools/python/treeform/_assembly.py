@@ -300,7 +300,7 @@ class PoseClashes(Result):
 
     pose: (n,) the number of the pose, ascending.
     parts: (n, 2) the two parts, the lower number first.
-    distance: (n,) of those that are closer than the clearance; else 0.
+    distance: (n,) for parts that are closer than the clearance; else 0.
     in_collision: (P,) whether, in each pose, a pair penetrates or is too close; with a clearance,
         also whether a pair touches.
     clashing: Number of poses in collision.

@@ -67,7 +67,7 @@ class BooleanResult(MeshResult):
 
     mesh: Faces are counter-clockwise from outside.
     certificate: The outcome of checking its coordinates.
-    face_source: (F, 2) the lowest operand, and its face, that contain each face.
+    face_source: (F, 2) for each face, the lowest operand and operand face that contain it.
     vertex_source: (V, 2) the lowest operand, and its vertex, equal to each vertex; `NONE` for new
         vertices.
     volumes: With `volumes`: volumes of the first operand, the second, their union and their

@@ -96,7 +96,7 @@ class Attributes:
     @property
     def corners(self) -> dict[str, NDArray[Any]]:
         """Values of the corners of faces: `texture` (n, 3) and `texture_of_corner` (F, 3), which
-        has numbers of rows of `texture`, or 4294967295; likewise `normals`.
+        has row numbers in `texture`, or 4294967295; likewise `normals`.
         """
     @property
     def stored_face(self) -> Optional[Ids]:

@@ -289,7 +289,8 @@ def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: b
     drop: Columns of points to omit; "normal", "uv" or "color" for all columns of that kind, also of
         corners.
     rename: new names for columns of points: {'old': 'new'}.
-    las_scale: For LAS and LAZ; None: scale and offset of the file, else chosen by `write`.
+    las_scale: For LAS and LAZ: coordinates are multiples of this, plus the offset. By default those
+        of the file that was read, else chosen by `write`.
     las_offset: likewise.
     round: allow rounding certified coordinates (`Mesh.certificate`) to the precision of the file.
         The rounded mesh may no longer have the certified properties, so this is an error by

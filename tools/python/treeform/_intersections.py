@@ -90,8 +90,8 @@ class SharedSearch(InSteps[_core.SearchInSteps]):
     share a folder, such as those of Dask, Slurm or `multiprocessing`.
 
     All processes create it with the same arguments. One process calls `scatter`; then each calls
-    `search_tile` for some of the tiles; when all are done, one calls `finish` and `remove_folder`.
-    Tiles that are finished are not searched again.
+    `search_tile` for some of the tiles; when all tiles are finished, one calls `finish` and
+    `remove_folder`. Tiles that are finished are not searched again.
 
     The folder is locked until `close`, the end of a `with` block, or the end of the object.
     Pickling stores only the arguments. Steps in the wrong order raise FileError, invalid tiles
@@ -132,7 +132,7 @@ class SharedSearch(InSteps[_core.SearchInSteps]):
         return _core.search_of(path_of(given["path"]), how, progress=progress)
 
     def search_tile(self, tile: int, *, progress: Progress = None) -> None:
-        """Searches a tile, numbered from 0, unless this is done."""
+        """Searches a tile, numbered from 0, unless it is finished."""
         self._do_tile(tile, progress)
 
     def finish(self, *, progress: Progress = None) -> FilePairs:

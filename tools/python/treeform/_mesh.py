@@ -190,7 +190,7 @@ class Mesh:
 
     @property
     def bounds(self) -> Floats | None:
-        """(2, 3) the lowest and highest coordinates of the finite vertices, or None."""
+        """(2, 3) the lowest and highest coordinates of the finite vertices; None without any."""
         return _core.bounds(self._ready()._held)
 
     def show(self, *others: MeshLike, **look: Any) -> View:

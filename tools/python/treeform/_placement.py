@@ -203,8 +203,8 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
 def drop(moving: Body, onto: Any = None, *, direction: ArrayLike = (0, 0, -1),
          clearance: float = 0.0, max_travel: float | None = None, precision: str = "float64",
          bed: float | None = None, progress: Progress = None) -> Placement:
-    """Moves `moving` down until it rests on the bed or on one of `onto`. Without `onto`, a mesh
-    below the bed goes up, back along the direction; with `onto`, it has no place.
+    """Moves `moving` down until it rests on the bed or on one of `onto`. A mesh below the bed moves
+    up to it, against the direction; but with `onto`, it has no place.
 
     onto: a fixed body, or a list of them.
     direction: (3,) the downward direction, of any length.

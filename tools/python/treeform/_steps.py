@@ -109,7 +109,7 @@ class InSteps(Generic[_Work]):
         raise NotImplementedError
 
     def scatter(self, *, progress: Progress = None) -> int:
-        """Distributes the input to tiles, unless this is done. Returns the number of tiles."""
+        """Distributes the input to tiles, unless already done. Returns the number of tiles."""
         return self._work.scatter(progress=progress)
 
     def _do_tile(self, tile: int, progress: Progress) -> None:

@@ -79,8 +79,8 @@ class SharedWeld(InSteps[_core.WeldInSteps]):
     such as those of Dask, Slurm or `multiprocessing`.
 
     All processes create it with the same arguments. One process calls `scatter`; then each calls
-    `weld_tile` for some of the tiles; when all are done, one calls `finish` and `remove_folder`.
-    Tiles that are finished are not welded again.
+    `weld_tile` for some of the tiles; when all tiles are finished, one calls `finish` and
+    `remove_folder`. Tiles that are finished are not welded again.
 
     The folder is locked until `close`, the end of a `with` block, or the end of the object;
     `finish` requires that all others have unlocked it. Pickling stores only the arguments. Steps in
@@ -146,7 +146,7 @@ class SharedWeld(InSteps[_core.WeldInSteps]):
         return _core.weld_of(inputs, options(_core.WeldStreamOptions, given), progress=progress)
 
     def weld_tile(self, tile: int, *, progress: Progress = None) -> None:
-        """Welds a tile, numbered from 0, unless this is done."""
+        """Welds a tile, numbered from 0, unless it is finished."""
         self._do_tile(tile, progress)
 
     def finish(self, out: Path, *, removed: Path = "", label: str = "", withhold: bool = False,

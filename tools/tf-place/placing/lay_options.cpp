@@ -25,8 +25,8 @@ void add_lay_options(command_line& line, lay_settings& s) {
         {"--face-point", "X,Y,Z", "lay: on the side that contains this point"},
         [&s](std::string_view text) { s.options.point = parse_point("--face-point", text); });
     line.flag(s.options.most_stable, {"--stable", "",
-                                      "lay: on the side with the largest tip angle; of an\n"
-                                      "open mesh, the surface has the mass"});
+                                      "lay: on the side with the largest tip angle; the mass\n"
+                                      "of an open mesh is in its surface"});
     line.option(s.flatness, {"-t, --tolerance", "DIST",
                              "lay: points within DIST of the plane of a side belong\n"
                              "to the side and are moved onto it; 0: exactly coplanar\n"

@@ -40,9 +40,9 @@ void add_pack_options(command_line& line, pack_settings& s) {
     tf::pack_options& o = s.pack;
     line.option({"--size", "X,Y[,Z]",
                  "pack: size of the bed; with Z, of a box that is\n"
-                 "filled: parts also go above and into one another"},
+                 "filled: parts may be above and inside one another"},
                 [&o](std::string_view text) { o.size = parse_size3(text); });
-    line.flag(s.flat, {"--flat", "", "pack: all parts stand on the bed; Z is a limit"});
+    line.flag(s.flat, {"--flat", "", "pack: all parts stand on the bed; Z limits the height"});
     line.option({"--spacing", "DIST", "pack: least distance between parts", "2"},
                 [&o](std::string_view text) {
                     const distance spacing = parse_distance("--spacing", text);
@@ -65,7 +65,8 @@ void add_pack_options(command_line& line, pack_settings& s) {
     line.option(
         {"--tries", "N",
          "pack: try up to N orders and rotations, until all\n"
-         "parts are placed (on few plates)",
+         "parts are placed, on no more plates than their area\n"
+         "requires",
          "32"},
         [&o](std::string_view text) { o.tries = parse_at_most("--tries", text, 1'000'000); });
     line.option({"--time", "SEC",

@@ -85,13 +85,12 @@ typedef struct treeform_contact_region {
 
 /// Two parts that are not clear of each other.
 typedef struct treeform_part_clash {
-    uint32_t a;  ///< the lower number
-    uint32_t b;  ///< number of the second part
-    /// or `TREEFORM_RELATION_PENETRATING`, `TREEFORM_RELATION_CLOSER_THAN_CLEARANCE`
-    treeform_mesh_relation relation;
-    int32_t a_inside_b;   ///< as in `treeform_measure`
-    int32_t b_inside_a;   ///< the same with `a` and `b` swapped
-    double distance;      ///< distance of the surfaces; 0 if they meet
+    uint32_t a;                       ///< the lower number
+    uint32_t b;                       ///< number of the second part
+    treeform_mesh_relation relation;  ///< touching, penetrating or too close
+    int32_t a_inside_b;               ///< as in `treeform_measure`
+    int32_t b_inside_a;               ///< the same with `a` and `b` swapped
+    double distance;                  ///< distance of the surfaces; 0 if they meet
     double on_a[3];       ///< for parts that are too close: the nearest point on a; else NaN
     double on_b[3];       ///< the same on b
     uint64_t face_pairs;  ///< pairs of faces that meet
@@ -132,8 +131,8 @@ TREEFORM_C_API treeform_code treeform_clash(const treeform_mesh* const* parts, s
                                             const treeform_clash_options* options,
                                             treeform_clashes** clashes);
 
-/// All pairs of parts of which one matches the pattern `first` by its name, and the other the
-/// pattern `second`; * matches any characters, ? one character. [count / 2][2], for
+/// All pairs of a part whose name matches the pattern `first` and one whose name matches `second`;
+/// * matches any characters, ? one character. Two numbers for each pair, for
 /// `treeform_clash_options::ignored`.
 TREEFORM_C_API treeform_code treeform_pairs_named(const char* const* names, size_t count,
                                                   const char* first, const char* second,

@@ -16,9 +16,9 @@ typedef struct treeform_carry_source {
 // made of the headers of C++:
 //   carry() carry_one() face_groups() corner_groups() add_source_columns() color_distances()
 //   color_contacts()
-/// Gives `file`, whose mesh is a result of the `inputs` [count], their attributes: columns of
-/// vertices and faces, texture coordinates and normals, materials; from a single input, also the
-/// names of its parts. `face_source` [F], `vertex_source` [V] and `face_of_cut_vertex` ([V] or
+/// Transfers the attributes of the `inputs` [count] to `file`, whose mesh is their result: columns
+/// of vertices and faces, texture coordinates and normals, materials; from a single input, also
+/// the names of its parts. `face_source` [F], `vertex_source` [V] and `face_of_cut_vertex` ([V] or
 /// null) are members of a `treeform_boolean_result`.
 TREEFORM_C_API treeform_code treeform_carry(treeform_file* file,
                                             const treeform_carry_source* inputs, size_t count,

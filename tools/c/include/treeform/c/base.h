@@ -11,8 +11,8 @@
 ///
 /// Memory. Free all objects that functions create (meshes, files, trees, results) with
 /// `treeform_free`. Results are structs that own the arrays they point to, until they are freed.
-/// The first member of a result, `owner`, is internal. You keep ownership of arrays that you pass;
-/// functions do not use them after they return, unless their description says they borrow them.
+/// The first member of a result, `owner`, is internal. You keep ownership of arrays that you pass.
+/// No function uses them after its return, unless its description says that it borrows them.
 ///
 /// Options. Structs of options begin with `struct_size`: call their `..._init` with `sizeof`, then
 /// set members; null instead of options means the defaults. `{.struct_size = sizeof options}` alone
@@ -97,9 +97,9 @@ typedef int (*treeform_progress)(double done, void* data);
 /// `treeform_find_features`, queries of many points, rays, boxes or positions, and all pairs of
 /// points. Null, the default: none. A cancelled call has filled its arrays only partly.
 ///
-/// All other calls without a progress option cannot be stopped: they read or write a file once, or
-/// process one or two meshes or build a tree once (a million faces or points in less than half a
-/// second on two cores).
+/// Other calls without a progress option cannot be stopped. They read or write one file, process
+/// one or two meshes once, or build one tree: for a million faces or points, less than half a
+/// second on two cores.
 TREEFORM_C_API void treeform_set_progress(treeform_progress progress, void* data);
 
 /// Receives the bytes sent by one process of a communicator: `bytes` [count].

@@ -242,8 +242,8 @@ typedef struct treeform_write_options {
     /// [rename_count] Renamed columns of points, as pairs (new name, present name).
     const treeform_named_column* rename;
     size_t rename_count;
-    /// [3] For LAS and LAZ; `TREEFORM_NONE`: scale and offset of the file, else chosen by
-    /// `treeform_write`; or null
+    /// [3] For LAS and LAZ: coordinates are multiples of this, plus the offset. By default those
+    /// of the file that was read, else chosen by `treeform_write`; or null
     const double* las_scale;
     const double* las_offset;  ///< [3]; or null
 } treeform_write_options;
@@ -320,7 +320,7 @@ typedef struct treeform_part_options {
     /// equal points.
     double tolerance;
     const treeform_box* box;  ///< only faces that have a point in the box; or null
-    int32_t details;          ///< also compute `component` and `distinct`
+    int32_t details;          ///< also compute `component`, and count different points
 } treeform_part_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_part_options_init(treeform_part_options* options, size_t size);
@@ -403,7 +403,7 @@ typedef struct treeform_robot_mesh {
 /// joint.
 typedef struct treeform_robot_joint {
     const char* name;
-    int32_t kind;
+    int32_t kind;     ///< 0 fixed, 1 revolute, 2 continuous, 3 prismatic
     uint32_t parent;  ///< numbers of links
     uint32_t child;
     double lower;  ///< least value; NaN without limits

@@ -72,9 +72,8 @@ TREEFORM_C_API treeform_code treeform_winding_number(const treeform_mesh* mesh,
                                                      const double* points, size_t count,
                                                      int32_t* winding);
 
-/// The same for closed curves in the plane: `points` [point_count][2], `edges` [edge_count][2] by
-/// point numbers, with the inside on their left; `queries` [count][2]. Answers as
-/// `treeform_locate`.
+/// Like `treeform_locate`, for closed curves in the plane: `points` [point_count][2], `edges`
+/// [edge_count][2] by point numbers, with the inside on their left; `queries` [count][2].
 TREEFORM_C_API treeform_code treeform_locate_in_curves(const double* points, size_t point_count,
                                                        const uint32_t* edges, size_t edge_count,
                                                        const double* queries, size_t count,

@@ -125,8 +125,8 @@ TREEFORM_C_API treeform_code treeform_shared_weld_unfinished(treeform_shared_wel
 TREEFORM_C_API treeform_code treeform_shared_weld_tile(treeform_shared_weld* weld, size_t tile);
 
 /// Welds the points along the borders of tiles, and writes `output`, completely or not at all. All
-/// tiles must be finished. Needs to be the only handle on the folder, until it is freed; waits as
-/// `scatter`. `result` may be null.
+/// tiles must be finished. From this call until it is freed, the handle must be the only one on
+/// the folder; waits as `scatter` does. `result` may be null.
 TREEFORM_C_API treeform_code treeform_shared_weld_finish(treeform_shared_weld* weld,
                                                          const char* output,
                                                          treeform_weld_stream_result** result);
@@ -145,7 +145,7 @@ TREEFORM_C_API uint64_t treeform_default_memory(void);
 TREEFORM_C_API treeform_code treeform_memory_to_weld(const treeform_file* file, uint64_t points,
                                                      uint64_t* result);
 
-/// The least memory in bytes with which they can be welded in tiles.
+/// The least memory in bytes with which `points` points can be welded in tiles.
 TREEFORM_C_API treeform_code treeform_memory_to_stream(const treeform_file* file, uint64_t points,
                                                        uint64_t* result);
 // end
