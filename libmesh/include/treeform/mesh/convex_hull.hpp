@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The exact convex hull of points, and its flat sides; the smallest box around points.
+/// The exact convex hull of points, and its flat sides; a small box in any orientation around
+/// points.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
