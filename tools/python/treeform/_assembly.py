@@ -122,7 +122,7 @@ def intersects(a: Body, b: Body, *, move_a: ArrayLike | None = None,
 
 def distance(a: Body, b: Body, *, move_a: ArrayLike | None = None, move_b: ArrayLike | None = None,
              radius: float = np.inf, progress: Progress = None) -> Any:
-    """The distance of the surfaces `a` and `b`; infinite if `closest_points` returns None.
+    """The distance between the surfaces `a` and `b`; infinite if `closest_points` returns None.
 
     `a` and `b` are each a mesh or a cloud (n, 3). Points of a cloud count as faces.
 
@@ -320,10 +320,9 @@ def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0,
                 progress: Progress = None) -> PoseClashes:
     """The clashes in each of many poses.
 
-    Exact, like `clash` and `measure`, for the moved corners, rounded to double. Parts are not
-    copied or indexed again for a pose, with these exceptions, in which two parts are tested as
-    moved copies: they touch, a corner of one is so near the surface of the other that rounding
-    might change its side, or a transform is not a rigid motion.
+    Exact, like `clash` and `measure`, for the moved corners, rounded to double. Two parts are only
+    copied and indexed again for a pose if they touch, if a corner of one is so near the surface of
+    the other that rounding might change its side, or if a transform is not a rigid motion.
 
     poses: (P, N, 4, 4) for each of P poses, an affine transform for each of the N parts; or (P, 4,
         4), to move only the first part.

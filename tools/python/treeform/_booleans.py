@@ -94,12 +94,11 @@ def union(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str = "flo
     fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
-    max_displacement: Where rounding makes faces meet, only points at most this far apart are
-        joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
-        coordinate. Not negative.
+    max_displacement: Where rounding makes faces meet, only points at most this far apart, in the
+        mesh's length unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
-        merged, before rounding, which removes vertices inside a flat region, and on a straight edge
-        between two. Uncut faces are not changed. `split` keeps all cuts.
+        merged before rounding, which removes vertices inside a flat region and on straight edges
+        between two regions. Uncut faces are not changed. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
@@ -117,8 +116,8 @@ def union(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str = "flo
     operands.
 
     Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
-    manifolds that meet in few places, the cost of finding these (once for a `Mesh`) and of a copy.
-    A `gap` adds O(P) for the P pairs of faces whose boxes are that near.
+    manifolds that meet in few places: finding these (once for a `Mesh`) and a copy. A `gap` adds
+    O(P) for the P pairs of faces whose boxes are that near.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -141,12 +140,11 @@ def intersection(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str
     fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
-    max_displacement: Where rounding makes faces meet, only points at most this far apart are
-        joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
-        coordinate. Not negative.
+    max_displacement: Where rounding makes faces meet, only points at most this far apart, in the
+        mesh's length unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
-        merged, before rounding, which removes vertices inside a flat region, and on a straight edge
-        between two. Uncut faces are not changed. `split` keeps all cuts.
+        merged before rounding, which removes vertices inside a flat region and on straight edges
+        between two regions. Uncut faces are not changed. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
@@ -159,7 +157,7 @@ def intersection(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str
     that is not finite or beyond 2^1000.
 
     Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
-    manifolds that meet in few places, the cost of finding these (once for a `Mesh`) and of a copy.
+    manifolds that meet in few places: finding these (once for a `Mesh`) and a copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -184,12 +182,11 @@ def difference(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str =
     fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
-    max_displacement: Where rounding makes faces meet, only points at most this far apart are
-        joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
-        coordinate. Not negative.
+    max_displacement: Where rounding makes faces meet, only points at most this far apart, in the
+        mesh's length unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
-        merged, before rounding, which removes vertices inside a flat region, and on a straight edge
-        between two. Uncut faces are not changed. `split` keeps all cuts.
+        merged before rounding, which removes vertices inside a flat region and on straight edges
+        between two regions. Uncut faces are not changed. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
@@ -202,7 +199,7 @@ def difference(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str =
     that is not finite or beyond 2^1000.
 
     Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
-    manifolds that meet in few places, the cost of finding these (once for a `Mesh`) and of a copy.
+    manifolds that meet in few places: finding these (once for a `Mesh`) and a copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -227,12 +224,11 @@ def symmetric_difference(*meshes: MeshesLike, fill_rule: str = "nonzero",
     fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
-    max_displacement: Where rounding makes faces meet, only points at most this far apart are
-        joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
-        coordinate. Not negative.
+    max_displacement: Where rounding makes faces meet, only points at most this far apart, in the
+        mesh's length unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
-        merged, before rounding, which removes vertices inside a flat region, and on a straight edge
-        between two. Uncut faces are not changed. `split` keeps all cuts.
+        merged before rounding, which removes vertices inside a flat region and on straight edges
+        between two regions. Uncut faces are not changed. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
@@ -245,7 +241,7 @@ def symmetric_difference(*meshes: MeshesLike, fill_rule: str = "nonzero",
     that is not finite or beyond 2^1000.
 
     Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
-    manifolds that meet in few places, the cost of finding these (once for a `Mesh`) and of a copy.
+    manifolds that meet in few places: finding these (once for a `Mesh`) and a copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -270,9 +266,8 @@ def boolean(expression: str, *operands: MeshesLike, fill_rule: str = "nonzero",
 
     Each operand must bound a solid: after cutting, the signed face count of every edge is zero.
     Operands may overlap themselves, touch, be nested, be equal, consist of parts, be inside out or
-    empty. Their corners with equal coordinates are one vertex. Where parts of the result touch in
-    an edge or at a vertex, each part has its own vertices there, with equal coordinates, so that
-    every edge has two faces.
+    empty. Their corners with equal coordinates are one vertex. Where parts of the result touch,
+    each has its own vertices, with equal coordinates, so that every edge has two faces.
 
     Attributes of the operands are carried over. A face gets the values of the operand face that it
     lies in; a new vertex on a cut gets interpolated values. The value is 0 or NaN if an operand
@@ -285,12 +280,11 @@ def boolean(expression: str, *operands: MeshesLike, fill_rule: str = "nonzero",
     fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
-    max_displacement: Where rounding makes faces meet, only points at most this far apart are
-        joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
-        coordinate. Not negative.
+    max_displacement: Where rounding makes faces meet, only points at most this far apart, in the
+        mesh's length unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
-        merged, before rounding, which removes vertices inside a flat region, and on a straight edge
-        between two. Uncut faces are not changed. `split` keeps all cuts.
+        merged before rounding, which removes vertices inside a flat region and on straight edges
+        between two regions. Uncut faces are not changed. `split` keeps all cuts.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
@@ -303,7 +297,7 @@ def boolean(expression: str, *operands: MeshesLike, fill_rule: str = "nonzero",
     that is not finite or beyond 2^1000.
 
     Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
-    manifolds that meet in few places, the cost of finding these (once for a `Mesh`) and of a copy.
+    manifolds that meet in few places: finding these (once for a `Mesh`) and a copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -327,16 +321,15 @@ def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", fill_rule:
     fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
-    max_displacement: Where rounding makes faces meet, only points at most this far apart are
-        joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
-        coordinate. Not negative.
+    max_displacement: Where rounding makes faces meet, only points at most this far apart, in the
+        mesh's length unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
-        merged, before rounding, which removes vertices inside a flat region, and on a straight edge
-        between two. Uncut faces are not changed. `split` keeps all cuts.
+        merged before rounding, which removes vertices inside a flat region and on straight edges
+        between two regions. Uncut faces are not changed. `split` keeps all cuts.
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
-    certified; ValueError as `boolean`.
+    certified; ValueError as `boolean`; if there is no operand number `sheet`.
 
     Cost: as `boolean`; faces of solids whose boxes overlap no face of the sheet are skipped.
 
@@ -360,9 +353,8 @@ def split(*meshes: MeshesLike, precision: str = "float64", max_displacement: flo
     meshes: each argument is a mesh or a list of meshes.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
-    max_displacement: Where rounding makes faces meet, only points at most this far apart are
-        joined, in the mesh's length unit, and never points further apart than 2^-10 of the largest
-        coordinate. Not negative.
+    max_displacement: Where rounding makes faces meet, only points at most this far apart, in the
+        mesh's length unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotCertifiedError if the result could not be certified.

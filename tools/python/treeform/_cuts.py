@@ -162,11 +162,12 @@ def section(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0
     faces touch; at an edge of four or more faces, segments that bound the same wedge of the solid
     are joined. Where the mesh has a border, polylines are open; across inconsistently oriented
     neighbors they continue, but are not `oriented`. If faces cross each other, so do loops:
-    `parent` is then that of one point of the loop, and areas count as often as the surface winds
-    around them. Corners with equal coordinates are one.
+    `parent` is then the innermost loop around one point of the loop, and areas count as often as
+    the surface winds around them. Corners with equal coordinates are one.
 
-    Between exactly coplanar faces a straight loop has no point: the section of a box has four. The
-    segment after a point begins in the face in `faces`, and may continue in others.
+    Where a loop runs straight from one face to a coplanar one, it has no point: the section of a
+    box has four. The segment after a point begins in the face in `faces`, and may continue in
+    others.
 
     Loops are in the order of their lowest faces.
 
@@ -214,7 +215,7 @@ class CutPiece(MadeMesh):
 
     face_source: (F,) input face that contains each face; `NONE`: a cap.
     vertex_source: (V,) input vertex equal to each vertex; `NONE`: new.
-    cap: (F,) for faces of a cap, the number of its plane, from the lowest; else `NONE`.
+    cap: (F,) for faces of a cap, the number of its plane (0: the lowest); else `NONE`.
     """
 
     face_source: Ids
@@ -229,10 +230,10 @@ def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0)
     """The pieces of a mesh below, between and above planes at `heights` above a plane.
 
     The side of each vertex is decided exactly, on the coordinates as given. A face in a plane
-    belongs to the side of its solid. The section of the solid in a plane becomes a cap, the same on
-    both sides. Only points on cuts are rounded, once; each piece is checked like a result of
-    `boolean`. Caps across an axis stay flat and equal when rounded; others may bend by a step of
-    the precision.
+    belongs to the piece that it bounds. The section of the solid in a plane becomes a cap, the same
+    on both sides. Only points on cuts are rounded, once; each piece is checked like a result of
+    `boolean`. Caps perpendicular to an axis stay flat and equal when rounded; others may bend by a
+    unit in the last place.
 
     With caps, the mesh must bound a solid, like an operand of `boolean`. If it meets itself, or has
     parts that are inside out or hidden in others, it is first replaced by the solid that it winds
@@ -271,11 +272,10 @@ def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0)
 def cut_to_fit(mesh: MeshLike, size: ArrayLike, *, precision: str = "float64",
                max_displacement: float = np.inf, caps: bool = True, check: bool = True,
                progress: Progress = None) -> CutPieces:
-    """Pieces that fit into a box of this size. They are cut by planes across x, then y, then z: as
-    few as possible for each axis, equally spaced up to rounding, and none for an axis with infinite
-    size. Pieces without faces are omitted; the others are ordered by x, then y, then z. Planes are
-    numbered across x first, then y, then z. Cuts across y and z cut the rounded pieces of the cuts
-    before.
+    """Pieces that fit into a box of this size. They are cut by planes perpendicular to x, then y,
+    then z: as few as possible for each axis, equally spaced up to rounding, and none for an axis
+    with infinite size. Pieces without faces are omitted; the others are ordered by x, then y, then
+    z. Planes are numbered in the same order. Later cuts cut the rounded pieces of earlier ones.
 
     size: (3,) the size of the box, such as the build volume of a printer.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
@@ -286,8 +286,8 @@ def cut_to_fit(mesh: MeshLike, size: ArrayLike, *, precision: str = "float64",
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotSolidError if the mesh is open, NotCertifiedError if the result could not be
-    certified; ValueError as `cut`; for a size that is not positive; for more than 2^16 planes
-    across an axis, or possibly more than 2^20 pieces.
+    certified; ValueError as `cut`; for a size that is not positive; for more than 2^16 planes for
+    an axis, or possibly more than 2^20 pieces.
 
     >>> import treeform
     >>> len(treeform.cut_to_fit(treeform.read("data/cube.stl"), (0.5, 0.4, 2)))
@@ -305,8 +305,9 @@ def cut_along(mesh: MeshLike, values: ArrayLike, levels: ArrayLike, *, check: bo
     surfaces with common border points, and together cover the mesh. Only new points are rounded, by
     less than a step of their largest coordinate.
 
-    The certificate lists faces of all pieces together that meet beyond common corners and edges,
-    because faces of the mesh do, or by rounding. Its face numbers count through all pieces.
+    The certificate is that of all pieces together. It lists faces that meet beyond common corners
+    and edges, because faces of the mesh do, or by rounding. Its face numbers count through all
+    pieces.
 
     values: (V,) a value for each vertex, interpolated linearly over each face.
     levels: (K,) the values to cut at.

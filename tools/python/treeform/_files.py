@@ -152,8 +152,8 @@ def read(path: Path | IO[bytes], format: str = "", *, join: bool = True,
     - Text without a header (XYZ, CSV): the first line may name the columns. Then x, y and z may be
       any columns; names such as easting, northing and elevation are accepted with a warning,
       latitude and longitude are refused. `columns` assigns columns explicitly. An empty cell, or
-      one with text, is NaN. A column of integers beyond 2^53 has 64-bit integers. Columns of colors
-      have 8 or 16 bits if all values are integers in that range.
+      one with text, is NaN. A column with an integer beyond 2^53 gets a 64-bit integer type.
+      Columns of colors have 8 or 16 bits if all values are integers in that range.
     - PTS: as XYZ. If the first line is the number of points, 4 columns are x y z intensity, 6 are x
       y z red green blue, and 7 have both. More points than announced are read with a warning; fewer
       are an error. The format is reported as "xyz".

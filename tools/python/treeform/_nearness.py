@@ -282,8 +282,8 @@ class Deviation(Result):
     mean_absolute: Mean of their magnitudes.
     rms: Root mean square of the distances.
     p50: Median of the magnitudes: the least value that half of them do not exceed.
-    p95: The same for 95 % of them.
-    p99: The same for 99 % of them.
+    p95: The same for 95% of them.
+    p99: The same for 99% of them.
     max: The largest magnitude.
     worst: The lowest point number with that magnitude.
     lowest: The least signed distance.

@@ -77,15 +77,15 @@ class Placement(MeshResult):
     travel: Distance moved; for `too_far` the distance needed.
     relation_at_start: Exact: 'separate', 'touching', 'penetrating', 'closer_than_clearance' or
         'clear'.
-    relation: The same at the place: 'separate', 'touching', 'penetrating', 'closer_than_clearance'
+    relation: Relation at the place: 'separate', 'touching', 'penetrating', 'closer_than_clearance'
         or 'clear'.
     contacts: Pairs of faces that touch in the final position, or are at the clearance.
     contact_count: Number of all contacts, listed or not.
     nearest: The relation, at the place, of the moving mesh (`a`) to the fixed mesh that it
         penetrates, else to one that it touches, else to the nearest. None if all are too far away.
     certificate: The outcome of checking the coordinates.
-    effort: For `separate`: the effort of its search. If `skipped_candidates` is not 0, a shorter
-        translation may exist or, if no place was found, a place.
+    effort: For `separate`: the effort of its search. If `skipped_candidates` is not 0, there may be
+        a shorter translation, or a place although none was found.
     angle: For `turn` and `mate_features`: angle of the rotation, in degrees.
     tolerance: For `turn`: the gap, beyond the clearance, that counts as contact.
     offset: For `mate_features`: the distance of the moving feature's center from the fixed
@@ -255,7 +255,7 @@ def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float |
 def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: float | None = None,
              precision: str = "float64", effort: int = 0, progress: Progress = None) -> Placement:
     """Translates `moving` to a place where it penetrates none of `fixed` and keeps the clearance.
-    It stays if it already does.
+    If it already does, it stays.
 
     About fifty directions are tried: the axes, away from the nearest points, normals of faces that
     meet, and others around the best. The nearest of the places found is returned, if its
@@ -305,7 +305,8 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
 
     `travel` is 0, and vertices differ from `matrix` by a few units in the last place of the largest
     coordinate. `contacts` are the pairs of faces within the tolerance, beyond the clearance.
-    `Placement.relation` is exact: separate, in general, by no more than the tolerance.
+    `Placement.relation` is exact: in general separate, by at most the tolerance beyond the
+    clearance.
 
     Points that no face uses turn along and are otherwise ignored; points without any face are a
     cloud.
@@ -346,9 +347,9 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
     `slide`. Planes approach from the front of the fixed plane; axes from the side where `moving`
     is.
 
-    A shaft may go through its bore and meet nothing: then its center stays at that of the bore, if
-    that penetrates nothing and keeps the clearance. The place is checked exactly, on the returned
-    coordinates. `travel` is 0.
+    A shaft may go through its bore and meet nothing: then its center stays at the center of the
+    bore, if that penetrates nothing and keeps the clearance. The place is checked exactly, on the
+    returned coordinates. `travel` is 0.
 
     onto: a fixed body, or a list of them.
     of_moving: a plane or an axis found by `find_features`.
@@ -478,8 +479,8 @@ class Alignment(MeshResult):
     inliers: Number of moving points within 4.5 times the median of the distances used.
     correlation: Correlation of the signed distances of neighbors, in [-1, 1]: near 0 for noise,
         near 1 if whole regions deviate to one side.
-    uncertainty: Estimated error of the position, as a root mean square over the points: the
-        standard deviation, from the residuals and the stiffness of the motions, except those that
+    uncertainty: Estimated standard deviation of the position, as a root mean square over the
+        points. It follows from the residuals and the stiffness of the motions, without those that
         `undetermined` counts.
     scale: The scale found, in addition to that of `start`.
     end: 'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'.
@@ -523,10 +524,10 @@ def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False
     features of the shape. The result is never worse than the present position; if nothing better is
     found, it is `start`, scaled about its center to the bounds of the scale. Results are compared
     by the mean, over the nearest `overlap` share, of the squared distances to the nearest fixed
-    points, each at most `max_distance` squared. If `robust`, or with an overlap below 1, it is the
-    mean of Welsch's function with the final v, so that an overlap somewhat too large does no harm.
-    Motions in which points slide freely (a plane on a plane) are not changed. Equal points of a
-    cloud count once.
+    points, each at most `max_distance` squared. If `robust`, or with an overlap below 1, they are
+    compared by the mean of Welsch's function with the final v instead, so that an overlap somewhat
+    too large does no harm. Motions in which points slide freely (a plane on a plane) are not made.
+    Equal points of a cloud count once.
 
     Along motions with a stiffness below 0.02, such as the rotation of a gear about its axis,
     positions up to 6% of the diagonal away are also tried.
@@ -535,18 +536,18 @@ def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False
     are noise; in a wrong one, whole regions deviate to one side. With 4000 moving points or more,
     every fourth is held out of the fit and used for this test. If its residuals are more than
     noise, other starts around `start` are tried: shifts by 8% of the diagonal, rotations by 14
-    degrees. If residuals are still more than noise, a fixed cloud gives `doubtful` if they exceed
-    0.6 times the thickness of both sides around their planes. On a fixed mesh, `converged` then
-    requires that other starts, tried with few points, do not end better, and that the deviation is
-    below 0.2% of the diagonal.
+    degrees. If residuals are still more than noise: on a fixed cloud, the result is `doubtful` if
+    they exceed 0.6 times the thickness of both sides around their planes. On a fixed mesh, it is
+    `doubtful` if another start, tried with few points, ends better, or if the deviation exceeds
+    0.2% of the diagonal.
 
     If either side has no points, the result is `start`, not converged.
 
     scale: also find a uniform scale; a pair gives its lower and upper bound, relative to the scale
         of `start`.
     method: 'point_to_plane', 'point_to_point', 'automatic' or 'plane_to_plane'.
-    overlap: Share of the moving points that have a partner, in (0, 1]. Each step uses this share of
-        the points, those with the nearest partners.
+    overlap: Share of the moving points that have a partner (a corresponding fixed point), in (0,
+        1]. Each step uses this share of the points, those with the nearest partners.
     robust: Weight partners at distance d by exp(-d^2 / (2 v^2)) (Welsch), so that up to half of the
         points may have no partner, without a given `overlap`. v starts at 3 times the median
         distance, and is halved while at least a third of the points are within v; finally it is 4.5
@@ -557,9 +558,9 @@ def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False
         or if a step moves no point near the fixed mesh by more than 1e-11 of the diagonal of the
         fixed mesh's box.
     starts: Number of starts, at least 1. The first is the present position; then the principal axes
-        of both sides aligned, in their 4 ways; then rotations spread evenly over all rotations,
-        small ones first, with aligned centers. The best result is returned; of equal results the
-        first.
+        of both sides aligned, in the 4 possible ways; then rotations spread evenly over all
+        rotations, small ones first, with aligned centers. The best result is returned; of equal
+        results the first.
     samples: Use at most this many moving points in the steps, spread evenly over space; 0 is all.
     start: (4, 4) Applied to the moving points first: any affine map.
     precision: 'float32' or 'float64'. Precision of the returned points.
@@ -644,20 +645,21 @@ def pack(parts: Iterable[Body], size: ArrayLike, *, corner: ArrayLike = (0.0, 0.
     No part is placed in a void that is closed all around.
 
     This is a heuristic search: a place may exist for a part that is not placed. In the first try,
-    parts are taken in the order of the area that they cover (stacked: of their volume). Each part
-    goes to the first plate with room, to the free position with the least (stacked: z, then) y,
-    then x, on a raster of about 512 cells a side (stacked: 96). Then it is moved toward lower (z,)
-    y and x until it meets an obstacle. While parts are not placed, other orders and rotations are
-    tried: at random by the seed, and with unplaced parts first. With several plates, tries also go
-    on while more plates are used than the area requires. The result is the try with the most parts
-    placed, then with the least area unplaced, then with the fewest plates, then the earliest.
+    parts are placed in descending order of the area that they cover. Each part goes to the first
+    plate with room, to the free position with the least y, then the least x, on a raster of about
+    512 cells a side. Then it is moved toward lower y and x until it meets an obstacle. With
+    `stack`, the order is by volume, z comes before y, and the raster has about 96 cells a side.
+    While parts are not placed, other orders and rotations are tried: at random by the seed, and
+    with unplaced parts first. With several plates, tries also go on while more plates are used than
+    the area requires. The result is the try with the most parts placed, then with the least area
+    unplaced, then with the fewest plates, then the earliest.
 
     Empty parts occupy no space: they are placed at their present position. Points that no face uses
     move along with their part and are otherwise ignored. Equal parts are prepared once.
 
     size: (2,) or (3,) the width, depth and height of a plate.
     corner: (3,) The corner of the first plate with the lowest x and y; its z is the bed.
-    spacing: Least distance of any two parts; parts may touch the plate's rim.
+    spacing: Least distance between parts; parts may touch the plate's rim.
     turns: Rotations about the vertical that are tried for each part, evenly over the full circle: 1
         (none), 2, 3, 4, 6, 8, 12 or 24.
     stack: Fill the box up to its height, which must be finite: parts may be above, below and inside

@@ -77,8 +77,8 @@ class RepairResult(MadeMesh):
     is_left: (faces of the input,) whether a part of each face is left, also if it was merged with
         others.
     steps: Counts of each step's changes. The volume of the input is its `Mesh.volume`. Keys:
-        'tetrahedra' (Tetrahedra formed by faces; only their boundary was kept); 'degenerate' (Faces
-        without area, dropped; if there are any, also slivers); 'repeated' (Faces that repeat
+        'tetrahedra' (Tetrahedra formed by faces; only their boundary was kept); 'degenerate'
+        (Dropped faces without area; if there are any, slivers, too); 'repeated' (Faces that repeat
         another, dropped); 'closed_edges' (Pairs of border edges joined into one edge);
         'split_edges' (Border edges split at vertices that lie on them); 'gap_limit' (Largest width
         of cracks searched for); 'widest_closed' (Widest crack that was closed); 'flipped' (Faces
@@ -87,19 +87,20 @@ class RepairResult(MadeMesh):
         (Edges around them); 'filled' (Faces that fill them); 'sheets' (Rims not filled, since they
         are borders of sheets); 'open_edges' (Open edges left after these steps); 'resolved'
         (Whether faces met and were cut); 'pairs' (Pairs of faces that met); 'labeled_cells' (Cells
-        labeled inside or outside, since faces disagreed); 'dropped_area' (Area of dropped faces,
-        with one label on both sides); 'flipped_area' (Area of faces flipped by the labels);
-        'removed' (Input faces that resolving removed entirely); 'covered' (For
-        `resolve_self_intersections` with `split`: input faces that lie entirely on faces of lower
-        numbers. Their pieces are those of the lower faces, so they do not count as removed);
-        'left_open' (The same with `remove`: edges that lost their second face); 'exact_faces' (For
-        `resolve_self_intersections`: as in `BooleanResult.statistics`); 'split_vertices' (Vertices
-        split where parts of the solid touch); 'detached' (Vertices moved apart); 'touching'
-        (Vertices that still have the coordinates of another); 'vanished_components' (Components
-        (faces linked by vertices) that lost all of their faces; for `repair`, only those larger
-        than `strays`); 'dropped_shells' (Closed shells inside the solid, dropped; `even_odd` makes
-        them cavities); 'volume_before' (After `join`, `orient` and `fill`; 0 if that is no solid);
-        'volume_after'; 'area_before'; 'area_after'; 'area_lost' (As in `max_loss`).
+        labeled inside or outside, since faces disagreed); 'dropped_area' (Area of faces dropped for
+        equal labels on both sides); 'flipped_area' (Area of faces flipped by the labels); 'removed'
+        (Input faces that resolving removed entirely); 'covered' (For `resolve_self_intersections`
+        with `split`: input faces that lie entirely on faces of lower numbers. Their pieces are
+        those of the lower faces, so they do not count as removed); 'left_open' (For
+        `resolve_self_intersections` with `remove`: edges that lost their second face);
+        'exact_faces' (For `resolve_self_intersections`: as in `BooleanResult.statistics`);
+        'split_vertices' (Vertices split where parts of the solid touch); 'detached' (Vertices moved
+        apart); 'touching' (Vertices that still have the coordinates of another);
+        'vanished_components' (Components (faces linked by vertices) that lost all of their faces;
+        for `repair`, only those larger than `strays`); 'dropped_shells' (Closed shells inside the
+        solid, dropped; `even_odd` makes them cavities); 'volume_before' (After `join`, `orient` and
+        `fill`; 0 if that is no solid); 'volume_after'; 'area_before'; 'area_after'; 'area_lost' (As
+        in `max_loss`).
     """
 
     face_source: Ids
@@ -139,7 +140,8 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, fill_rule
     touching: For `remove`: also delete faces that only touch.
     max_loss: For `outer` and `remove`: losing more than this share gives the status
         `excessive_loss`. The share is of the volume of the solid, or of the area if the mesh bounds
-        none. 1 allows any loss. The solid before is that of `repair` without filling holes.
+        none. 1 allows any loss. The loss is measured from the solid that `repair` makes without
+        filling holes.
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotSolidError if the mesh is open, NotCertifiedError if the result could not be
@@ -190,14 +192,14 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
         fewest open edges, out of 0, a float step, and 1e-6, 1e-5, 1e-4, 1e-3 of the diagonal of the
         bounding box.
     largest_hole: Fill holes of at most this many edges.
-    strays: Drops loose open pieces below this share of the area, and single triangles below 1 %. If
-        a larger component vanishes since it bounds no solid, the status is `excessive_loss`, unless
-        `max_loss` is 1.
+    strays: Drops loose open pieces below this share of the area, and loose pieces of one or two
+        faces below 1% of it. If a larger component vanishes because it bounds no solid, the status
+        is `excessive_loss`, unless `max_loss` is 1.
     fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside. None:
         'positive' if all shells are oriented outward, otherwise 'nonzero'; if faces are
         inconsistent, inside and outside are determined by a minimum cut.
-    max_loss: Losing more than this share of the volume gives the status `excessive_loss`; if there
-        were holes, of the area. Faces that remain, or are inside the solid, do not count as lost. 1
+    max_loss: Losing more than this share of the volume (of the area, if there were holes) gives the
+        status `excessive_loss`. Faces that remain, or are inside the solid, do not count as lost. 1
         allows any loss.
     sheet: The mesh is an open surface: keep its border, and fill nothing.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
@@ -266,7 +268,7 @@ def find_rounding_defects(mesh: MeshLike, placed: ArrayLike, *,
 
     placed: (V, 3) the rounded vertices.
 
-    Raises ValueError as `self_intersections` for either, or for another number of points.
+    Raises ValueError as `self_intersections` for either, or if the numbers of points differ.
 
     Cost: `self_intersections` of the mesh at the new points; also at the old points if any faces
     meet.

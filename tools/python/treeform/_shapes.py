@@ -105,7 +105,7 @@ def offset(mesh: MeshLike, distance: float, *, resolution: float | None = None,
     Convex edges and corners become round outward. Edges that the exact offset keeps sharp are cut
     off by at most a cell. The mesh must bound a solid, like an operand of `boolean`; if it meets
     itself, the solid that it winds around is used. What is inside is decided exactly. Vertices are
-    at the distance to about a thousandth of a cell.
+    at the given distance, up to about a thousandth of a cell.
 
     resolution: Edge length of the cells from which the surface is made, in the mesh's length unit;
         at most half of the distance. Every point whose distance differs from the given one by more
@@ -178,10 +178,10 @@ def thicken(mesh: MeshLike, thickness: float, *, resolution: float | None = None
             progress: Progress = None) -> OffsetResult:
     """A solid around any surface: all points at most half of `thickness` away. Its rim is round.
 
-    With a `shift` the surface is first moved toward its front, from where faces are
+    With a `shift`, the surface is first moved toward its front, the side from which faces are seen
     counter-clockwise. Each vertex moves so that the planes of its faces move by the shift, on
-    average. This is exact where the surface is flat, and rounds it where it bends. Vertices of
-    sharp folds move by at most twice the shift. Faces must be consistently oriented.
+    average. This is exact where the surface is flat; where it bends, it becomes rounder. Vertices
+    of sharp folds move by at most twice the shift. Faces must be consistently oriented.
 
     resolution: Edge length of the cells from which the surface is made, in the mesh's length unit;
         at most half of the distance. Every point whose distance differs from the given one by more
@@ -292,7 +292,7 @@ def simplify(mesh: MeshLike, max_distance: float, *, face_groups: ArrayLike | No
 
     Borders, features, and borders of groups are simplified as polylines on their own vertices,
     within the same distance. Vertices stay where such lines end, branch or cross, at nonmanifold or
-    inconsistently oriented edges, and at vertices whose faces are not one fan.
+    inconsistently oriented edges, and where their faces are not one fan.
 
     Nothing is collapsed if the distance is below about 2^-46 of the largest coordinate, which
     doubles cannot prove, or if squares of coordinates overflow or underflow. Corners with equal
@@ -399,7 +399,7 @@ def oriented_box(points: Body, *, progress: Progress = None) -> OrientedBox | No
 
 @dataclass(frozen=True, repr=False)
 class Isoline(Result):
-    """A line on a mesh along which a value has a level.
+    """A line on a mesh along which a value equals a level.
 
     level: The value along the line.
     first_point: Its number; the points of the line are consecutive.
@@ -425,8 +425,9 @@ def isolines(mesh: MeshLike, values: ArrayLike, levels: ArrayLike, *,
     linearly in each face.
 
     Lines are decided exactly; their points are interpolated and rounded. A vertex at a level counts
-    as above it, as in `section`: with heights as values, the lines are sections by planes across z.
-    Vertices with equal coordinates are joined if their values are equal; otherwise lines end there.
+    as above it, as in `section`: with heights as values, the lines are sections by planes
+    perpendicular to z. Vertices with equal coordinates are joined if their values are equal;
+    otherwise lines end there.
 
     values: (V,) a value for each vertex, interpolated linearly over each face.
     levels: (K,) the values of the lines.

@@ -224,10 +224,10 @@ def weld(mesh_or_points: Body, tolerance: float = 0.0, *, chain: bool = False,
     missing or is a list; for `order_by` with another `keep` than `first`; for more than 2^32 / 3
     faces with `keep_manifold`. The message names the lowest invalid element.
 
-    Cost: Parallel, except, without `chain`, for points with several others within the tolerance, if
-    points come row by row or few are kept. Memory besides the result: up to 36 bytes a point (50
-    for dense chains), 40 more with `order_by`; 24 bytes a face, 100 with `keep_manifold`; 8 bytes a
-    point for each property in a condition.
+    Cost: Parallel. Without `chain`, points with several others within the tolerance are processed
+    serially if points come row by row or few are kept. Memory besides the result: up to 36 bytes a
+    point (50 for dense chains), 40 more with `order_by`; 24 bytes a face, 100 with `keep_manifold`;
+    8 bytes a point for each property in a condition.
 
     >>> import treeform
     >>> thin = treeform.weld([[0, 0, 0], [0, 0, 0.5], [3, 0, 0]], 1.0)

@@ -22,9 +22,8 @@ namespace treeform {
 /// The cost that each step of ICP minimizes.
 enum class align_method : std::uint8_t {
     /// Distances to the planes of the nearest faces, in least squares. If the nearest point is on
-    /// an edge or a corner, the plane through it perpendicular to the connecting segment. For a
-    /// fixed cloud, the plane fitted to the points around the nearest one. Needs few iterations on
-    /// surfaces.
+    /// an edge or a corner, its plane is perpendicular to the connecting segment; on a fixed cloud,
+    /// its plane is fitted to the points around it. Needs few iterations on surfaces.
     point_to_plane,
     /// Distances to the nearest points, in least squares: for clouds, or where planes determine
     /// little.
@@ -41,8 +40,8 @@ enum class align_method : std::uint8_t {
 /// How to align.
 struct align_options {
     align_method method = align_method::automatic;
-    /// Share of the moving points that have a partner, in (0, 1]. Each step uses this share of the
-    /// points, those with the nearest partners.
+    /// Share of the moving points that have a partner (a corresponding fixed point), in (0, 1].
+    /// Each step uses this share of the points, those with the nearest partners.
     double overlap = 1.0;
     /// Weight partners at distance d by exp(-d^2 / (2 v^2)) (Welsch), so that up to half of the
     /// points may have no partner, without a given `overlap`. v starts at 3 times the median
@@ -51,9 +50,9 @@ struct align_options {
     bool robust = true;
     /// Ignore partners farther apart than this. Not squared, not negative.
     double max_distance = std::numeric_limits<double>::infinity();
-    /// Also find a uniform scale. The search starts from the scale of `start`, and from the scale
-    /// that makes both sides equally large, and tries from half to twice of each. It compares
-    /// results by the distances between both sides, relative to their sizes.
+    /// Also find a uniform scale. The search tries scales from half to twice that of `start`, and
+    /// from half to twice the scale that makes both sides equally large. It compares results by the
+    /// distances between both sides, relative to their sizes.
     bool scale = false;
     /// Bounds of `align_result::scale` if `scale` is set: positive, or 0 and infinity for none. A
     /// start outside the bounds is moved to the nearest bound. Equal bounds fix the scale.
@@ -65,8 +64,9 @@ struct align_options {
     /// mesh's box.
     double tolerance = 1e-6;
     /// Number of starts, at least 1. The first is the present position; then the principal axes of
-    /// both sides aligned, in their 4 ways; then rotations spread evenly over all rotations, small
-    /// ones first, with aligned centers. The best result is returned; of equal results the first.
+    /// both sides aligned, in the 4 possible ways; then rotations spread evenly over all rotations,
+    /// small ones first, with aligned centers. The best result is returned; of equal results the
+    /// first.
     unsigned starts = 1;
     /// Anderson acceleration with the 5 previous steps.
     bool accelerate = true;
@@ -85,9 +85,9 @@ enum class align_end : std::uint8_t {
     /// Converged, but residuals are more than noise: neighboring points deviate to the same side by
     /// more than in a correct alignment. Often a wrong local optimum, or parts without a partner.
     ///
-    /// Or the scale is at its bound, or the points of a cloud do not determine the position:
-    /// `uncertainty` is above 0.2% of the diagonal of the fixed box, or a fit to the held-out
-    /// points would move all points by more than that, or some motion is undetermined.
+    /// Also if the scale is at its bound, or the points of a fixed cloud do not determine the
+    /// position: `uncertainty` exceeds 0.2% of the diagonal of the fixed box, a fit to the held-out
+    /// points would move all points by more than that, or a motion is undetermined.
     doubtful,
     nothing_to_align,  ///< there are no points, or no point has a partner
 };
@@ -128,8 +128,8 @@ struct align_result {
     /// Correlation of the signed distances of neighbors, in [-1, 1]: near 0 for noise, near 1 if
     /// whole regions deviate to one side.
     double correlation = 0.0;
-    /// Estimated error of the position, as a root mean square over the points: the standard
-    /// deviation, from the residuals and the stiffness of the motions, except those that
+    /// Estimated standard deviation of the position, as a root mean square over the points. It
+    /// follows from the residuals and the stiffness of the motions, without those that
     /// `undetermined` counts.
     double uncertainty = 0.0;
     /// The independent motions, ascending by stiffness; none without partners.
@@ -156,10 +156,10 @@ struct align_result {
 /// features of the shape. The result is never worse than the present position; if nothing better is
 /// found, it is `start`, scaled about its center to the bounds of the scale. Results are compared
 /// by the mean, over the nearest `overlap` share, of the squared distances to the nearest fixed
-/// points, each at most `max_distance` squared. If `robust`, or with an overlap below 1, it is the
-/// mean of Welsch's function with the final v, so that an overlap somewhat too large does no harm.
-/// Motions in which points slide freely (a plane on a plane) are not changed. Equal points of a
-/// cloud count once.
+/// points, each at most `max_distance` squared. If `robust`, or with an overlap below 1, they are
+/// compared by the mean of Welsch's function with the final v instead, so that an overlap somewhat
+/// too large does no harm. Motions in which points slide freely (a plane on a plane) are not made.
+/// Equal points of a cloud count once.
 ///
 /// Along motions with a stiffness below 0.02, such as the rotation of a gear about its axis,
 /// positions up to 6% of the diagonal away are also tried.
@@ -168,10 +168,10 @@ struct align_result {
 /// are noise; in a wrong one, whole regions deviate to one side. With 4000 moving points or more,
 /// every fourth is held out of the fit and used for this test. If its residuals are more than
 /// noise, other starts around `start` are tried: shifts by 8% of the diagonal, rotations by 14
-/// degrees. If residuals are still more than noise, a fixed cloud gives `doubtful` if they exceed
-/// 0.6 times the thickness of both sides around their planes. On a fixed mesh, `converged` then
-/// requires that other starts, tried with few points, do not end better, and that the deviation is
-/// below 0.2% of the diagonal.
+/// degrees. If residuals are still more than noise: on a fixed cloud, the result is `doubtful` if
+/// they exceed 0.6 times the thickness of both sides around their planes. On a fixed mesh, it is
+/// `doubtful` if another start, tried with few points, ends better, or if the deviation exceeds
+/// 0.2% of the diagonal.
 ///
 /// If either side has no points, the result is `start`, not converged.
 ///

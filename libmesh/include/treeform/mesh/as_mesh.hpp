@@ -23,7 +23,8 @@ struct usable_mesh {
     std::vector<std::uint32_t> triangle_of_face{};
     /// [triangles] number of each triangle's face in the file; empty: the same numbers.
     std::vector<std::uint32_t> stored_face{};
-    /// Triangles with a coordinate that is not finite; of a cloud, such points.
+    /// Number of triangles with a coordinate that is not finite; for a cloud, number of such
+    /// points.
     std::uint64_t non_finite = 0;
     /// From `usable_part`: [F] the connected component of the whole mesh that each face is in.
     std::vector<std::uint32_t> component{};
@@ -94,15 +95,15 @@ TREEFORM_API std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh);
 ///
 /// Columns of points whose names depend on the format (`normal_x` in PCD, `nx` in PLY) get the
 /// names of the first file's format. The LAS header is copied from the first file. If scales or
-/// offsets differ, it gets the finest of the scales with which 32 bits can represent the bounds of
-/// all headers; extra bytes are described as in the first file that has them. LAS files with
-/// different coordinate systems or different types of GPS time are joined only with `mixed`; the
-/// result then has the coordinate system and type of the first file.
+/// offsets differ, it gets the finest of the files' scales with which 32 bits can represent the
+/// bounds of all headers; extra bytes are described as in the first file that has them. LAS files
+/// with different coordinate systems or different types of GPS time are joined only with `mixed`;
+/// the result then has the coordinate system and type of the first file.
 ///
-/// \throws std::invalid_argument for such LAS files unless `mixed`, when a column holds
-///         lists in one file and single values in another, when no type holds all values, or when
-///         there is not one name for each file; std::length_error for more points or triangles than
-///         32 bits can number
+/// \throws std::invalid_argument for such LAS files unless `mixed`, if a column holds lists in one
+///         file and single values in another, if no type holds all values, or unless there is one
+///         name for each file; std::length_error for more points or triangles than 32 bits can
+///         number
 /// \cost   O(size of all files)
 [[nodiscard]] TREEFORM_API mesh_file join(std::vector<mesh_file> files,
                                           std::span<const std::string> names, bool mixed = false);

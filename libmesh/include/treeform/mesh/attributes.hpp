@@ -129,9 +129,9 @@ decltype(auto) with_type(scalar_type type, F&& f) {
     return f(double{});
 }
 
-/// What a column contains. Only `data` columns have values. The others record the type, and the
-/// position among the columns, with which a file stores `mesh::points` (x, y, z), `mesh::faces`
-/// (corners) and `attributes::corners` (texture).
+/// What a column contains. Only `data` columns have values. The others record the type and the
+/// position of the columns in which a file stores `mesh::points` (x, y, z), `mesh::faces` (corners)
+/// and `attributes::corners` (texture).
 enum class column_role : std::uint8_t { data, x, y, z, corners, texture };
 
 /// One named property: a value, or a list of values, for each row of its element.

@@ -20,8 +20,8 @@
 namespace treeform {
 
 /// A formula over operands a, b, c, ..., z (then aa, ab, ...): `+` or `|` union, `*` or `&`
-/// intersection, `-` difference, `^` symmetric difference, and parentheses. `*` and `&` bind
-/// tighter than the others, evaluated from left to right. Blanks and case of letters do not matter.
+/// intersection, `-` difference, `^` symmetric difference, and parentheses. `*` and `&` bind first,
+/// and the others are evaluated from left to right. Blanks and case of letters do not matter.
 class TREEFORM_API boolean_expression {
   public:
     /// \throws std::invalid_argument naming the position, from 1, of a syntax error or of an
@@ -76,13 +76,12 @@ struct boolean_options {
     treeform::fill_rule fill_rule = treeform::fill_rule::nonzero;  ///< what is inside
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
-    /// Where rounding makes faces meet, only points at most this far apart are joined, in the
-    /// mesh's length unit, and never points further apart than 2^-10 of the largest coordinate. Not
-    /// negative.
+    /// Where rounding makes faces meet, only points at most this far apart, in the mesh's length
+    /// unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
     double max_displacement = std::numeric_limits<double>::infinity();
-    /// Do not merge coplanar faces that were cut, or that overlap. By default they are merged,
-    /// before rounding, which removes vertices inside a flat region, and on a straight edge between
-    /// two. Uncut faces are not changed. `split` keeps all cuts.
+    /// Do not merge coplanar faces that were cut, or that overlap. By default they are merged
+    /// before rounding, which removes vertices inside a flat region and on straight edges between
+    /// two regions. Uncut faces are not changed. `split` keeps all cuts.
     bool keep_cuts = false;
     bool simplify = false;  ///< merge all coplanar faces of the result, also those not cut
     /// [faces of all operands in order] or empty: only faces with equal numbers are merged.
@@ -137,9 +136,9 @@ struct TREEFORM_API boolean_result {
     /// Faces are counter-clockwise from outside, in the order of their sources. Vertices of
     /// operands come first, in their order, then new ones on cuts.
     treeform::mesh mesh;
-    /// [F] the lowest operand face that contains each face or a part of it. Near repaired places it
-    /// may be a neighbor of that face. A face of a filled `gap` has the operand face at or opposite
-    /// to it; such faces come last.
+    /// [F] the lowest operand face that contains each face or a part of it. Where rounding made
+    /// faces meet, it may be a neighbor of that face. For a face that fills a `gap`, it is the
+    /// operand face at or opposite to it; such faces come last.
     std::vector<operand_element> face_source;
     /// [V] the lowest operand vertex equal to each vertex, or none
     std::vector<operand_element> vertex_source;
@@ -153,8 +152,8 @@ struct TREEFORM_API boolean_result {
     treeform::certificate certificate{};
     /// Components of the exact result that have no face left, being too thin for the coordinates.
     std::uint64_t vanished_components = 0;
-    /// The largest distance from `mesh` of a vertex of the exact result that was removed. It is
-    /// large if a component lost a part too thin for the coordinates.
+    /// The largest distance from `mesh` to a removed vertex of the exact result. It is large if a
+    /// component lost a part too thin for the coordinates.
     double vanished_reach = 0.0;
     std::vector<point3> vanished_at{};  ///< one point of each vanished component; at most 100
     std::optional<operand_volumes> volumes{};
@@ -175,16 +174,15 @@ struct TREEFORM_API boolean_result {
 ///
 /// Each operand must bound a solid: after cutting, the signed face count of every edge is zero.
 /// Operands may overlap themselves, touch, be nested, be equal, consist of parts, be inside out or
-/// empty. Their corners with equal coordinates are one vertex. Where parts of the result touch in
-/// an edge or at a vertex, each part has its own vertices there, with equal coordinates, so that
-/// every edge has two faces.
+/// empty. Their corners with equal coordinates are one vertex. Where parts of the result touch,
+/// each has its own vertices, with equal coordinates, so that every edge has two faces.
 ///
 /// \throws std::invalid_argument naming a face with a corner out of range, or a corner with a
 ///         coordinate that is not finite or beyond 2^1000; if the `boolean_expression` has another
 ///         number of operands; for a `gap` if the expression is not a union of all operands
 /// \cost   O(F log F) for the F faces where the result's surface may be. For one or two closed
-///         manifolds that meet in few places, the cost of finding these (once for a prepared mesh)
-///         and of a copy. A `gap` adds O(P) for the P pairs of faces whose boxes are that near
+///         manifolds that meet in few places: finding these (once for a prepared mesh) and a copy.
+///         A `gap` adds O(P) for the P pairs of faces whose boxes are that near
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API boolean_result boolean(const mesh_refs& operands,
                                                   const boolean_expression& expression,
@@ -196,16 +194,19 @@ template <std::convertible_to<std::string_view> Text>
     return boolean(operands, boolean_expression(formula, operands.size()), options);
 }
 
-/// In this order: points in `a` or `b`, in both, in `a` but not in `b`, in exactly one of them.
+/// Union: points in `a` or `b`.
 [[nodiscard]] TREEFORM_API boolean_result unite(const mesh_ref& a, const mesh_ref& b,
                                                 const boolean_options& options = {});
+/// Intersection: points in `a` and in `b`.
 [[nodiscard]] TREEFORM_API boolean_result intersection(const mesh_ref& a, const mesh_ref& b,
                                                        const boolean_options& options = {});
+/// Difference: points in `a`, but in none of `b`.
 [[nodiscard]] TREEFORM_API boolean_result subtract(const mesh_ref& a, const mesh_refs& b,
                                                    const boolean_options& options = {});
+/// Symmetric difference: points in exactly one of `a` and `b`.
 [[nodiscard]] TREEFORM_API boolean_result symmetric_difference(const mesh_ref& a, const mesh_ref& b,
                                                                const boolean_options& options = {});
-/// The same of many meshes: `unite(parts)`, `unite({a, b, c})`; above, `subtract(a, {b, c})`.
+/// The union, and the intersection, of any number of meshes: `unite(parts)`, `unite({a, b, c})`.
 [[nodiscard]] TREEFORM_API boolean_result unite(const mesh_refs& meshes,
                                                 const boolean_options& options = {});
 [[nodiscard]] TREEFORM_API boolean_result intersection(const mesh_refs& meshes,
@@ -217,12 +218,11 @@ template <std::convertible_to<std::string_view> Text>
 ///
 /// The sheet may end anywhere, overlap itself, and even be closed. A piece is oriented as the
 /// lowest face of the sheet that it lies in. The certificate does not check edges, since the result
-/// is open. If another operand is open, the status is `open_input` as in `boolean`, and the mesh is
-/// empty.
+/// is open. If another operand is open, the status is `open_input` and the mesh is empty.
 ///
-/// \throws std::invalid_argument as `boolean`; if `sheet` is not a number of `mesh_refs`; if
-///         the `boolean_expression` may be true outside of the sheet
-///         (`boolean_expression::needs`), as in a union; for `min_volume` or `gap`
+/// \throws std::invalid_argument as `boolean`; if there is no operand number `sheet`; if the
+///         `boolean_expression` may be true outside of the sheet (`boolean_expression::needs`), as
+///         in a union; for `min_volume` or `gap`
 /// \cost   as `boolean`; faces of solids whose boxes overlap no face of the sheet are skipped
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API boolean_result clip(const mesh_refs& operands, std::uint32_t sheet,

@@ -40,7 +40,7 @@ struct carry_source {
     }
     /// Gives the corners of caps (`cut_piece::cap`) planar texture coordinates, if this source, the
     /// mesh that was cut, has texture coordinates. The axes are those of `oriented_plane::axes` for
-    /// the mean normal of a cap, signed so that its largest component is positive, so that both
+    /// the mean normal of a cap, with the sign that makes its largest component positive. So both
     /// sides of a cut have the same axes. The scale is the average of this source, in texture units
     /// per length.
     ///
@@ -86,10 +86,10 @@ class carry_sources {
                             std::span<const std::uint32_t> corner_source = {}) const;
 
     /// [3 F] Groups for `simplify_options::corner_groups`, of a single input. Two corners at a
-    /// point are in one group if they are linked by faces of one material, with equal values in all
-    /// transferred columns and, at both ends of each edge between, equal texture coordinates and
-    /// normals. Normals of two flat-shaded faces count as equal. Empty if all corners at each point
-    /// would be in one group.
+    /// point are in one group if neighboring faces link them. These must have one material and
+    /// equal values in all transferred columns; at both ends of each edge between them, texture
+    /// coordinates and normals must be equal. Normals of two flat-shaded faces count as equal.
+    /// Empty if all corners at each point would be in one group.
     /// \cost O(V log V + F log F), and O(F) for each column
     [[nodiscard]] TREEFORM_API std::vector<std::uint32_t> corner_groups() const;
 
@@ -150,7 +150,7 @@ struct repaired_part {
     /// number of its first face in the repaired mesh; its faces are consecutive
     std::uint32_t first_face = 0;
     std::uint32_t faces = 0;
-    /// face numbers are those of the repaired mesh, or of the input file
+    /// Face numbers are those of the repaired mesh; in `open_faces`, those of the input file.
     treeform::certificate certificate{};
     repair_statistics statistics{};
 };
@@ -208,11 +208,11 @@ inline constexpr std::array<const char*, 1 + pair_kind_count> mark_colors{
 
 /// Marks of faces that meet, by kind of pair and by region.
 struct face_marks {
-    std::vector<std::uint8_t> kind{};    ///< [F] 0: in no pair; else 1 + the gravest `pair_kind`
+    std::vector<std::uint8_t> kind{};    ///< [F] 0: in no pair; else 1 + the worst `pair_kind`
     std::vector<std::int32_t> region{};  ///< [F] -1: in no pair
 
     face_marks() = default;
-    /// The marks of `face_count` faces. Crossing is the gravest kind, then pierce, overlap, fold,
+    /// The marks of `face_count` faces. The worst kind is crossing, then pierce, overlap, fold,
     /// duplicate, touching, degenerate.
     ///
     /// \pre `regions` are those of `pairs`, whose faces are in range

@@ -29,7 +29,7 @@ requires(detail::names_of<Kind>.size() > 0) [[nodiscard]] constexpr const char* 
     return detail::names_of<Kind>[static_cast<std::size_t>(kind)];
 }
 
-/// Counts by kind: `counts[pair_kind::crossing]`; also an array, by the numbers of enumerators.
+/// Counts by kind: `counts[pair_kind::crossing]`. Also an array, in the order of the enumerators.
 template <class Kind, std::size_t N>
 struct counts_by : std::array<std::uint64_t, N> {
     using std::array<std::uint64_t, N>::operator[];
@@ -133,8 +133,8 @@ class TREEFORM_API not_certified_error : public std::runtime_error {
     certificate why_;
 };
 
-/// The spacing of numbers of precision `of` at the finite coordinate of largest magnitude. The
-/// least positive number of that precision if no coordinate is finite, or all are 0.
+/// The unit in the last place, in precision `of`, of the finite coordinate of largest magnitude.
+/// The least positive number of that precision if no coordinate is finite, or all are 0.
 [[nodiscard]] TREEFORM_API double coordinate_step(points_view points, precision of);
 
 /// The points with each coordinate rounded to the nearest number of precision `to`; infinite beyond
@@ -145,8 +145,8 @@ class TREEFORM_API not_certified_error : public std::runtime_error {
 struct rounding_effects {
     double max_displacement = 0.0;  ///< largest change of a coordinate, after the transform
     double step = 0.0;              ///< spacing of numbers at the largest written coordinate
-    /// True if points moved and doubles became float32, or the change is more than a millionth of
-    /// the diagonal of the bounding box.
+    /// True if doubles became float32 and points moved, or if points moved by more than a millionth
+    /// of the diagonal of the bounding box.
     bool noticeable = false;
     /// `collapsed` and `meeting` were computed, since coordinates became coarser
     bool compared = false;
@@ -162,8 +162,8 @@ struct rounding_effects {
 /// (`meeting`; all kinds except touching and degenerate), when the points of `mesh` become
 /// `placed`. Exact. Distances are not compared, so `placed` may also be moved and rotated.
 ///
-/// \throws std::invalid_argument as `self_intersections` for either, or for another number of
-///         points
+/// \throws std::invalid_argument as `self_intersections` for either, or if the numbers of points
+///         differ
 /// \cost   `self_intersections` of the mesh at the new points; also at the old points if any faces
 ///         meet
 /// \same   on any number of threads
@@ -173,7 +173,7 @@ find_rounding_defects(mesh_view mesh, points_view placed, const progress_callbac
 /// Compares `placed` with the points of `moving` transformed by `by`. If coordinates became
 /// coarser, also finds defects of the faces (`find_rounding_defects`).
 ///
-/// \throws std::invalid_argument for another number of points
+/// \throws std::invalid_argument if the numbers of points differ
 /// \cost   O(V); if coordinates became coarser, also up to two `self_intersections`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API rounding_effects

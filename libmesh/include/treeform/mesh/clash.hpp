@@ -42,8 +42,8 @@ struct clash_options {
     progress_callback progress{};
 };
 
-/// A connected contact of two parts: pairs of faces, linked by common corners of faces of one part
-/// that meet the same face of the other.
+/// A connected contact of two parts: a set of pairs of faces that meet. Two pairs are linked if
+/// they have the face of one part in common, and their faces of the other part share a corner.
 struct contact_region {
     box3 box{};  ///< contains all common points of the surfaces in this region
     std::uint64_t face_pairs = 0;
@@ -55,7 +55,7 @@ struct contact_region {
 struct part_clash {
     std::uint32_t a = 0;  ///< the lower number
     std::uint32_t b = 0;  ///< number of the second part
-    /// or `penetrating`, `closer_than_clearance`
+    /// touching, `penetrating` or `closer_than_clearance`
     mesh_relation relation = mesh_relation::touching;
     bool a_inside_b = false;  ///< as in `measure`
     bool b_inside_a = false;  ///< the same with `a` and `b` swapped
@@ -128,12 +128,13 @@ struct clash_result {
 struct pose_clash {
     std::uint32_t a = 0;  ///< the lower number
     std::uint32_t b = 0;
-    /// or `penetrating`, `closer_than_clearance`
+    /// touching, `penetrating` or `closer_than_clearance`
     mesh_relation relation = mesh_relation::touching;
     double distance = 0.0;  ///< for parts closer than the clearance; else 0
     friend bool operator==(const pose_clash&, const pose_clash&) = default;
 };
 
+/// The clashes in each pose.
 struct pose_result {
     /// [P] for each pose the pairs that are not clear, ascending. With `first_only` at most one:
     /// the lowest pair that penetrates, is too close or, with a clearance, touches; without a
@@ -151,10 +152,9 @@ struct pose_result {
 /// `poses[p * parts.size() + i]` moves part i in pose p.
 ///
 /// Exact, like `clash` and `relation`, for the moved corners, rounded to double
-/// (`transform::operator()`). Parts are not copied or indexed again for a pose, with these
-/// exceptions, in which two parts are tested as moved copies: they touch, a corner of one is so
-/// near the surface of the other that rounding might change its side, or a transform is not a rigid
-/// motion.
+/// (`transform::operator()`). Two parts are only copied and indexed again for a pose if they touch,
+/// if a corner of one is so near the surface of the other that rounding might change its side, or
+/// if a transform is not a rigid motion.
 ///
 /// \throws std::invalid_argument naming the part and its lowest face with a corner out of range or
 ///         not finite, the pose with a transform that is not finite; for a number of transforms

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The exact convex hull of points, and its flat sides; the smallest box around points.
+/// The exact convex hull of points, and its flat sides; a small box in any orientation around
+/// points.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -18,7 +19,7 @@ namespace treeform {
 
 /// A flat side of a convex hull: all coplanar faces of one plane.
 struct hull_side {
-    /// The first of its faces, in `convex_hull_result::faces`; any three corners span its plane.
+    /// The first of its faces, in `convex_hull_result::faces`; each of them spans the plane.
     std::uint32_t first_face = 0;
     std::uint32_t face_count = 0;
     double area = 0.0;  ///< rounded; infinite on overflow
@@ -32,9 +33,9 @@ struct convex_hull_result {
     /// The dimension that the points span: 3, 2 in a plane, 1 on a line, 0 if all are equal, -1 for
     /// no points.
     int dimension = -1;
-    /// [F] triangles of the hull, outward, by point numbers, in the order of `sides`. No two share
-    /// more than an edge, and none is degenerate. Points in a plane have two sides of the same
-    /// triangles, one facing each way. Points on a line, or equal ones, have none.
+    /// [F] triangles of the hull as point numbers, oriented outward, in the order of `sides`. No
+    /// two share more than an edge, and none is degenerate. Points in a plane have two sides of the
+    /// same triangles, one facing each way. Points on a line, or equal ones, have none.
     std::vector<face> faces{};
     std::vector<hull_side> sides{};
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is empty

@@ -45,7 +45,7 @@ struct TREEFORM_API cut_piece {
         face_source;  ///< [F] input face that contains each face; none: a cap
     std::vector<std::uint32_t> vertex_source;  ///< [V] input vertex equal to each vertex; none: new
     std::vector<std::uint32_t>
-        cap;  ///< [F] for faces of a cap, the number of its plane, from the lowest; else none
+        cap;  ///< [F] for faces of a cap, the number of its plane (0: the lowest); else none
     /// Status ok means the same as in `boolean_result`; without caps, edges are not checked. A
     /// piece without faces is ok: the mesh has no part between these planes.
     treeform::certificate certificate{};
@@ -64,8 +64,8 @@ struct cut_result {
     /// The certificate of the first piece that is not ok, or of the mesh if it bounds no solid.
     treeform::certificate certificate{};
     /// True if faces of the mesh meet. Then the solid that the mesh winds around was cut, with
-    /// overlapping parts merged; without caps, the faces cut along each other. Not used by
-    /// `cut_along`.
+    /// overlapping parts merged; without caps, the mesh with its faces cut along each other. Not
+    /// used by `cut_along`.
     bool resolved = false;
 };
 
@@ -73,10 +73,10 @@ struct cut_result {
 /// (`oriented_plane::parallel`).
 ///
 /// The side of each vertex is decided exactly, on the coordinates as given. A face in a plane
-/// belongs to the side of its solid. The section of the solid in a plane becomes a cap, the same on
-/// both sides. Only points on cuts are rounded, once; each piece is checked like a result of
-/// `boolean`. Caps across an axis stay flat and equal when rounded; others may bend by a step of
-/// the precision.
+/// belongs to the piece that it bounds. The section of the solid in a plane becomes a cap, the same
+/// on both sides. Only points on cuts are rounded, once; each piece is checked like a result of
+/// `boolean`. Caps perpendicular to an axis stay flat and equal when rounded; others may bend by a
+/// unit in the last place.
 ///
 /// `carry_sources` transfers the attributes of a file to pieces. `carry_source::texture_caps` gives
 /// caps planar texture coordinates.
@@ -99,14 +99,13 @@ struct cut_result {
     return cut(mesh, plane, std::array{0.0}, options);
 }
 
-/// Pieces that fit into a box of this size. They are cut by planes across x, then y, then z: as few
-/// as possible for each axis, equally spaced up to rounding, and none for an axis with infinite
-/// size. Pieces without faces are omitted; the others are ordered by x, then y, then z. Planes are
-/// numbered across x first, then y, then z. Cuts across y and z cut the rounded pieces of the cuts
-/// before.
+/// Pieces that fit into a box of this size. They are cut by planes perpendicular to x, then y, then
+/// z: as few as possible for each axis, equally spaced up to rounding, and none for an axis with
+/// infinite size. Pieces without faces are omitted; the others are ordered by x, then y, then z.
+/// Planes are numbered in the same order. Later cuts cut the rounded pieces of earlier ones.
 ///
 /// \throws std::invalid_argument as `cut`; for a size that is not positive; for more than 2^16
-///         planes across an axis, or possibly more than 2^20 pieces
+///         planes for an axis, or possibly more than 2^20 pieces
 [[nodiscard]] TREEFORM_API cut_result cut_to_fit(const mesh_ref& mesh, const point3& size,
                                                  const cut_options& options = {});
 
@@ -115,9 +114,9 @@ struct cut_result {
 /// with common border points, and together cover the mesh. Only new points are rounded, by less
 /// than a step of their largest coordinate.
 ///
-/// The certificate lists faces of all pieces together that meet beyond common corners and edges,
-/// because faces of the mesh do, or by rounding. Its face numbers count through all pieces. `caps`,
-/// `precision` and `keep_cuts` of `options` are ignored.
+/// The certificate is that of all pieces together. It lists faces that meet beyond common corners
+/// and edges, because faces of the mesh do, or by rounding. Its face numbers count through all
+/// pieces. `caps`, `precision` and `keep_cuts` of `options` are ignored.
 ///
 /// \throws std::invalid_argument as `isolines`
 /// \cost   as `isolines` and `self_intersections`

@@ -45,8 +45,8 @@ struct deviation_result {
     double rms = 0.0;            ///< root mean square of the distances
     /// Median of the magnitudes: the least value that half of them do not exceed.
     double p50 = 0.0;
-    double p95 = 0.0;         ///< the same for 95 % of them
-    double p99 = 0.0;         ///< the same for 99 % of them
+    double p95 = 0.0;         ///< the same for 95% of them
+    double p99 = 0.0;         ///< the same for 99% of them
     double max = 0.0;         ///< the largest magnitude
     std::uint32_t worst = 0;  ///< the lowest point number with that magnitude
     double lowest = 0.0;      ///< the least signed distance
@@ -94,7 +94,7 @@ struct deviation_result {
 ///         `closest_point`; a band that is NaN or reversed; more than 2^20 bins
 /// \cost   `closest_point` for each point, in a spatial order; for signs a winding number for one
 ///         point in 1024, and the faces between neighbors for the others. A copy of `b` if it is
-///         several `mesh_refs`
+///         `mesh_refs` of several meshes
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<deviation_result> deviation(
     const mesh_ref& a, const mesh_refs& b, const deviation_options& options = {});

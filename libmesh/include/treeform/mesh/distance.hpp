@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Distances of two meshes, and of points from a mesh; no distance is squared. Ray casting with
-/// exact verdicts.
+/// Distances between two meshes, and between points and a mesh; no distance is squared. Exact ray
+/// casting.
 
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/predicates.hpp>
@@ -53,12 +53,13 @@ struct closest_points_result {
 /// \throws std::invalid_argument naming the mesh and its lowest face with a corner out of range or
 ///         not finite; for a transform that is not finite; for a radius that is negative or NaN
 /// \cost   O(F log F) for indexes that are not built yet; then as `nearest_pair`: most pairs of
-///         faces are skipped by the direction between the nearest points so far
+///         faces are skipped because they are too far apart along the line between the points of
+///         the last pair tested
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<closest_points_result> closest_points(
     const mesh_ref& a, const mesh_ref& b, const mesh_positions& positions = {});
 
-/// The distance of the surfaces `a` and `b`; infinite if `closest_points` returns none.
+/// The distance between the surfaces `a` and `b`; infinite if `closest_points` returns none.
 [[nodiscard]] TREEFORM_API double distance(const mesh_ref& a, const mesh_ref& b,
                                            const mesh_positions& positions = {});
 

@@ -78,10 +78,10 @@ mesh_intersections(const mesh_ref& a, const mesh_ref& b, const intersection_opti
 [[nodiscard]] TREEFORM_API answer_lists<std::array<point3, 2>> intersection_curves(
     mesh_view mesh, std::span<const face_pair> pairs);
 
-/// A point of a curve, named by the lowest-numbered corners, edges or faces that meet there: a
-/// point of the mesh, which `edge` and `by` hold twice; two edges that cross, `edge` and `by`, each
-/// by its points, ascending; or `edge` that meets the inside of face `by[0]`, and `by[1]` is
-/// `none`.
+/// A point of a curve, named by the lowest-numbered vertex, edges or face that meet there:
+/// - a vertex: `edge` and `by` both have its number twice;
+/// - two edges that cross: `edge` and `by`, each as its two point numbers, ascending;
+/// - an edge that meets the inside of a face: `edge`, and the face as `by[0]`; `by[1]` is `none`.
 struct curve_point {
     static constexpr std::uint32_t none = operand_element::none;
 
@@ -103,7 +103,7 @@ struct curve_path {
 struct curve_network {
     std::vector<curve_point> points;  ///< no two are equal as exact points
     /// First open paths, between points where one segment or more than two end. Then closed paths.
-    /// Last single points, where faces meet in a point that is on no segment.
+    /// Last single points: contacts of faces that are on no segment.
     std::vector<curve_path> paths;
 };
 

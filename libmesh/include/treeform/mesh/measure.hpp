@@ -60,8 +60,8 @@ struct surface_point {
 struct mesh_measure {
     mesh_relation relation = mesh_relation::separate;
     /// Faces that prove the relation: two that cross, overlap with the inside on the same side, or
-    /// touch. For a mesh that is or reaches inside the other, its lowest face there. Both are 0 if
-    /// the meshes are separate.
+    /// touch. For a mesh that is entirely or partly inside the other, its lowest face there. Both
+    /// are 0 if the meshes are separate.
     std::uint32_t face_a = 0;
     std::uint32_t face_b = 0;
     bool a_inside_b = false;  ///< a component of `a` is inside the solid `b` without touching it

@@ -85,8 +85,8 @@ struct mesh_view {
     std::span<const point3> points{};  ///< [V]
     std::span<const face> faces{};     ///< [F]
 
-    /// Refers to other arrays of the same bytes: x, y, z, x, y, z, ... as doubles, and three point
-    /// numbers for each face, as 32-bit integers; or rows `std::array` of three of them.
+    /// Refers to arrays of other types with the same layout: x, y, z, x, y, z, ... as doubles, and
+    /// three point numbers for each face, as 32-bit integers; or each as `std::array` of three.
     /// \throws std::invalid_argument unless the counts of numbers are multiples of 3
     template <class Points, class Faces = std::span<const face>>
     [[nodiscard]] static mesh_view of(Points&& points, Faces&& faces = {}) {
@@ -108,7 +108,7 @@ enum class vertex_identity : std::uint8_t {
     by_index         ///< corners with the same point number
 };
 
-/// A triangle mesh or point cloud as `mesh_view`, which owns its arrays.
+/// A triangle mesh or point cloud that owns its arrays; otherwise like `mesh_view`.
 struct mesh {
     std::vector<point3> points{};  ///< [V]
     std::vector<face> faces{};     ///< [F]

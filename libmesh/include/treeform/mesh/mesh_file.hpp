@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The content of a mesh or point file: points, triangles, attributes, parts of a scene, the
-/// LAS header. Errors of files. The communicator of processes that share a job.
+/// The content of a mesh or point file: points, triangles, attributes, parts of a scene, the LAS
+/// header. File errors. The communicator of processes that share a job.
 
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -71,7 +71,7 @@ struct io_warning {
 
 /// A variable length record (VLR), plain or extended, for example with the coordinate system.
 struct las_record {
-    /// "LASF_Projection"; at most 16 bytes, including any after a zero byte
+    /// such as "LASF_Projection"; at most 16 bytes, including any after a zero byte
     std::string user_id{};
     std::uint16_t record_id = 0;
     std::string description{};  ///< at most 32 bytes, including any after a zero byte
@@ -131,7 +131,7 @@ struct read_options {
 /// The content of a file. Points and faces have the order and numbers of the file: nothing is
 /// joined, split, reordered or dropped.
 struct mesh_file {
-    treeform::mesh mesh{};  ///< polygons are cut into a fan from their first corner
+    treeform::mesh mesh{};  ///< polygons become triangle fans from their first corner
     /// [F] the number in the file of the face that each triangle comes from; empty if all faces are
     /// triangles.
     std::vector<std::uint32_t> stored_face{};

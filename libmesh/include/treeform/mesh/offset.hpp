@@ -83,7 +83,7 @@ struct TREEFORM_API offset_result {
 /// Convex edges and corners become round outward. Edges that the exact offset keeps sharp are cut
 /// off by at most a cell. The mesh must bound a solid, like an operand of `boolean`; if it meets
 /// itself, the solid that it winds around is used. What is inside is decided exactly. Vertices are
-/// at the distance to about a thousandth of a cell.
+/// at the given distance, up to about a thousandth of a cell.
 ///
 /// \throws std::invalid_argument as `boolean`; for a distance that is 0 or not finite; for a
 ///         resolution that is not positive, more than half of the distance, below the spacing of
@@ -111,10 +111,10 @@ struct TREEFORM_API offset_result {
 
 /// A solid around any surface: all points at most half of `thickness` away. Its rim is round.
 ///
-/// With a `shift` the surface is first moved toward its front, from where faces are
+/// With a `shift`, the surface is first moved toward its front, the side from which faces are seen
 /// counter-clockwise. Each vertex moves so that the planes of its faces move by the shift, on
-/// average. This is exact where the surface is flat, and rounds it where it bends. Vertices of
-/// sharp folds move by at most twice the shift. Faces must be consistently oriented.
+/// average. This is exact where the surface is flat; where it bends, it becomes rounder. Vertices
+/// of sharp folds move by at most twice the shift. Faces must be consistently oriented.
 ///
 /// \throws std::invalid_argument as `offset`, with half of the thickness as the distance; for a
 ///         mesh without faces; for a shift that is not finite; with a shift, naming a face that is

@@ -105,12 +105,12 @@ struct laid_flat {
 
 /// The plates, and options of packing.
 struct pack_options {
-    /// Length, depth and height of the plate or box. The height may be infinite, as it is if it is
-    /// 0, so that `{.size = {250, 210}}` is a plate.
+    /// Length, depth and height of the plate or box. An infinite height, or 0, means no limit, so
+    /// that `{.size = {250, 210}}` is a plate.
     point3 size{0.0, 0.0, std::numeric_limits<double>::infinity()};
     /// The corner of the first plate with the lowest x and y; its z is the bed.
     point3 corner{};
-    double spacing = 2.0;  ///< least distance of any two parts; parts may touch the plate's rim
+    double spacing = 2.0;  ///< least distance between parts; parts may touch the plate's rim
     /// Rotations about the vertical that are tried for each part, evenly over the full circle: 1
     /// (none), 2, 3, 4, 6, 8, 12 or 24.
     unsigned turns = 4;
@@ -178,13 +178,14 @@ struct packing {
 /// part is placed in a void that is closed all around.
 ///
 /// This is a heuristic search: a place may exist for a part that is not placed. In the first try,
-/// parts are taken in the order of the area that they cover (stacked: of their volume). Each part
-/// goes to the first plate with room, to the free position with the least (stacked: z, then) y,
-/// then x, on a raster of about 512 cells a side (stacked: 96). Then it is moved toward lower (z,)
-/// y and x until it meets an obstacle. While parts are not placed, other orders and rotations are
-/// tried: at random by the seed, and with unplaced parts first. With several plates, tries also go
-/// on while more plates are used than the area requires. The result is the try with the most parts
-/// placed, then with the least area unplaced, then with the fewest plates, then the earliest.
+/// parts are placed in descending order of the area that they cover. Each part goes to the first
+/// plate with room, to the free position with the least y, then the least x, on a raster of about
+/// 512 cells a side. Then it is moved toward lower y and x until it meets an obstacle. With
+/// `stack`, the order is by volume, z comes before y, and the raster has about 96 cells a side.
+/// While parts are not placed, other orders and rotations are tried: at random by the seed, and
+/// with unplaced parts first. With several plates, tries also go on while more plates are used than
+/// the area requires. The result is the try with the most parts placed, then with the least area
+/// unplaced, then with the fewest plates, then the earliest.
 ///
 /// Empty parts occupy no space: they are placed at their present position. Points that no face uses
 /// move along with their part and are otherwise ignored. Equal parts are prepared once.

@@ -29,7 +29,7 @@ enum class placement_end : std::uint8_t {
     unchanged,           ///< no motion is needed
     moved_apart,         ///< for `separate`: moved out of the fixed meshes
     nothing_met,         ///< no place: nothing is in the way, at least not within `max_travel`
-    too_far,             ///< no place: `mate`, `separate` or a bed above, beyond `max_travel`
+    too_far,             ///< no place: `mate`, `separate` or a bed above exceed `max_travel`
     starts_penetrating,  ///< no place: penetrates a fixed mesh at the start
     starts_too_near,     ///< no place: nearer than the clearance at the start
     starts_touching,     ///< no place: touches a fixed mesh at the start, and a clearance is given
@@ -102,7 +102,7 @@ struct placement {
     std::optional<double> bed{};  ///< least z allowed, rounded: the bed plus the clearance
     double below_bed = 0.0;       ///< how far the mesh was below `bed` at the start
     mesh_relation relation_at_start = mesh_relation::separate;  ///< exact
-    mesh_relation relation = mesh_relation::separate;           ///< the same at the place
+    mesh_relation relation = mesh_relation::separate;           ///< relation at the place
     /// The relation, at the place, of the moving mesh (`a`) to the fixed mesh that it penetrates,
     /// else to one that it touches, else to the nearest. None if all are too far away.
     std::optional<mesh_measure> nearest{};
@@ -110,8 +110,8 @@ struct placement {
     std::vector<placement_contact> contacts{};
     std::uint64_t contact_count = 0;     ///< number of all contacts, listed or not
     std::optional<double> max_travel{};  ///< the given limit
-    /// For `separate`: the effort of its search. If `skipped_candidates` is not 0, a shorter
-    /// translation may exist or, if no place was found, a place.
+    /// For `separate`: the effort of its search. If `skipped_candidates` is not 0, there may be a
+    /// shorter translation, or a place although none was found.
     search_effort effort{};
     double angle = 0.0;      ///< for `turn` and `mate_features`: angle of the rotation, in degrees
     double tolerance = 0.0;  ///< for `turn`: the gap, beyond the clearance, that counts as contact
@@ -122,7 +122,7 @@ struct placement {
 
     explicit operator bool() const { return static_cast<bool>(certificate); }
     /// The mesh that was placed, with `points`: `write("low.stl", low.moved(part))`.
-    /// \throws std::invalid_argument for another number of points
+    /// \throws std::invalid_argument if the numbers of points differ
     [[nodiscard]] TREEFORM_API placed_mesh moved(const mesh_ref& placed) const;
     /// The reason why there is no place: a clause about the moving mesh, without a full stop. Empty
     /// if there is a place. `names` has the names of the fixed meshes.
@@ -134,9 +134,9 @@ struct placement {
                                                              const body_set& fixed) const;
 
     /// The relation of each face to the other meshes at the place: [0][F] for `moving`, then [1 +
-    /// i][F] for each of `fixed`; empty if all are separate. Faces of `contacts`, and those on the
-    /// bed, count as closer than the clearance or, without one, as touching, even if rounding left
-    /// a gap.
+    /// i][F] for each of `fixed`; such a list may be empty if all its faces are separate. Faces of
+    /// `contacts`, and those on the bed, count as closer than the clearance or, without one, as
+    /// touching, even if rounding left a gap.
     ///
     /// \pre    this is a placement of `moving` among `fixed`
     /// \cost   O(P) for the P pairs of faces within the clearance of each other
@@ -154,9 +154,9 @@ struct placement {
     /// all corners within `halo` of a face that is not separate. Their tf_class stays 0.
     ///
     /// `relations` has one entry for each triangle of `file.mesh`; for a cloud, for each point. A
-    /// polygon gets the gravest relation of its triangles; see `mesh_file::split_polygons`.
+    /// polygon gets the worst relation of its triangles; see `mesh_file::split_polygons`.
     ///
-    /// \throws std::invalid_argument for another number of relations
+    /// \throws std::invalid_argument unless `relations` has this size
     /// \cost   O(F)
     TREEFORM_API static void color(mesh_file& file, std::span<const mesh_relation> relations,
                                    double halo = 0.0, bool keep_colors = false);

@@ -41,8 +41,8 @@ class TREEFORM_API point_reader {
     /// cannot be mapped into memory (standard input, a pipe) is first copied to an unnamed file in
     /// /var/tmp. The points of a compressed PCD are unpacked to such a file before the first block
     /// is read, so that damage is found then. Reading starts at point `first`, which must not
-    /// exceed the number of points. The points before it need not be read in binary PLY without
-    /// lists, binary PCD and LAS, nor whole chunks of them in LAZ.
+    /// exceed the number of points. In binary PLY without lists, binary PCD and LAS, earlier points
+    /// are skipped without reading them; in LAZ, whole chunks of them are.
     ///
     /// With `with_rows`, a PLY may have faces and other elements after its points, and a binary STL
     /// is read as the corners of its facets, followed by the facets. The header has the number of
@@ -112,9 +112,9 @@ class TREEFORM_API point_writer {
   public:
     /// `header` is the header of a `point_reader`, perhaps with columns added or removed. `count`
     /// is the number of points that will be written. Coordinates are written with the types of
-    /// their columns in "vertex"; in binary formats as doubles if no type is wider than float32 and
-    /// `stored_as` is float64. `header` also has the number of rows to be written of other
-    /// elements, and `most_corners` is the largest number of corners of a face.
+    /// their columns in "vertex". In binary formats, they are written as doubles if `stored_as` is
+    /// float64 and none of these types is wider than float32. `header` also has the number of rows
+    /// of other elements to be written; `most_corners` is the largest number of corners of a face.
     ///
     /// \throws io_error as `write`; also for a format other than ply, obj, pcd, las, laz, xyz
     ///         and csv, for LAS without `mesh_file::las` or to a pipe, and for rows of other

@@ -131,7 +131,7 @@ struct mass_properties {
 
 /// Whether two meshes have the same faces with the same orientation. Corners are compared by
 /// coordinates (-0 equals +0, NaN equals nothing). With `any_order`, faces may come in any order
-/// and start at any corner; otherwise both must agree.
+/// and start at any corner; otherwise order and first corners must be equal, too.
 ///
 /// \pre    every corner is in range
 /// \cost O(F); with `any_order` O(F log F)

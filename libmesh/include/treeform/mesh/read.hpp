@@ -40,8 +40,8 @@ namespace treeform {
 /// - Text without a header (XYZ, CSV): the first line may name the columns. Then x, y and z may be
 ///   any columns; names such as easting, northing and elevation are accepted with a warning,
 ///   latitude and longitude are refused. `read_options::columns` assigns columns explicitly. An
-///   empty cell, or one with text, is NaN. A column of integers beyond 2^53 has 64-bit integers.
-///   Columns of colors have 8 or 16 bits if all values are integers in that range.
+///   empty cell, or one with text, is NaN. A column with an integer beyond 2^53 gets a 64-bit
+///   integer type. Columns of colors have 8 or 16 bits if all values are integers in that range.
 /// - PTS: as XYZ. If the first line is the number of points, 4 columns are x y z intensity, 6 are x
 ///   y z red green blue, and 7 have both. More points than announced are read with a warning; fewer
 ///   are an error. The format is reported as "xyz".
@@ -111,8 +111,8 @@ struct urdf_mesh {
     std::filesystem::path file{};  ///< empty for a box, a cylinder, a sphere
     transform<3> place{};          ///< the origin, and the scale of the mesh
     /// A box is exact. A cylinder or sphere is replaced by a triangle mesh that contains it, so
-    /// that no clash is missed: a cylinder has 96 sides and exceeds the radius by at most 0.054 %,
-    /// a sphere has 5,120 triangles and exceeds it by at most 0.13 %.
+    /// that no clash is missed: a cylinder has 96 sides and exceeds the radius by at most 0.054%, a
+    /// sphere has 5,120 triangles and exceeds it by at most 0.13%.
     mesh shape{};
 };
 

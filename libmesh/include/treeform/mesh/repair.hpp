@@ -38,7 +38,7 @@ struct resolve_options {
     int removal_rounds = 16;  ///< for `remove`: largest number of rounds that make or widen holes
     /// For `outer` and `remove`: losing more than this share gives the status `excessive_loss`. The
     /// share is of the volume of the solid, or of the area if the mesh bounds none. 1 allows any
-    /// loss. The solid before is that of `repair` without filling holes.
+    /// loss. The loss is measured from the solid that `repair` makes without filling holes.
     double max_loss = 0.05;
     progress_callback progress{};
 };
@@ -56,15 +56,15 @@ struct repair_options {
     std::optional<double> gap{};
     /// Fill holes of at most this many edges.
     std::uint64_t largest_hole = std::numeric_limits<std::uint64_t>::max();
-    /// Drops loose open pieces below this share of the area, and single triangles below 1 %. If a
-    /// larger component vanishes since it bounds no solid, the status is `excessive_loss`, unless
-    /// `max_loss` is 1.
+    /// Drops loose open pieces below this share of the area, and loose pieces of one or two faces
+    /// below 1% of it. If a larger component vanishes because it bounds no solid, the status is
+    /// `excessive_loss`, unless `max_loss` is 1.
     double strays = 0.001;
     /// The rule that defines the inside. By default `positive` if each shell is outward after
     /// `orient`, else `nonzero` or the labels of cells (see `repair`).
     std::optional<treeform::fill_rule> fill_rule{};
-    /// Losing more than this share of the volume gives the status `excessive_loss`; if there were
-    /// holes, of the area. Faces that remain, or are inside the solid, do not count as lost. 1
+    /// Losing more than this share of the volume (of the area, if there were holes) gives the
+    /// status `excessive_loss`. Faces that remain, or are inside the solid, do not count as lost. 1
     /// allows any loss.
     double max_loss = 0.05;
     bool sheet = false;   ///< the mesh is an open surface: keep its border, and fill nothing
@@ -80,14 +80,14 @@ struct repair_options {
 
 /// Counts of each step's changes. Closed gaps, chosen orientations and filled holes are heuristic.
 struct repair_statistics {
-    std::uint64_t tetrahedra = 0;  ///< tetrahedra formed by faces; only their boundary was kept
-    std::uint64_t degenerate = 0;  ///< faces without area, dropped; if there are any, also slivers
-    std::uint64_t repeated = 0;    ///< faces that repeat another, dropped
-    std::uint64_t closed_edges = 0;    ///< pairs of border edges joined into one edge
-    std::uint64_t split_edges = 0;     ///< border edges split at vertices that lie on them
-    double gap_limit = 0.0;            ///< largest width of cracks searched for
-    double widest_closed = 0.0;        ///< widest crack that was closed
-    std::uint64_t flipped = 0;         ///< faces flipped to agree with their neighbors
+    std::uint64_t tetrahedra = 0;    ///< tetrahedra formed by faces; only their boundary was kept
+    std::uint64_t degenerate = 0;    ///< dropped faces without area; if there are any, slivers, too
+    std::uint64_t repeated = 0;      ///< faces that repeat another, dropped
+    std::uint64_t closed_edges = 0;  ///< pairs of border edges joined into one edge
+    std::uint64_t split_edges = 0;   ///< border edges split at vertices that lie on them
+    double gap_limit = 0.0;          ///< largest width of cracks searched for
+    double widest_closed = 0.0;      ///< widest crack that was closed
+    std::uint64_t flipped = 0;       ///< faces flipped to agree with their neighbors
     std::uint64_t turned_outward = 0;  ///< components flipped outward
     std::uint64_t strays = 0;          ///< faces of loose and inner pieces, dropped
     std::uint64_t holes = 0;           ///< holes filled
@@ -98,13 +98,14 @@ struct repair_statistics {
     bool resolved = false;             ///< whether faces met and were cut
     std::uint64_t pairs = 0;           ///< pairs of faces that met
     std::uint64_t labeled_cells = 0;   ///< cells labeled inside or outside, since faces disagreed
-    double dropped_area = 0.0;         ///< area of dropped faces, with one label on both sides
+    double dropped_area = 0.0;         ///< area of faces dropped for equal labels on both sides
     double flipped_area = 0.0;         ///< area of faces flipped by the labels
     std::uint64_t removed = 0;         ///< input faces that resolving removed entirely
     /// For `resolve_self_intersections` with `split`: input faces that lie entirely on faces of
     /// lower numbers. Their pieces are those of the lower faces, so they do not count as removed.
     std::uint64_t covered = 0;
-    std::uint64_t left_open = 0;  ///< the same with `remove`: edges that lost their second face
+    /// For `resolve_self_intersections` with `remove`: edges that lost their second face.
+    std::uint64_t left_open = 0;
     /// for `resolve_self_intersections`: as in `boolean_statistics`
     std::uint64_t exact_faces = 0;
     std::uint64_t split_vertices = 0;  ///< vertices split where parts of the solid touch

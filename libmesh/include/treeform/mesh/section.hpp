@@ -107,11 +107,12 @@ struct section_result {
 /// faces touch; at an edge of four or more faces, segments that bound the same wedge of the solid
 /// are joined. Where the mesh has a border, polylines are open; across inconsistently oriented
 /// neighbors they continue, but are not `oriented`. If faces cross each other, so do loops:
-/// `parent` is then that of one point of the loop, and areas count as often as the surface winds
-/// around them. Corners with equal coordinates are one.
+/// `parent` is then the innermost loop around one point of the loop, and areas count as often as
+/// the surface winds around them. Corners with equal coordinates are one.
 ///
-/// Between exactly coplanar faces a straight loop has no point: the section of a box has four. The
-/// segment after a point begins in the face in `faces`, and may continue in others.
+/// Where a loop runs straight from one face to a coplanar one, it has no point: the section of a
+/// box has four. The segment after a point begins in the face in `faces`, and may continue in
+/// others.
 ///
 /// Loops are in the order of their lowest faces.
 ///
@@ -129,7 +130,7 @@ struct section_result {
     return section(mesh, plane, std::array{0.0}, progress);
 }
 
-/// A line on a mesh along which a value has a level.
+/// A line on a mesh along which a value equals a level.
 struct isoline {
     double level = 0.0;           ///< the value along the line
     std::size_t first_point = 0;  ///< its number; the points of the line are consecutive
@@ -156,8 +157,9 @@ struct isolines_result {
 /// in each face.
 ///
 /// Lines are decided exactly; their points are interpolated and rounded. A vertex at a level counts
-/// as above it, as in `section`: with heights as values, the lines are sections by planes across z.
-/// Vertices with equal coordinates are joined if their values are equal; otherwise lines end there.
+/// as above it, as in `section`: with heights as values, the lines are sections by planes
+/// perpendicular to z. Vertices with equal coordinates are joined if their values are equal;
+/// otherwise lines end there.
 ///
 /// \throws std::invalid_argument naming a face with a corner out of range or not finite, a corner
 ///         or level with a value that is not finite, or if there is not one value for each vertex
@@ -179,8 +181,8 @@ struct isolines_result {
 TREEFORM_API void write_section(const std::filesystem::path& path, const section_result& section,
                                 const std::string& format = {}, const std::string& unit = {});
 
-/// The same for isolines: SVG has their projection onto a plane, in a group for each level; DXF and
-/// OBJ have lines in space; JSON has all data.
+/// The same for isolines: SVG has their projection onto the plane `seen`, in a group for each
+/// level; DXF and OBJ have lines in space; JSON has all data.
 TREEFORM_API void write_isolines(const std::filesystem::path& path, const isolines_result& isolines,
                                  const oriented_plane& seen = {}, const std::string& format = {},
                                  const std::string& unit = {});

@@ -77,7 +77,7 @@ struct simplify_result {
 ///
 /// Borders, features, and borders of groups are simplified as polylines on their own vertices,
 /// within the same distance. Vertices stay where such lines end, branch or cross, at nonmanifold or
-/// inconsistently oriented edges, and at vertices whose faces are not one fan.
+/// inconsistently oriented edges, and where their faces are not one fan.
 ///
 /// Nothing is collapsed if the distance is below about 2^-46 of the largest coordinate, which
 /// doubles cannot prove, or if squares of coordinates overflow or underflow. Corners with equal

@@ -20,8 +20,8 @@ namespace treeform {
 struct placement_options {
     double clearance = 0.0;              ///< gap to leave, a distance; 0: contact
     std::optional<double> max_travel{};  ///< largest distance to move; obstacles beyond are ignored
-    /// `mate_features`: planes face the same way instead of each other; the axis of `moving` is
-    /// reversed.
+    /// `mate_features`: planes face the same way instead of each other; for axes, that of `moving`
+    /// is reversed.
     bool flip = false;
     double max_angle = 360.0;  ///< `turn`: in degrees; greater than 0, up to 360
     /// `turn`: the gap, beyond the clearance, that counts as contact; greater than 0. Default:
@@ -69,8 +69,8 @@ struct placement_options {
                                            const point3& direction,
                                            const placement_options& options = {});
 
-/// Moves `moving` down until it rests on the bed. From below the bed it goes up, back along the
-/// direction.
+/// Moves `moving` down until it rests on the bed. If it starts below the bed, it moves up, against
+/// the direction.
 ///
 /// \throws std::invalid_argument as `slide`; for a direction that does not point down
 /// \cost   O(V)
@@ -95,8 +95,8 @@ struct placement_options {
 [[nodiscard]] TREEFORM_API placement mate(const mesh_ref& moving, const mesh_refs& fixed,
                                           const placement_options& options = {});
 
-/// Translates `moving` to a place where it penetrates none of `fixed` and keeps the clearance. It
-/// stays if it already does.
+/// Translates `moving` to a place where it penetrates none of `fixed` and keeps the clearance. If
+/// it already does, it stays.
 ///
 /// About fifty directions are tried: the axes, away from the nearest points, normals of faces that
 /// meet, and others around the best. The nearest of the places found is returned, if its
@@ -129,9 +129,9 @@ struct placement_options {
 /// `slide`. Planes approach from the front of the fixed plane; axes from the side where `moving`
 /// is.
 ///
-/// A shaft may go through its bore and meet nothing: then its center stays at that of the bore, if
-/// that penetrates nothing and keeps the clearance. The place is checked exactly, on the returned
-/// coordinates. `travel` is 0.
+/// A shaft may go through its bore and meet nothing: then its center stays at the center of the
+/// bore, if that penetrates nothing and keeps the clearance. The place is checked exactly, on the
+/// returned coordinates. `travel` is 0.
 ///
 /// \throws std::invalid_argument as `slide`; for features of different kinds, with a direction that
 ///         is not of length 1, or with an origin that is not finite

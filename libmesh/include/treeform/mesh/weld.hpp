@@ -139,10 +139,11 @@ struct file_weld_result {
 ///         another `keep` than `first`; for more than 2^32 / 3 faces with `keep_manifold`. The
 ///         message names the lowest invalid element
 /// \cost   O(V log V + F log F) for any tolerance and any number of equal points, if `may_merge` is
-///         empty or nearly always true. Parallel, except, without `chain`, for points with several
-///         others within the tolerance, if points come row by row or few are kept. Memory besides
-///         the result: up to 36 bytes a point (50 for dense chains), 40 more with `order_by`; 24
-///         bytes a face, 100 with `keep_manifold`; 8 bytes a point for each property in a condition
+///         empty or nearly always true. Parallel. Without `chain`, points with several others
+///         within the tolerance are processed serially if points come row by row or few are kept.
+///         Memory besides the result: up to 36 bytes a point (50 for dense chains), 40 more with
+///         `order_by`; 24 bytes a face, 100 with `keep_manifold`; 8 bytes a point for each property
+///         in a condition
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API weld_result weld(const mesh_ref& mesh, const weld_options& options = {});
 

@@ -19,7 +19,7 @@ namespace treeform {
 enum class weld_keep : std::uint8_t {
     first,   ///< the lowest-numbered; kept points do not move
     last,    ///< the highest-numbered
-    mean,    ///< the mean of coordinates and floating-point properties; the rest of the first point
+    mean,    ///< the mean of coordinates and floating-point properties; the rest: the first point's
     lowest,  ///< the one with the least value of `keep_by`, not NaN if there are others; of equal
              ///< ones the first
     highest  ///< the one with the greatest value of `keep_by`, otherwise as `lowest`

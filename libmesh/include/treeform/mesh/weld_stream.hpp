@@ -7,10 +7,10 @@
 /// The input is a cloud in one file or several, or a mesh. It is read three times: for a survey
 /// (bounding box, number of points, and a sample from which the tiles are planned), to write the
 /// points of each tile, and to write the kept points. `order_by`, a `keep` other than `first`, and
-/// a mesh need one more pass over the points each; the faces of a mesh are read three times. Tiles
+/// a mesh each need one more pass over the points; the faces of a mesh are read three times. Tiles
 /// are files in a folder. If the process is killed, the folder stays, and the same call resumes
-/// there. The output is byte for byte that of `weld` for the file, or for the result of `join` for
-/// several.
+/// there. The output is byte for byte that of `weld` and `write` for the file, or for the result of
+/// `join` for several.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh_file.hpp>
@@ -174,9 +174,9 @@ TREEFORM_API weld_stream_result weld_stream(const std::filesystem::path& input,
 /// `weld_stream` step by step, for many processes on one or more machines that share the folder:
 /// one process calls `scatter`; then each calls `weld_tile` for its share of the tiles; after all
 /// have ended, one calls `finish` and `remove_folder`. Steps are idempotent: finished tiles are
-/// skipped, and two processes that weld the same tile write the same bytes. Objects share the lock
-/// of the folder. `scatter`, unless done, and `finish` need it alone: they wait two seconds for
-/// others to be destroyed, then throw.
+/// skipped, and two processes that weld the same tile write the same bytes. Objects of this class
+/// share the lock of the folder. `scatter` (unless done) and `finish` need it exclusively: they
+/// wait up to two seconds until all other objects are destroyed, then throw.
 ///
 /// All processes must use the same inputs and options. Steps throw as `weld_stream`. They return
 /// status::cancelled if `progress` returned false, else status::ok.
@@ -186,8 +186,8 @@ TREEFORM_API weld_stream_result weld_stream(const std::filesystem::path& input,
 /// calls them, and `weld` welds the tiles.
 class TREEFORM_API shared_weld {
   public:
-    /// Creates the folder and shares its lock, or locks it if it is not shared; then also removes
-    /// `weld_stream_outputs::unfinished` of a killed run.
+    /// Creates the folder and takes a shared lock. Without `weld_stream_options::shared`, takes an
+    /// exclusive lock, and removes `weld_stream_outputs::unfinished` of a killed run.
     shared_weld(cloud_inputs inputs, weld_stream_options options);
     /// The same for one file.
     shared_weld(const std::filesystem::path& input, weld_stream_options options);

@@ -72,8 +72,8 @@ typedef struct treeform_clash_options {
 /// Sets the defaults.
 TREEFORM_C_API void treeform_clash_options_init(treeform_clash_options* options, size_t size);
 
-/// A connected contact of two parts: pairs of faces, linked by common corners of faces of one part
-/// that meet the same face of the other.
+/// A connected contact of two parts: a set of pairs of faces that meet. Two pairs are linked if
+/// they have the face of one part in common, and their faces of the other part share a corner.
 typedef struct treeform_contact_region {
     treeform_box box;  ///< contains all common points of the surfaces in this region
     uint64_t face_pairs;
@@ -142,7 +142,7 @@ TREEFORM_C_API treeform_code treeform_pairs_named(const char* const* names, size
 typedef struct treeform_pose_clash {
     uint32_t a;  ///< the lower number
     uint32_t b;
-    /// or `TREEFORM_RELATION_PENETRATING`, `TREEFORM_RELATION_CLOSER_THAN_CLEARANCE` (a
+    /// touching, `TREEFORM_RELATION_PENETRATING` or `TREEFORM_RELATION_CLOSER_THAN_CLEARANCE` (a
     /// `treeform_mesh_relation`)
     uint8_t relation;
     double distance;  ///< for parts closer than the clearance; else 0

@@ -71,11 +71,12 @@ typedef struct treeform_section_result {
 /// where faces touch; at an edge of four or more faces, segments that bound the same wedge of the
 /// solid are joined. Where the mesh has a border, polylines are open; across inconsistently
 /// oriented neighbors they continue, but are not `oriented`. If faces cross each other, so do
-/// loops: `parent` is then that of one point of the loop, and areas count as often as the surface
-/// winds around them. Corners with equal coordinates are one.
+/// loops: `parent` is then the innermost loop around one point of the loop, and areas count as
+/// often as the surface winds around them. Corners with equal coordinates are one.
 ///
-/// Between exactly coplanar faces a straight loop has no point: the section of a box has four. The
-/// segment after a point begins in the face in `faces`, and may continue in others.
+/// Where a loop runs straight from one face to a coplanar one, it has no point: the section of a
+/// box has four. The segment after a point begins in the face in `faces`, and may continue in
+/// others.
 ///
 /// Loops are in the order of their lowest faces.
 ///
@@ -131,7 +132,7 @@ typedef struct treeform_cut_piece {
     const uint32_t* face_source;
     /// [V] input vertex equal to each vertex; `TREEFORM_NONE`: new
     const uint32_t* vertex_source;
-    /// [F] for faces of a cap, the number of its plane, from the lowest; else `TREEFORM_NONE`
+    /// [F] for faces of a cap, the number of its plane (0: the lowest); else `TREEFORM_NONE`
     const uint32_t* cap;
     /// Status ok means the same as in `treeform_boolean_result`; without caps, edges are not
     /// checked. A piece without faces is ok: the mesh has no part between these planes.
@@ -148,18 +149,18 @@ typedef struct treeform_cut_result {
     /// The certificate of the first piece that is not ok, or of the mesh if it bounds no solid.
     const treeform_certificate* certificate;
     /// True if faces of the mesh meet. Then the solid that the mesh winds around was cut, with
-    /// overlapping parts merged; without caps, the faces cut along each other. Not used by
-    /// `treeform_cut_along`.
+    /// overlapping parts merged; without caps, the mesh with its faces cut along each other. Not
+    /// used by `treeform_cut_along`.
     int32_t resolved;
 } treeform_cut_result;
 
 /// The pieces of a mesh below, between and above planes at `heights` above `plane`.
 ///
 /// The side of each vertex is decided exactly, on the coordinates as given. A face in a plane
-/// belongs to the side of its solid. The section of the solid in a plane becomes a cap, the same
-/// on both sides. Only points on cuts are rounded, once; each piece is checked like a result of
-/// `treeform_boolean`. Caps across an axis stay flat and equal when rounded; others may bend by a
-/// step of the precision.
+/// belongs to the piece that it bounds. The section of the solid in a plane becomes a cap, the
+/// same on both sides. Only points on cuts are rounded, once; each piece is checked like a result
+/// of `treeform_boolean`. Caps perpendicular to an axis stay flat and equal when rounded; others
+/// may bend by a unit in the last place.
 ///
 /// `treeform_carry` transfers the attributes of a file to pieces.
 ///
@@ -174,11 +175,10 @@ TREEFORM_C_API treeform_code treeform_cut(const treeform_mesh* mesh, const treef
                                           const treeform_cut_options* options,
                                           treeform_cut_result** result);
 
-/// Pieces that fit into a box of this size. They are cut by planes across x, then y, then z: as
-/// few as possible for each axis, equally spaced up to rounding, and none for an axis with
-/// infinite size. Pieces without faces are omitted; the others are ordered by x, then y, then z.
-/// Planes are numbered across x first, then y, then z. Cuts across y and z cut the rounded pieces
-/// of the cuts before.
+/// Pieces that fit into a box of this size. They are cut by planes perpendicular to x, then y,
+/// then z: as few as possible for each axis, equally spaced up to rounding, and none for an axis
+/// with infinite size. Pieces without faces are omitted; the others are ordered by x, then y, then
+/// z. Planes are numbered in the same order. Later cuts cut the rounded pieces of earlier ones.
 TREEFORM_C_API treeform_code treeform_cut_to_fit(const treeform_mesh* mesh, const double size[3],
                                                  const treeform_cut_options* options,
                                                  treeform_cut_result** result);

@@ -112,7 +112,7 @@ typedef struct treeform_warning {
 /// joined, split, reordered or dropped.
 typedef struct treeform_file_view {
     void* owner;
-    treeform_arrays mesh;  ///< polygons are cut into a fan from their first corner
+    treeform_arrays mesh;  ///< polygons become triangle fans from their first corner
     /// [F] the number in the file of the face that each triangle comes from; empty if all faces
     /// are triangles.
     const uint32_t* stored_face;
@@ -307,7 +307,8 @@ typedef struct treeform_part {
     /// from `treeform_usable_part`: triangles that are a segment or a point
     uint64_t degenerate;
     uint64_t joined;  ///< from `treeform_usable_part`: points merged by tolerance
-    /// Triangles with a coordinate that is not finite; of a cloud, such points.
+    /// Number of triangles with a coordinate that is not finite; for a cloud, number of such
+    /// points.
     uint64_t non_finite;
 } treeform_part;
 

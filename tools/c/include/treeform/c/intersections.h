@@ -173,7 +173,7 @@ typedef struct treeform_paths {
     const double* points;  ///< [point_count][3]
     size_t point_count;
     /// [path_count] First open paths, between points where one segment or more than two end. Then
-    /// closed paths. Last single points, where faces meet in a point that is on no segment.
+    /// closed paths. Last single points: contacts of faces that are on no segment.
     const treeform_path* paths;
     size_t path_count;
 } treeform_paths;

@@ -91,12 +91,12 @@ TREEFORM_C_API treeform_code treeform_lay_flat(const treeform_mesh* mesh,
 /// The plates, and options of packing.
 typedef struct treeform_pack_options {
     size_t struct_size;
-    /// Length, depth and height of the plate or box. The height may be infinite, as it is if it is
-    /// 0, so that `{.size = {250, 210}}` is a plate; default infinite
+    /// Length, depth and height of the plate or box. An infinite height, or 0, means no limit, so
+    /// that `{.size = {250, 210}}` is a plate; default infinite
     double size[3];
     /// The corner of the first plate with the lowest x and y; its z is the bed.
     double corner[3];
-    /// least distance of any two parts; parts may touch the plate's rim; default 2.0
+    /// least distance between parts; parts may touch the plate's rim; default 2.0
     double spacing;
     /// Rotations about the vertical that are tried for each part, evenly over the full circle: 1
     /// (none), 2, 3, 4, 6, 8, 12 or 24; default 4
@@ -175,13 +175,14 @@ typedef struct treeform_packing {
 /// No part is placed in a void that is closed all around.
 ///
 /// This is a heuristic search: a place may exist for a part that is not placed. In the first try,
-/// parts are taken in the order of the area that they cover (stacked: of their volume). Each part
-/// goes to the first plate with room, to the free position with the least (stacked: z, then) y,
-/// then x, on a raster of about 512 cells a side (stacked: 96). Then it is moved toward lower (z,)
-/// y and x until it meets an obstacle. While parts are not placed, other orders and rotations are
-/// tried: at random by the seed, and with unplaced parts first. With several plates, tries also go
-/// on while more plates are used than the area requires. The result is the try with the most parts
-/// placed, then with the least area unplaced, then with the fewest plates, then the earliest.
+/// parts are placed in descending order of the area that they cover. Each part goes to the first
+/// plate with room, to the free position with the least y, then the least x, on a raster of about
+/// 512 cells a side. Then it is moved toward lower y and x until it meets an obstacle. With
+/// `stack`, the order is by volume, z comes before y, and the raster has about 96 cells a side.
+/// While parts are not placed, other orders and rotations are tried: at random by the seed, and
+/// with unplaced parts first. With several plates, tries also go on while more plates are used
+/// than the area requires. The result is the try with the most parts placed, then with the least
+/// area unplaced, then with the fewest plates, then the earliest.
 ///
 /// Empty parts occupy no space: they are placed at their present position. Points that no face
 /// uses move along with their part and are otherwise ignored. Equal parts are prepared once.
@@ -193,9 +194,8 @@ TREEFORM_C_API treeform_code treeform_pack(const treeform_mesh* const* parts, si
 typedef int32_t treeform_align_method;
 enum {
     /// Distances to the planes of the nearest faces, in least squares. If the nearest point is on
-    /// an edge or a corner, the plane through it perpendicular to the connecting segment. For a
-    /// fixed cloud, the plane fitted to the points around the nearest one. Needs few iterations on
-    /// surfaces.
+    /// an edge or a corner, its plane is perpendicular to the connecting segment; on a fixed
+    /// cloud, its plane is fitted to the points around it. Needs few iterations on surfaces.
     TREEFORM_POINT_TO_PLANE = 0,
     /// Distances to the nearest points, in least squares: for clouds, or where planes determine
     /// little.
@@ -214,14 +214,14 @@ enum {
 typedef struct treeform_align_options {
     size_t struct_size;
     treeform_align_method method;  ///< default `TREEFORM_ALIGN_AUTOMATIC`
-    /// Share of the moving points that have a partner, in (0, 1]. Each step uses this share of the
-    /// points, those with the nearest partners; default 1.0
+    /// Share of the moving points that have a partner (a corresponding fixed point), in (0, 1].
+    /// Each step uses this share of the points, those with the nearest partners; default 1.0
     double overlap;
     /// Ignore partners farther apart than this. Not squared, not negative; default infinite
     double max_distance;
-    /// Also find a uniform scale. The search starts from the scale of `start`, and from the scale
-    /// that makes both sides equally large, and tries from half to twice of each. It compares
-    /// results by the distances between both sides, relative to their sizes.
+    /// Also find a uniform scale. The search tries scales from half to twice that of `start`, and
+    /// from half to twice the scale that makes both sides equally large. It compares results by
+    /// the distances between both sides, relative to their sizes.
     int32_t scale;
     uint32_t max_iterations;  ///< largest number of steps from each start; default 100
     /// Converged if the cost falls by less than this share in each of 5 consecutive steps, or if a
@@ -229,9 +229,9 @@ typedef struct treeform_align_options {
     /// mesh's box; default 1e-6
     double tolerance;
     /// Number of starts, at least 1. The first is the present position; then the principal axes of
-    /// both sides aligned, in their 4 ways; then rotations spread evenly over all rotations, small
-    /// ones first, with aligned centers. The best result is returned; of equal results the first;
-    /// default 1
+    /// both sides aligned, in the 4 possible ways; then rotations spread evenly over all
+    /// rotations, small ones first, with aligned centers. The best result is returned; of equal
+    /// results the first; default 1
     uint32_t starts;
     int32_t accelerate;  ///< Anderson acceleration with the 5 previous steps; default 1
     /// Use at most this many moving points in the steps, spread evenly over space; 0 is all;
@@ -277,9 +277,10 @@ enum {
     TREEFORM_ALIGN_OUT_OF_ITERATIONS = 1,
     /// Converged, but residuals are more than noise: neighboring points deviate to the same side
     /// by more than in a correct alignment. Often a wrong local optimum, or parts without a
-    /// partner.  Or the scale is at its bound, or the points of a cloud do not determine the
-    /// position: `uncertainty` is above 0.2% of the diagonal of the fixed box, or a fit to the
-    /// held-out points would move all points by more than that, or some motion is undetermined.
+    /// partner.  Also if the scale is at its bound, or the points of a fixed cloud do not
+    /// determine the position: `uncertainty` exceeds 0.2% of the diagonal of the fixed box, a fit
+    /// to the held-out points would move all points by more than that, or a motion is
+    /// undetermined.
     TREEFORM_ALIGN_DOUBTFUL = 2,
     /// there are no points, or no point has a partner
     TREEFORM_ALIGN_NOTHING = 3
@@ -319,8 +320,8 @@ typedef struct treeform_align_result {
     uint32_t iterations;     ///< steps from the best start
     uint32_t start;          ///< number of the best start; 0 is the present position
     const char* message;     ///< the outcome as a clause for people, without a full stop
-    /// Estimated error of the position, as a root mean square over the points: the standard
-    /// deviation, from the residuals and the stiffness of the motions, except those that
+    /// Estimated standard deviation of the position, as a root mean square over the points. It
+    /// follows from the residuals and the stiffness of the motions, without those that
     /// `undetermined` counts.
     double uncertainty;
 } treeform_align_result;
@@ -332,10 +333,10 @@ typedef struct treeform_align_result {
 /// features of the shape. The result is never worse than the present position; if nothing better
 /// is found, it is `start`, scaled about its center to the bounds of the scale. Results are
 /// compared by the mean, over the nearest `overlap` share, of the squared distances to the nearest
-/// fixed points, each at most `max_distance` squared. If `robust`, or with an overlap below 1, it
-/// is the mean of Welsch's function with the final v, so that an overlap somewhat too large does
-/// no harm. Motions in which points slide freely (a plane on a plane) are not changed. Equal
-/// points of a cloud count once.
+/// fixed points, each at most `max_distance` squared. If `robust`, or with an overlap below 1,
+/// they are compared by the mean of Welsch's function with the final v instead, so that an overlap
+/// somewhat too large does no harm. Motions in which points slide freely (a plane on a plane) are
+/// not made. Equal points of a cloud count once.
 ///
 /// Along motions with a stiffness below 0.02, such as the rotation of a gear about its axis,
 /// positions up to 6% of the diagonal away are also tried.
@@ -344,10 +345,10 @@ typedef struct treeform_align_result {
 /// are noise; in a wrong one, whole regions deviate to one side. With 4000 moving points or more,
 /// every fourth is held out of the fit and used for this test. If its residuals are more than
 /// noise, other starts around `start` are tried: shifts by 8% of the diagonal, rotations by 14
-/// degrees. If residuals are still more than noise, a fixed cloud gives `TREEFORM_ALIGN_DOUBTFUL`
-/// if they exceed 0.6 times the thickness of both sides around their planes. On a fixed mesh,
-/// `TREEFORM_ALIGN_CONVERGED` then requires that other starts, tried with few points, do not end
-/// better, and that the deviation is below 0.2% of the diagonal.
+/// degrees. If residuals are still more than noise: on a fixed cloud, the result is
+/// `TREEFORM_ALIGN_DOUBTFUL` if they exceed 0.6 times the thickness of both sides around their
+/// planes. On a fixed mesh, it is `TREEFORM_ALIGN_DOUBTFUL` if another start, tried with few
+/// points, ends better, or if the deviation exceeds 0.2% of the diagonal.
 ///
 /// If either side has no points, the result is `start`, not converged.
 TREEFORM_C_API treeform_code treeform_align(const treeform_mesh* moving, const treeform_mesh* fixed,

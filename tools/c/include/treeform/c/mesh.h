@@ -101,8 +101,8 @@ TREEFORM_C_API treeform_code treeform_select_faces(const treeform_mesh* mesh, co
 TREEFORM_C_API treeform_code treeform_round(const treeform_mesh* mesh, treeform_precision precision,
                                             treeform_made_mesh** made);
 
-/// The spacing of numbers of precision `of` at the finite coordinate of largest magnitude. The
-/// least positive number of that precision if no coordinate is finite, or all are 0.
+/// The unit in the last place, in precision `of`, of the finite coordinate of largest magnitude.
+/// The least positive number of that precision if no coordinate is finite, or all are 0.
 TREEFORM_C_API treeform_code treeform_coordinate_step(const treeform_mesh* mesh,
                                                       treeform_precision of, double* result);
 
@@ -111,8 +111,8 @@ typedef struct treeform_rounding {
     void* owner;
     double max_displacement;  ///< largest change of a coordinate, after the transform
     double step;              ///< spacing of numbers at the largest written coordinate
-    /// True if points moved and doubles became float32, or the change is more than a millionth of
-    /// the diagonal of the bounding box.
+    /// True if doubles became float32 and points moved, or if points moved by more than a
+    /// millionth of the diagonal of the bounding box.
     int32_t noticeable;
     /// `collapsed` and `meeting` were computed, since coordinates became coarser
     int32_t compared;

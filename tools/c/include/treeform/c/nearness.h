@@ -160,8 +160,8 @@ typedef struct treeform_relation {
     void* owner;
     treeform_mesh_relation relation;
     /// Faces that prove the relation: two that cross, overlap with the inside on the same side, or
-    /// touch. For a mesh that is or reaches inside the other, its lowest face there. Both are 0 if
-    /// the meshes are separate.
+    /// touch. For a mesh that is entirely or partly inside the other, its lowest face there. Both
+    /// are 0 if the meshes are separate.
     uint32_t face_a;
     uint32_t face_b;
     /// a component of `a` is inside the solid `b` without touching it
@@ -269,8 +269,8 @@ typedef struct treeform_deviation_result {
     double rms;            ///< root mean square of the distances
     /// Median of the magnitudes: the least value that half of them do not exceed.
     double p50;
-    double p95;      ///< the same for 95 % of them
-    double p99;      ///< the same for 99 % of them
+    double p95;      ///< the same for 95% of them
+    double p99;      ///< the same for 99% of them
     double max;      ///< the largest magnitude
     uint32_t worst;  ///< the lowest point number with that magnitude
     double lowest;   ///< the least signed distance

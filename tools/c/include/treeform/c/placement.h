@@ -28,7 +28,7 @@ enum {
     TREEFORM_END_MOVED_APART = 3,
     /// no place: nothing is in the way, at least not within `max_travel`
     TREEFORM_END_NOTHING_MET = 4,
-    /// no place: `treeform_mate`, `treeform_separate` or a bed above, beyond `max_travel`
+    /// no place: `treeform_mate`, `treeform_separate` or a bed above exceed `max_travel`
     TREEFORM_END_TOO_FAR = 5,
     /// no place: penetrates a fixed mesh at the start
     TREEFORM_END_STARTS_PENETRATING = 6,
@@ -84,7 +84,7 @@ typedef struct treeform_placement {
     double bed;           ///< least z allowed, rounded: the bed plus the clearance; NaN: none
     double below_bed;     ///< how far the mesh was below `bed` at the start
     treeform_mesh_relation relation_at_start;  ///< exact
-    treeform_mesh_relation relation;           ///< the same at the place
+    treeform_mesh_relation relation;           ///< relation at the place
     size_t nearest_fixed;  ///< number of that fixed mesh; the lowest if several qualify
     /// The relation, at the place, of the moving mesh (`a`) to the fixed mesh that it penetrates,
     /// else to one that it touches, else to the nearest. Null if all are too far away.
@@ -105,8 +105,8 @@ typedef struct treeform_placement {
     /// feature's center at the place, along the direction of the fixed feature. For planes, their
     /// distance.
     double offset;
-    /// For `treeform_separate`: the effort of its search. If `skipped_candidates` is not 0, a
-    /// shorter translation may exist or, if no place was found, a place.
+    /// For `treeform_separate`: the effort of its search. If `skipped_candidates` is not 0, there
+    /// may be a shorter translation, or a place although none was found.
     treeform_search_effort effort;
 } treeform_placement;
 
@@ -143,7 +143,7 @@ typedef struct treeform_place_options {
     /// Default: 2^-32 of the largest distance of a point from the axis; NaN: not given
     double tolerance;
     uint64_t max_steps;  ///< `treeform_turn`; default 20000
-    /// `treeform_mate_features`: planes face the same way instead of each other; the axis of
+    /// `treeform_mate_features`: planes face the same way instead of each other; for axes, that of
     /// `moving` is reversed.
     int32_t flip;
     treeform_progress progress;
@@ -185,8 +185,8 @@ TREEFORM_C_API treeform_code treeform_mate(const treeform_mesh* moving,
                                            const treeform_place_options* options,
                                            treeform_placement** placement);
 
-/// Translates `moving` to a place where it penetrates none of `fixed` and keeps the clearance. It
-/// stays if it already does.
+/// Translates `moving` to a place where it penetrates none of `fixed` and keeps the clearance. If
+/// it already does, it stays.
 ///
 /// About fifty directions are tried: the axes, away from the nearest points, normals of faces that
 /// meet, and others around the best. The nearest of the places found is returned, if its
@@ -213,8 +213,8 @@ TREEFORM_C_API treeform_code treeform_separate(const treeform_mesh* moving,
 ///
 /// `travel` is 0, and `points` differ from `matrix` by a few units in the last place of the
 /// largest coordinate. `contacts` are the pairs of faces within the tolerance, beyond the
-/// clearance. `treeform_placement::relation` is exact: separate, in general, by no more than the
-/// tolerance.
+/// clearance. `treeform_placement::relation` is exact: in general separate, by at most the
+/// tolerance beyond the clearance.
 ///
 /// Points that no face uses turn along and are otherwise ignored; points without any face are a
 /// cloud.

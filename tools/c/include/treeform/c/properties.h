@@ -112,7 +112,7 @@ TREEFORM_C_API treeform_code treeform_closing_tolerance(const treeform_mesh* mes
 
 /// Whether two meshes have the same faces with the same orientation. Corners are compared by
 /// coordinates (-0 equals +0, NaN equals nothing). With `any_order`, faces may come in any order
-/// and start at any corner; otherwise both must agree.
+/// and start at any corner; otherwise order and first corners must be equal, too.
 TREEFORM_C_API treeform_code treeform_same_triangles(const treeform_mesh* a, const treeform_mesh* b,
                                                      int32_t any_order, int32_t* result);
 
@@ -186,7 +186,7 @@ TREEFORM_C_API treeform_code treeform_fit_feature(const treeform_mesh* mesh,
 
 /// A flat side of a convex hull: all coplanar faces of one plane.
 typedef struct treeform_hull_side {
-    /// The first of its faces, in `treeform_hull::faces`; any three corners span its plane.
+    /// The first of its faces, in `treeform_hull::faces`; each of them spans the plane.
     uint32_t first_face;
     uint32_t face_count;
     double area;       ///< rounded; infinite on overflow

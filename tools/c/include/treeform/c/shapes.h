@@ -87,7 +87,7 @@ TREEFORM_C_API treeform_code treeform_wrap(const treeform_mesh* mesh, double siz
 /// Convex edges and corners become round outward. Edges that the exact offset keeps sharp are cut
 /// off by at most a cell. The mesh must bound a solid, like an operand of `treeform_boolean`; if
 /// it meets itself, the solid that it winds around is used. What is inside is decided exactly.
-/// Vertices are at the distance to about a thousandth of a cell.
+/// Vertices are at the given distance, up to about a thousandth of a cell.
 TREEFORM_C_API treeform_code treeform_offset(const treeform_mesh* mesh, double distance,
                                              const treeform_offset_options* options,
                                              treeform_offset_result** result);
@@ -106,10 +106,10 @@ TREEFORM_C_API treeform_code treeform_hollow(const treeform_mesh* mesh, double w
 
 /// A solid around any surface: all points at most half of `thickness` away. Its rim is round.
 ///
-/// With a `shift` the surface is first moved toward its front, from where faces are
+/// With a `shift`, the surface is first moved toward its front, the side from which faces are seen
 /// counter-clockwise. Each vertex moves so that the planes of its faces move by the shift, on
-/// average. This is exact where the surface is flat, and rounds it where it bends. Vertices of
-/// sharp folds move by at most twice the shift. Faces must be consistently oriented.
+/// average. This is exact where the surface is flat; where it bends, it becomes rounder. Vertices
+/// of sharp folds move by at most twice the shift. Faces must be consistently oriented.
 TREEFORM_C_API treeform_code treeform_thicken(const treeform_mesh* mesh, double thickness,
                                               const treeform_offset_options* options,
                                               treeform_offset_result** result);
@@ -175,7 +175,7 @@ typedef struct treeform_simplify_result {
 ///
 /// Borders, features, and borders of groups are simplified as polylines on their own vertices,
 /// within the same distance. Vertices stay where such lines end, branch or cross, at nonmanifold
-/// or inconsistently oriented edges, and at vertices whose faces are not one fan.
+/// or inconsistently oriented edges, and where their faces are not one fan.
 ///
 /// Nothing is collapsed if the distance is below about 2^-46 of the largest coordinate, which
 /// doubles cannot prove, or if squares of coordinates overflow or underflow. Corners with equal
@@ -231,7 +231,7 @@ typedef struct treeform_oriented_box {
 TREEFORM_C_API treeform_code treeform_find_oriented_box(const treeform_mesh* mesh,
                                                         treeform_oriented_box** box);
 
-/// A line on a mesh along which a value has a level.
+/// A line on a mesh along which a value equals a level.
 typedef struct treeform_isoline {
     double level;        ///< the value along the line
     size_t first_point;  ///< its number; the points of the line are consecutive

@@ -31,13 +31,13 @@ typedef struct treeform_boolean_options {
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
     /// `TREEFORM_FLOAT64`
     treeform_precision precision;
-    /// Where rounding makes faces meet, only points at most this far apart are joined, in the
-    /// mesh's length unit, and never points further apart than 2^-10 of the largest coordinate.
-    /// Not negative; default infinite
+    /// Where rounding makes faces meet, only points at most this far apart, in the mesh's length
+    /// unit, and at most 2^-10 of the largest coordinate, are joined. Not negative; default
+    /// infinite
     double max_displacement;
-    /// Do not merge coplanar faces that were cut, or that overlap. By default they are merged,
-    /// before rounding, which removes vertices inside a flat region, and on a straight edge
-    /// between two. Uncut faces are not changed. `TREEFORM_RESOLVE_SPLIT` keeps all cuts.
+    /// Do not merge coplanar faces that were cut, or that overlap. By default they are merged
+    /// before rounding, which removes vertices inside a flat region and on straight edges between
+    /// two regions. Uncut faces are not changed. `TREEFORM_RESOLVE_SPLIT` keeps all cuts.
     int32_t keep_cuts;
     int32_t simplify;  ///< merge all coplanar faces of the result, also those not cut
     /// Compute `treeform_boolean_result::volumes`; only for two operands, without filled gaps.
@@ -78,9 +78,9 @@ typedef struct treeform_boolean_result {
     /// Faces are counter-clockwise from outside, in the order of their sources. Vertices of
     /// operands come first, in their order, then new ones on cuts.
     treeform_arrays mesh;
-    /// [F] the lowest operand face that contains each face or a part of it. Near repaired places
-    /// it may be a neighbor of that face. A face of a filled `gap` has the operand face at or
-    /// opposite to it; such faces come last.
+    /// [F] the lowest operand face that contains each face or a part of it. Where rounding made
+    /// faces meet, it may be a neighbor of that face. For a face that fills a `gap`, it is the
+    /// operand face at or opposite to it; such faces come last.
     const treeform_element* face_source;
     /// [V] the lowest operand vertex equal to each vertex, or `TREEFORM_NONE`
     const treeform_element* vertex_source;
@@ -94,8 +94,8 @@ typedef struct treeform_boolean_result {
     const treeform_certificate* certificate;
     /// Components of the exact result that have no face left, being too thin for the coordinates.
     uint64_t vanished_components;
-    /// The largest distance from `mesh` of a vertex of the exact result that was removed. It is
-    /// large if a component lost a part too thin for the coordinates.
+    /// The largest distance from `mesh` to a removed vertex of the exact result. It is large if a
+    /// component lost a part too thin for the coordinates.
     double vanished_reach;
     /// [vanished_listed][3] one point of each vanished component; at most 100
     const double* vanished_at;
@@ -140,7 +140,7 @@ TREEFORM_C_API treeform_code treeform_boolean_named(const treeform_mesh* const* 
 /// The names in a formula, each once, in the order of first use.
 TREEFORM_C_API treeform_code treeform_names_in(const char* expression, treeform_strings** strings);
 
-/// In this order: points in `a` or `b`, in both, in `a` but not in `b`, in exactly one of them.
+/// Union: points in `a` or `b`.
 TREEFORM_C_API treeform_code treeform_unite(const treeform_mesh* a, const treeform_mesh* b,
                                             const treeform_boolean_options* options,
                                             treeform_boolean_result** result);
@@ -150,12 +150,12 @@ TREEFORM_C_API treeform_code treeform_subtract(const treeform_mesh* a, const tre
                                                const treeform_boolean_options* options,
                                                treeform_boolean_result** result);
 
-/// In this order: points in `a` or `b`, in both, in `a` but not in `b`, in exactly one of them.
+/// Intersection: points in `a` and in `b`.
 TREEFORM_C_API treeform_code treeform_intersection(const treeform_mesh* a, const treeform_mesh* b,
                                                    const treeform_boolean_options* options,
                                                    treeform_boolean_result** result);
 
-/// In this order: points in `a` or `b`, in both, in `a` but not in `b`, in exactly one of them.
+/// Symmetric difference: points in exactly one of `a` and `b`.
 TREEFORM_C_API treeform_code treeform_symmetric_difference(const treeform_mesh* a,
                                                            const treeform_mesh* b,
                                                            const treeform_boolean_options* options,
@@ -216,8 +216,8 @@ typedef struct treeform_resolve_options {
     int32_t removal_rounds;
     /// For `TREEFORM_RESOLVE_OUTER` and `TREEFORM_RESOLVE_REMOVE`: losing more than this share
     /// gives the status `TREEFORM_STATUS_EXCESSIVE_LOSS`. The share is of the volume of the solid,
-    /// or of the area if the mesh bounds none. 1 allows any loss. The solid before is that of
-    /// `treeform_repair` without filling holes; default 0.05
+    /// or of the area if the mesh bounds none. 1 allows any loss. The loss is measured from the
+    /// solid that `treeform_repair` makes without filling holes; default 0.05
     double max_loss;
     treeform_progress progress;
     void* progress_data;
@@ -231,7 +231,7 @@ TREEFORM_C_API void treeform_resolve_options_init(treeform_resolve_options* opti
 /// Counts of each step's changes. Closed gaps, chosen orientations and filled holes are heuristic.
 typedef struct treeform_repair_statistics {
     uint64_t tetrahedra;  ///< tetrahedra formed by faces; only their boundary was kept
-    /// faces without area, dropped; if there are any, also slivers
+    /// dropped faces without area; if there are any, slivers, too
     uint64_t degenerate;
     uint64_t repeated;        ///< faces that repeat another, dropped
     uint64_t closed_edges;    ///< pairs of border edges joined into one edge
@@ -246,7 +246,7 @@ typedef struct treeform_repair_statistics {
     int32_t resolved;         ///< whether faces met and were cut
     uint64_t pairs;           ///< pairs of faces that met
     uint64_t labeled_cells;   ///< cells labeled inside or outside, since faces disagreed
-    double dropped_area;      ///< area of dropped faces, with one label on both sides
+    double dropped_area;      ///< area of faces dropped for equal labels on both sides
     double flipped_area;      ///< area of faces flipped by the labels
     uint64_t removed;         ///< input faces that resolving removed entirely
     uint64_t split_vertices;  ///< vertices split where parts of the solid touch
@@ -266,7 +266,8 @@ typedef struct treeform_repair_statistics {
     /// lie entirely on faces of lower numbers. Their pieces are those of the lower faces, so they
     /// do not count as removed.
     uint64_t covered;
-    /// the same with `TREEFORM_RESOLVE_REMOVE`: edges that lost their second face
+    /// For `treeform_resolve_self_intersections` with `TREEFORM_RESOLVE_REMOVE`: edges that lost
+    /// their second face.
     uint64_t left_open;
     /// for `treeform_resolve_self_intersections`: as in `treeform_boolean_result`
     uint64_t exact_faces;
@@ -335,17 +336,17 @@ typedef struct treeform_repair_options {
     /// the bounding box; NaN: not given
     double gap;
     uint64_t largest_hole;  ///< Fill holes of at most this many edges; default all
-    /// Drops loose open pieces below this share of the area, and single triangles below 1 %. If a
-    /// larger component vanishes since it bounds no solid, the status is
+    /// Drops loose open pieces below this share of the area, and loose pieces of one or two faces
+    /// below 1% of it. If a larger component vanishes because it bounds no solid, the status is
     /// `TREEFORM_STATUS_EXCESSIVE_LOSS`, unless `max_loss` is 1; default 0.001
     double strays;
     /// The rule that defines the inside. By default `TREEFORM_POSITIVE` if each shell is outward
     /// after `orient`, else `TREEFORM_NONZERO` or the labels of cells (see `treeform_repair`); a
     /// `treeform_fill_rule`, or -1 for the default
     int32_t fill_rule;
-    /// Losing more than this share of the volume gives the status
-    /// `TREEFORM_STATUS_EXCESSIVE_LOSS`; if there were holes, of the area. Faces that remain, or
-    /// are inside the solid, do not count as lost. 1 allows any loss; default 0.05
+    /// Losing more than this share of the volume (of the area, if there were holes) gives the
+    /// status `TREEFORM_STATUS_EXCESSIVE_LOSS`. Faces that remain, or are inside the solid, do not
+    /// count as lost. 1 allows any loss; default 0.05
     double max_loss;
     int32_t sheet;  ///< the mesh is an open surface: keep its border, and fill nothing
     /// Precision of the coordinates returned. float32 values are stored as doubles; default

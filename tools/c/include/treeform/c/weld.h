@@ -14,7 +14,7 @@ enum {
     TREEFORM_KEEP_FIRST = 0,
     /// the highest-numbered
     TREEFORM_KEEP_LAST = 1,
-    /// the mean of coordinates and floating-point properties; the rest of the first point
+    /// the mean of coordinates and floating-point properties; the rest: the first point's
     TREEFORM_KEEP_MEAN = 2,
     /// the one with the least value of `keep_by`, not NaN if there are others; of equal ones the
     /// first
