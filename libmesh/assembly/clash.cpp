@@ -4,7 +4,7 @@
 #include <libmesh/base/union_find.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
-#include <libmesh/nearness/closest_points.hpp>
+#include <libmesh/nearness/closest_pair.hpp>
 #include <libmesh/place/relation_of.hpp>
 #include <libmesh/place/shape.hpp>
 #include <treeform/mesh/boolean.hpp>
@@ -157,8 +157,8 @@ class pair_inspection {
         found.relation = mesh_relation::separate;
         if (options_.clearance == 0.0) return;
         found.relation = mesh_relation::clear;
-        const auto near = detail::nearness::closest_points(a.mesh(), a.faces(), b.mesh(), b.faces(),
-                                                           options_.clearance);
+        const auto near = detail::nearness::closest_pair(a.mesh(), a.faces(), b.mesh(), b.faces(),
+                                                         options_.clearance);
         if (!near || !(near->distance < options_.clearance)) return;
         found.relation = mesh_relation::closer_than_clearance;
         found.distance = near->distance;
@@ -167,8 +167,7 @@ class pair_inspection {
 
     /// Of a part inside the other.
     void enter_surface_distance(const shape& a, const shape& b, part_clash& found) const {
-        const auto near =
-            detail::nearness::closest_points(a.mesh(), a.faces(), b.mesh(), b.faces());
+        const auto near = detail::nearness::closest_pair(a.mesh(), a.faces(), b.mesh(), b.faces());
         if (near) found.distance = near->distance;
     }
 

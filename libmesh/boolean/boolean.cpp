@@ -174,16 +174,16 @@ std::uint64_t count_covered(const cut_faces& cut) {
 /// The chosen faces as a result, with those that nothing meets.
 near_result surface_of(const bundles& operands, cut_faces& cut,
                        detail::boolean::chosen_surface chosen, const boolean_options& options,
-                       bool solid, left_faces is_left) {
+                       bool solid, left_faces is_kept) {
     cut.near.local.points = {};  // as large as the operands, perhaps
     return detail::boolean::surface_of(operands, cut.near, cut.arranged, std::move(chosen), options,
-                                       solid, is_left);
+                                       solid, is_kept);
 }
 
 /// What meets is cut, both sides of its pieces labeled, and what bounds the result put
 /// together with the faces that nothing meets.
 near_result boolean_of(bundled_operands& operands, const boolean_expression& expression,
-                       const boolean_options& options, left_faces is_left) {
+                       const boolean_options& options, left_faces is_kept) {
     operands.find_pairs(part_of(options.progress, 0.0, 0.2));
     cut_faces cut =
         cut_near(operands, cut_what::near_beside_far, part_of(options.progress, 0.2, 0.5));
@@ -199,7 +199,7 @@ near_result boolean_of(bundled_operands& operands, const boolean_expression& exp
     }
     near_result made;
     if (!made.may_continue(options.progress, 0.6)) return made;
-    made = surface_of(operands.all(), cut, std::move(chosen), options, true, is_left);
+    made = surface_of(operands.all(), cut, std::move(chosen), options, true, is_kept);
     made.result.volumes = volumes;
     if (operands.part() != nullptr)
         made.result.statistics.skipped_faces = operands.part()->left_out();
@@ -228,7 +228,7 @@ near_result split_of(std::span<const mesh_view> views, boolean_options options) 
 /// the labels with the least disagreement.
 near_result labeled_of(mesh_view mesh, std::span<const std::uint32_t> is_guess,
                        const boolean_options& options, std::optional<label_counts>& counts,
-                       left_faces is_left) {
+                       left_faces is_kept) {
     bundled_operands operands(std::span(&mesh, 1));
     operands.find_pairs(part_of(options.progress, 0.0, 0.2));
     cut_faces cut = cut_near(operands, cut_what::all, part_of(options.progress, 0.2, 0.5));
@@ -245,7 +245,7 @@ near_result labeled_of(mesh_view mesh, std::span<const std::uint32_t> is_guess,
     detail::boolean::chosen_surface chosen{
         detail::round::faces_around(pieces, cells, labels->inside),
         detail::boolean::dispositions_of(operands.all(), cut.near, disposition::dropped)};
-    return surface_of(operands.all(), cut, std::move(chosen), options, true, is_left);
+    return surface_of(operands.all(), cut, std::move(chosen), options, true, is_kept);
 }
 
 /// Values of all faces, those of the sheet before those of the others.
@@ -297,7 +297,7 @@ near_result clip_of(std::span<const mesh_view> views, std::uint32_t sheet,
 /// Operands as one mesh, or what of it can be on the surface of the result.
 near_result boolean_of_joined(std::span<const mesh_view> views,
                               const boolean_expression& expression, const boolean_options& options,
-                              left_faces is_left) {
+                              left_faces is_kept) {
     joined_operands joined = join_usable(views);
     operand_edges edges = detail::boolean::find_operand_edges(joined.all, joined.operand_of_face());
     if (auto open = open_input(joined, edges)) return {open_result(std::move(*open)), false};
@@ -309,14 +309,14 @@ near_result boolean_of_joined(std::span<const mesh_view> views,
     bundled_operands bundled(std::move(joined), std::move(part));
     boolean_options rest = options;
     rest.progress = part_of(options.progress, 0.1, 1.0);
-    return boolean_of(bundled, expression, rest, is_left);
+    return boolean_of(bundled, expression, rest, is_kept);
 }
 
 near_result boolean_of(std::span<const mesh_ref> operands, std::span<const mesh_view> views,
                        const boolean_expression& expression, boolean_options options,
-                       left_faces is_left = nullptr) {
+                       left_faces is_kept = nullptr) {
     options.volumes = options.volumes && views.size() == 2;
-    if (views.size() > 2) return boolean_of_joined(views, expression, options, is_left);
+    if (views.size() > 2) return boolean_of_joined(views, expression, options, is_kept);
     bundled_operands bundled(operands);
     double looked = 0.0;  // no share of the work where all is known
     const progress_callback report = [&](double done) {
@@ -328,8 +328,8 @@ near_result boolean_of(std::span<const mesh_ref> operands, std::span<const mesh_
         std::ranges::any_of(bundled.all(), is_open) || !bundled.have_few_pairs(report);
     boolean_options rest = options;
     rest.progress = part_of(options.progress, looked, 1.0);
-    if (may_hide) return boolean_of_joined(views, expression, rest, is_left);
-    return boolean_of(bundled, expression, rest, is_left);
+    if (may_hide) return boolean_of_joined(views, expression, rest, is_kept);
+    return boolean_of(bundled, expression, rest, is_kept);
 }
 
 /// The union with the gaps filled between operands; none where there are none.
@@ -361,7 +361,7 @@ std::vector<mesh_view> views_of(std::span<const mesh_ref> operands) {
 
 boolean_result evaluate(const char* function, std::span<const mesh_ref> operands,
                         const boolean_expression& expression, boolean_options options,
-                        left_faces is_left = nullptr) {
+                        left_faces is_kept = nullptr) {
     const std::vector<mesh_view> views = views_of(operands);
     // Where few pairs are looked for and many found, the search begins once more.
     const progress_callback given = std::move(options.progress);
@@ -371,18 +371,18 @@ boolean_result evaluate(const char* function, std::span<const mesh_ref> operands
         check_expression("boolean", views, expression);
         std::optional<near_result> made;
         if (options.gap > 0.0) made = union_without_gaps(function, views, expression, options);
-        if (!made) made = boolean_of(operands, views, expression, options, is_left);
+        if (!made) made = boolean_of(operands, views, expression, options, is_kept);
         return finished(std::move(made->result), !made->is_manifold, options);
     });
 }
 
-/// What `make(is_left)` makes of a mesh.
+/// What `make(is_kept)` makes of a mesh.
 template <class Make>
 resolved_operand resolved(mesh_view mesh, const Make& make) {
     resolved_operand result;
-    result.is_left.assign(mesh.faces.size(), 0);
-    result.made = make(&result.is_left);
-    for (const operand_element& e : result.made.face_source) result.is_left[e.index] = 1;
+    result.is_kept.assign(mesh.faces.size(), 0);
+    result.made = make(&result.is_kept);
+    for (const operand_element& e : result.made.face_source) result.is_kept[e.index] = 1;
     return result;
 }
 
@@ -441,19 +441,19 @@ resolved_operand detail::boolean::resolve_by_split(mesh_view mesh, const boolean
 }
 
 resolved_operand detail::boolean::resolve_by_union(mesh_view mesh, const boolean_options& options) {
-    return resolved(mesh, [&](left_faces is_left) {
+    return resolved(mesh, [&](left_faces is_kept) {
         return evaluate("resolve_self_intersections", std::array{mesh_ref(mesh)},
-                        boolean_expression::union_of(1), options, is_left);
+                        boolean_expression::union_of(1), options, is_kept);
     });
 }
 
 detail::boolean::labeled_result detail::boolean::resolve_by_labels(
     mesh_view mesh, std::span<const std::uint32_t> is_guess, const boolean_options& options) {
     std::optional<label_counts> counts;
-    resolved_operand made = resolved(mesh, [&](left_faces is_left) {
+    resolved_operand made = resolved(mesh, [&](left_faces is_kept) {
         return evaluate("resolve_self_intersections", std::span(&mesh, 1), options, true,
                         [&](auto given, const auto& how) {
-                            return labeled_of(given.front(), is_guess, how, counts, is_left);
+                            return labeled_of(given.front(), is_guess, how, counts, is_kept);
                         });
     });
     return {std::move(made), counts.value_or(label_counts{})};
@@ -474,7 +474,7 @@ certificate check_operand(const mesh_ref& mesh, const progress_callback& progres
 }
 
 certificate detail::boolean::check_operand(const char* called, mesh_view mesh,
-                                         const progress_callback& progress) {
+                                           const progress_callback& progress) {
     check_operands(called, {&mesh, 1});
     check_coordinates(called, {&mesh, 1});
     const auto open = open_input(join_operands({&mesh, 1}));

@@ -103,7 +103,7 @@ bool is_just_above(const outward_face& f, const outward_face& g, double width) {
 /// Faces that lie over each other are such, and some beside them.
 bool are_opposite(const outward_face& f, const outward_face& g, double width) {
     return f.source.operand != g.source.operand && dot(f.normal, g.normal) <= -least_cosine &&
-           closest_points(f.at, g.at).squared_distance <= width * width;
+           closest_pair(f.at, g.at).squared_distance <= width * width;
 }
 
 /// Where the corners of faces go when these move outward by `height`, or a little more: faces of

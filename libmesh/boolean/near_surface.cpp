@@ -455,7 +455,7 @@ struct near_rounding {
 
 near_result surface_of(const bundles& operands, interaction_zone& near,
                        arrange_faces_result& arranged, chosen_surface chosen,
-                       const boolean_options& options, bool solid, left_faces is_left) {
+                       const boolean_options& options, bool solid, left_faces is_kept) {
     near_result made;
     boolean_result& result = made.result;
     near_rounding work{operands, near, chosen.dispositions, options, solid};
@@ -466,7 +466,7 @@ near_result surface_of(const bundles& operands, interaction_zone& near,
                       chosen.dispositions.data() + chosen.dispositions.size(), stays));
     work.is_all = work.others == 0;
     if (options.simplify) work.take_in_all();
-    work.merge(is_left != nullptr);
+    work.merge(is_kept != nullptr);
     if (options.precision == precision::float32) work.take_in_all();
     rounded_surface rounded = work.round();
     const ids& source = work.source;
@@ -475,7 +475,7 @@ near_result surface_of(const bundles& operands, interaction_zone& near,
         !made.may_continue(options.progress, 0.95))
         return made;
     work.origins.for_sources_in(rounded.face_of, [&](std::uint32_t f) {
-        (*is_left)[operands[0].face_source(f).index] = 1;
+        (*is_kept)[operands[0].face_source(f).index] = 1;
     });
     ids face_of_piece(rounded.face_of.size());
     for_chunks(face_of_piece.size(), light_grain,

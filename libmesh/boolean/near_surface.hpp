@@ -42,6 +42,6 @@ struct near_result {
 [[nodiscard]] near_result surface_of(const bundles& operands, interaction_zone& near,
                                      arrange_faces_result& arranged, chosen_surface chosen,
                                      const boolean_options& options, bool solid = true,
-                                     left_faces is_left = nullptr);
+                                     left_faces is_kept = nullptr);
 
 }  // namespace treeform::detail::boolean

@@ -16,7 +16,7 @@ struct resolved_operand {
     boolean_result made{};
     /// [F] 1 for the faces of the mesh of which a part is in `made`, even if it was merged with a
     /// lower face; 0 for a face that lies entirely on lower ones.
-    std::vector<std::uint8_t> is_left{};
+    std::vector<std::uint8_t> is_kept{};
 };
 
 /// `split` of one mesh, and its union with nothing; errors name `resolve_self_intersections`.

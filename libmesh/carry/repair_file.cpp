@@ -52,7 +52,7 @@ bool is_as_asked(const certificate& known) {
 class repair_of_parts {
   public:
     explicit repair_of_parts(const carry_source& input) : input_(input) {
-        done_.is_left.assign(input.file->mesh.faces.size(), 0);
+        done_.is_kept.assign(input.file->mesh.faces.size(), 0);
     }
 
     void take(repair_result made, const solid_part& of) {
@@ -63,8 +63,8 @@ class repair_of_parts {
             face_source_.push_back(in_whole(f, of.faces));
         for (const std::uint32_t v : made.vertex_source)
             vertex_source_.push_back(in_whole(v, of.points));
-        for (std::uint32_t f = 0; f < made.is_left.size(); ++f)
-            done_.is_left[in_whole(f, of.faces)] = made.is_left[f];
+        for (std::uint32_t f = 0; f < made.is_kept.size(); ++f)
+            done_.is_kept[in_whole(f, of.faces)] = made.is_kept[f];
         certificate& known = made.certificate;
         for (auto& [f, g] : known.meeting) {
             f += first_face;

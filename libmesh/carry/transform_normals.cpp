@@ -90,7 +90,7 @@ void turn_over(std::vector<face>& corners, const std::vector<std::uint32_t>& sto
 
 void mesh_file::move(const transform<3>& by) {
     for (point3& p : mesh.points) p = by(p);
-    turn_normals(by);
+    transform_normals(by);
     if (!by.mirrors()) return;
     corner_values& corners = attributes.corners;
     for (auto* const of_faces :
@@ -98,7 +98,7 @@ void mesh_file::move(const transform<3>& by) {
         turn_over(*of_faces, stored_face);
 }
 
-void mesh_file::turn_normals(const transform<3>& by) {
+void mesh_file::transform_normals(const transform<3>& by) {
     if (only_shifts(by)) return;  // else last digits would change
     const transform<3> turn = of_normals(by);
     for (element& e : attributes.elements) turn_columns(e, turn);

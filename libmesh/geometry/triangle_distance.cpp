@@ -69,7 +69,7 @@ bool separated(const triangle3& a, const triangle3& b, const closest_between_tri
 
 }  // namespace
 
-closest_between_triangles closest_points(const triangle3& a, const triangle3& b) {
+closest_between_triangles closest_pair(const triangle3& a, const triangle3& b) {
     closest_between_triangles best;
     best.squared_distance = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 3; ++i) {

@@ -25,7 +25,7 @@ struct closest_between_triangles {
 /// \pre    coordinates are finite; squares of L are neither denormal nor infinite
 /// \cost   about 800 operations; `intersect` only if the line between the points found does not
 ///         separate the triangles
-[[nodiscard]] TREEFORM_API closest_between_triangles closest_points(const triangle3& a,
-                                                                    const triangle3& b);
+[[nodiscard]] TREEFORM_API closest_between_triangles closest_pair(const triangle3& a,
+                                                                  const triangle3& b);
 
 }  // namespace treeform

@@ -68,7 +68,7 @@ distance_bounds bounds_of_distance(mesh_view from, const prepared_mesh& mesh, do
         parts = std::move(next);
     }
     const prepared_mesh made = prepared_mesh::borrow(from);
-    return {closest_points(made, mesh)->distance, settled};
+    return {closest_pair(made, mesh)->distance, settled};
 }
 
 }  // namespace treeform::detail::offset

@@ -291,17 +291,17 @@ class alignment {
         return task_.welsch && without_outliers(of_all_.partners).overlap < most_in * task_.overlap;
     }
 
-    [[nodiscard]] align_end end_of(const evidence& found) {
-        if (!best_.converged) return align_end::out_of_iterations;
-        if (!is_determined(found)) return align_end::doubtful;
+    [[nodiscard]] align_outcome end_of(const evidence& found) {
+        if (!best_.converged) return align_outcome::out_of_iterations;
+        if (!is_determined(found)) return align_outcome::doubtful;
         // What is noise where most points lie may be a part that fits in two places.
         if (is_noise(found.left))
-            return leaves_out_many() && other_is_better(doubts / 2) ? align_end::doubtful
-                                                                    : align_end::converged;
+            return leaves_out_many() && other_is_better(doubts / 2) ? align_outcome::doubtful
+                                                                    : align_outcome::converged;
         if (target_.is_cloud() || found.left.common() > max_region_error * frame_.diagonal ||
             other_is_better(doubts))
-            return align_end::doubtful;
-        return align_end::converged;
+            return align_outcome::doubtful;
+        return align_outcome::converged;
     }
 
     [[nodiscard]] align_result judged();
@@ -377,10 +377,10 @@ align_result alignment::judged() {
         result.freedoms.push_back(
             {to_point(frame_.by * one.turn), to_point(one.shift), one.stiffness});
     if (!result.freedoms.empty()) {
-        result.end = end_of(found);
-        if (!as_good) result.end = align_end::out_of_iterations;
+        result.outcome = end_of(found);
+        if (!as_good) result.outcome = align_outcome::out_of_iterations;
     }
-    result.converged = result.end == align_end::converged;
+    result.converged = result.outcome == align_outcome::converged;
     result.iterations = best_.iterations;
     result.start = best_start_;
     return result;

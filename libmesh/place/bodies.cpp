@@ -154,8 +154,8 @@ std::vector<std::string> body_set::labels() const {
     return all;
 }
 
-void body_set::put_back(std::size_t number, points_view placed, const transform<3>& matrix,
-                        precision written_as) {
+void body_set::move_in_file(std::size_t number, points_view placed, const transform<3>& matrix,
+                            precision written_as) {
     const prepared_mesh& shape = shapes[number];
     mesh& file = files[file_number(number)].content.mesh;
     for (point3& p : file.points) {

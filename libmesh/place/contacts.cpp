@@ -84,7 +84,7 @@ std::vector<placement_contact> contacts_at(const shape& there, const surrounding
             const triangle3 b = triangle_of(part.mesh(), pair.b);
             const point3 n = normal_of(b);
             const bool turned = looks_inward(part, pair.b);
-            rows.push_back({closest_points(a, b).on_b,
+            rows.push_back({closest_pair(a, b).on_b,
                             turned ? point3{0.0 - n.x, 0.0 - n.y, 0.0 - n.z} : n, pair.a, pair.b,
                             number});
         }
@@ -150,7 +150,7 @@ void mark_near(const shape& placed, const shape& part, double clearance, relatio
     using pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
     const auto chunks =
         search<pairs>(wide, part.faces(), [&](pairs& mine, std::uint32_t i, std::uint32_t j) {
-            const auto near = closest_points(triangle_of(mesh, i), triangle_of(part.mesh(), j));
+            const auto near = closest_pair(triangle_of(mesh, i), triangle_of(part.mesh(), j));
             if (std::sqrt(near.squared_distance) < clearance) mine.emplace_back(i, j);
             return false;
         });
@@ -172,7 +172,7 @@ void mark_contacts(mesh_view placed, std::span<const prepared_mesh> fixed, const
         found[1 + c.fixed].resize(fixed[c.fixed].view().faces.size());
         mark(found[1 + c.fixed][*c.fixed_face], one);
     }
-    if (at.end != placement_end::bed || !at.bed) return;
+    if (at.outcome != placement_outcome::bed || !at.bed) return;
     for (std::uint32_t f = 0; f < placed.faces.size(); ++f)
         for (const std::uint32_t corner : placed.faces[f])
             if (placed.points[corner].z <= *at.bed) mark(found[0][f], one);

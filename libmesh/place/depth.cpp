@@ -151,7 +151,7 @@ class escape_search {
                                                      scaled(direction, -1.0), options, &effort_);
         if (back.status == status::cancelled) return false;
         const double time =
-            std::max(back.end == placement_end::contact ? out - back.time : out, least_);
+            std::max(back.outcome == placement_outcome::contact ? out - back.time : out, least_);
         if (!(time < length_)) return false;
         best_ = scaled(direction, time);
         length_ = time;

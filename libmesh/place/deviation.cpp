@@ -228,8 +228,8 @@ std::optional<deviation_result> deviation_from(const prepared_mesh& a, const pre
         std::vector<double> distances(to.points.size());
         for (std::size_t i = 0; i < used.size(); ++i)
             distances[used[back.order[i]]] = back.distance[i];
-        r.back_max = largest_of(distances);
-        r.back_max_bound = bound_of(to, distances);
+        r.reverse_max = largest_of(distances);
+        r.reverse_max_bound = bound_of(to, distances);
     }
     work.reach(1.0);
     return r;

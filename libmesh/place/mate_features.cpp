@@ -89,7 +89,7 @@ class feature_mover {
         const transform<3> away =
             carried(seat, from_.origin, plus(to_.origin, scaled(out, pulled_out(seat, out))));
         placement result = slid(away, out);
-        if (result.end == placement_end::nothing_met && !plane) result = seated(seat);
+        if (result.outcome == placement_outcome::nothing_met && !plane) result = seated(seat);
         result.relation_at_start = start.relation_at_start;
         result.travel = 0.0;
         result.direction = {};
@@ -167,12 +167,13 @@ class feature_mover {
         const bool near = options_.clearance > 0.0 && at.relation != mesh_relation::clear;
         at.certificate.precision = options_.precision;
         if (at.relation == mesh_relation::penetrating || near) {
-            at.end = near ? placement_end::starts_too_near : placement_end::starts_penetrating;
+            at.outcome =
+                near ? placement_outcome::starts_too_near : placement_outcome::starts_penetrating;
             at.certificate.status = status::no_placement;
             at.points.assign(moving_.view().points.begin(), moving_.view().points.end());
             return at;
         }
-        at.end = placement_end::unchanged;
+        at.outcome = placement_outcome::unchanged;
         at.matrix = seat;
         at.certificate.max_displacement =
             detail::max_displacement(moving_.view().points, seat, points);

@@ -2,7 +2,7 @@
 #include <libmesh/base/prepared_ref.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
-#include <libmesh/nearness/closest_points.hpp>
+#include <libmesh/nearness/closest_pair.hpp>
 #include <libmesh/place/relation_of.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -103,7 +103,7 @@ std::optional<mesh_measure> detail::place::measure_of(const shape& of_a, const s
     if (work.cancelled()) return result;
     if (result.relation != mesh_relation::separate) {
         const std::uint32_t f = result.face_a, g = result.face_b;
-        const auto common = closest_points(triangle_of(a, f), triangle_of(b, g));
+        const auto common = closest_pair(triangle_of(a, f), triangle_of(b, g));
         if (common.squared_distance == 0.0) {
             result.on_a = surface_point_of(a, f, common.on_a);
             result.on_b = surface_point_of(b, g, common.on_b);
@@ -112,9 +112,9 @@ std::optional<mesh_measure> detail::place::measure_of(const shape& of_a, const s
         }
     }
     const bool separate = result.relation == mesh_relation::separate;
-    const auto nearest = detail::nearness::closest_points(
-        a, of_a.faces(), b, of_b.faces(),
-        separate ? radius : std::numeric_limits<double>::infinity());
+    const auto nearest =
+        detail::nearness::closest_pair(a, of_a.faces(), b, of_b.faces(),
+                                       separate ? radius : std::numeric_limits<double>::infinity());
     work.reach(1.0);
     if (!nearest) return std::nullopt;
     result.surface_distance = nearest->distance;

@@ -59,7 +59,7 @@ std::string loose_in_words(std::size_t motions) {
 std::string placement::relation_in_words(const body_set& moving, const body_set& fixed) const {
     const placement& at = *this;
     std::string how = name_of(at.relation);
-    if (at.end == placement_end::bed)
+    if (at.outcome == placement_outcome::bed)
         return how + (at.relation == mesh_relation::clear ? " of the bed" : " the bed");
     if (!at.nearest) return how;
     if (at.relation == mesh_relation::touching || at.relation == mesh_relation::penetrating)
@@ -71,33 +71,33 @@ std::string placement::message(std::span<const std::string> names) const {
     const bool floats = certificate.precision == treeform::precision::float32;
     const bool named = nearest && nearest_fixed < names.size();
     const std::string other = named ? names[nearest_fixed] : "a fixed mesh";
-    switch (end) {
-        case placement_end::starts_penetrating:
+    switch (outcome) {
+        case placement_outcome::starts_penetrating:
             return "penetrates " + other + " at the start";
-        case placement_end::starts_too_near:
+        case placement_outcome::starts_too_near:
             return "is closer to " + other + " than the clearance at the start";
-        case placement_end::starts_touching:
+        case placement_outcome::starts_touching:
             return "touches " + other + " at the start, so there is no clearance";
-        case placement_end::starts_below_bed:
+        case placement_outcome::starts_below_bed:
             return depth_of(*this);
-        case placement_end::nothing_met:
+        case placement_outcome::nothing_met:
             return max_travel ? "no contact within a travel of " + shortest(*max_travel)
                               : "nothing is in the way";
-        case placement_end::too_far:
+        case placement_outcome::too_far:
             return too_far(*this);
-        case placement_end::not_representable:
+        case placement_outcome::not_representable:
             if (effort.skipped_candidates > 0)
                 return "no separating translation was found within " +
                        counted(effort.bound, "pair", "pairs") + " of faces";
             return std::string("no valid placement was found in ") +
                    (floats ? "float32" : "double") + " coordinates";
-        case placement_end::too_many_steps:
+        case placement_outcome::too_many_steps:
             return "the search took too many steps: the motion passes close to a fixed mesh over a "
                    "long distance";
-        case placement_end::out_of_range:
+        case placement_outcome::out_of_range:
             return std::string("its coordinates at the new place would be beyond the range of ") +
                    (floats ? "float32" : "double");
-        case placement_end::cancelled:
+        case placement_outcome::cancelled:
             return "stopped by its caller";
         default:
             return certificate ? "" : "there is no valid placement";
@@ -123,7 +123,7 @@ std::string laid_flat::message() const {
 
 placement laid_flat::as_placement() const {
     placement at{.certificate = certificate,
-                 .end = placement_end::bed,
+                 .outcome = placement_outcome::bed,
                  .points = points,
                  .matrix = matrix,
                  .bed = bed,

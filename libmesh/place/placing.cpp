@@ -80,13 +80,13 @@ void placing::in_range(const function_ref<void()>& find) {
         if (box_)
             find();
         else
-            result_.end = placement_end::nothing_met;
+            result_.outcome = placement_outcome::nothing_met;
     } catch (const std::overflow_error&) {
         fits = false;
     }
     if (fits && (!placed() || !box_ || base::all_finite(result_.points))) return;
     forget_place();
-    result_.end = placement_end::out_of_range;
+    result_.outcome = placement_outcome::out_of_range;
 }
 
 placement placing::finished() {
@@ -94,11 +94,11 @@ placement placing::finished() {
     if (placed())
         known.max_displacement =
             detail::max_displacement(prepared_.view().points, result_.matrix, result_.points);
-    switch (result_.end) {
-        case placement_end::not_representable:
+    switch (result_.outcome) {
+        case placement_outcome::not_representable:
             known.status = status::not_certified;
             break;
-        case placement_end::out_of_range:
+        case placement_outcome::out_of_range:
             known.status = status::out_of_range;
             break;
         default:
@@ -147,14 +147,14 @@ double placing::radius(double more) const {
 bool placing::stuck_at_start() {
     switch (result_.relation_at_start) {
         case mesh_relation::penetrating:
-            result_.end = placement_end::starts_penetrating;
+            result_.outcome = placement_outcome::starts_penetrating;
             return true;
         case mesh_relation::closer_than_clearance:
-            result_.end = placement_end::starts_too_near;
+            result_.outcome = placement_outcome::starts_too_near;
             return true;
         case mesh_relation::touching:
             if (options_.clearance > 0.0)
-                result_.end = placement_end::starts_touching;
+                result_.outcome = placement_outcome::starts_touching;
             else
                 stay();
             return true;
@@ -163,11 +163,11 @@ bool placing::stuck_at_start() {
     }
 }
 
-void placing::stay() { settle({}, {0.0, 0.0, -1.0}, 0.0, placement_end::unchanged); }
+void placing::stay() { settle({}, {0.0, 0.0, -1.0}, 0.0, placement_outcome::unchanged); }
 
 /// Writes the place down: `end` is what it is then, if it can be written.
 void placing::settle(const chosen_parts& known, const point3& motion, double time,
-                     placement_end end, bool close_in, base::effort* effort) {
+                     placement_outcome end, bool close_in, base::effort* effort) {
     const bool forward = effort != nullptr;  // out of something
     const chosen_parts parts =
         known.parts.empty() ? among_.on_the_way(*box_, motion, time, options_.clearance) : known;
@@ -177,15 +177,15 @@ void placing::settle(const chosen_parts& known, const point3& motion, double tim
                          .close_in = close_in,
                          .effort = effort,
                          .progress = work_.part(0.6, 0.85)};
-    if (result_.bed && end != placement_end::unchanged && !forward) options.floor = result_.bed;
+    if (result_.bed && end != placement_outcome::unchanged && !forward) options.floor = result_.bed;
     auto settled = snap_to_representable(prepared_, parts.parts, motion, time, options);
     over();
     result_.statistics.backed_off = settled.backed_off;
     if (!settled.good) {
-        result_.end = placement_end::not_representable;
+        result_.outcome = placement_outcome::not_representable;
         return;
     }
-    result_.end = end;
+    result_.outcome = end;
     result_.points = std::move(settled.points);
     for (std::size_t k = 0; k < 3; ++k)
         result_.matrix.rows[k][3] = settled.time * motion[k] + 0.0;  // no -0
@@ -222,14 +222,14 @@ void placing::slide(const point3& direction) {
     over();
     result_.statistics.pairs_tested = met.pairs_tested;
     result_.statistics.predicates = met.predicates;
-    if (met.end == placement_end::contact) {
+    if (met.outcome == placement_outcome::contact) {
         result_.contacts = contacts_of(moving_, parts, met, motion);
         result_.contact_count = met.contact_count;
-        settle(parts, motion, met.time, placement_end::contact, options_.close_in);
+        settle(parts, motion, met.time, placement_outcome::contact, options_.close_in);
     } else if (std::isfinite(bed_time) && bed_time <= allowed) {
-        settle(parts, motion, bed_time, placement_end::bed);
+        settle(parts, motion, bed_time, placement_outcome::bed);
     } else {
-        result_.end = placement_end::nothing_met;
+        result_.outcome = placement_outcome::nothing_met;
     }
 }
 
@@ -241,20 +241,20 @@ void placing::lift(const point3& motion, double above) {
     result_.relation = result_.relation_at_start;
     result_.below_bed = -above;
     if (!among_.empty()) {
-        result_.end = placement_end::starts_below_bed;
+        result_.outcome = placement_outcome::starts_below_bed;
         return;
     }
     const double time = above / motion.z;
     if (time > longest_ / length_of(motion)) {
-        result_.end = placement_end::too_far;
+        result_.outcome = placement_outcome::too_far;
         return;
     }
-    settle({}, {0.0 - motion.x, 0.0 - motion.y, 0.0 - motion.z}, time, placement_end::bed);
+    settle({}, {0.0 - motion.x, 0.0 - motion.y, 0.0 - motion.z}, time, placement_outcome::bed);
 }
 
 void placing::mate() {
     if (!result_.nearest) {
-        result_.end = placement_end::nothing_met;
+        result_.outcome = placement_outcome::nothing_met;
         return;
     }
     if (stuck_at_start()) return;
@@ -273,10 +273,10 @@ void placing::mate() {
     result_.contacts = contacts_of(moving_, parts, found.met, way);
     result_.contact_count = found.met.contact_count;
     if (found.time * length_of(way) > longest_) {
-        result_.end = placement_end::too_far;
+        result_.outcome = placement_outcome::too_far;
         return;
     }
-    settle(parts, way, found.time, placement_end::contact);
+    settle(parts, way, found.time, placement_outcome::contact);
 }
 
 void placing::separate() {
@@ -316,17 +316,17 @@ void placing::leave(const chosen_parts& parts, base::effort& effort) {
     for (const separation& move : found.moves) {
         if (move.time > longest_) break;
         tried = true;
-        settle(parts, move.direction, move.time, placement_end::moved_apart, false, &effort);
+        settle(parts, move.direction, move.time, placement_outcome::moved_apart, false, &effort);
         if (placed()) return;
     }
     if (found.moves.empty()) return stay();
     if (tried) return;
-    result_.end = placement_end::too_far;
+    result_.outcome = placement_outcome::too_far;
     result_.travel = found.moves[0].time;
 }
 
 void placing::forget_place() {
-    result_.end = placement_end::unchanged;
+    result_.outcome = placement_outcome::unchanged;
     result_.contacts.clear();
     result_.contact_count = 0;
     result_.points.assign(prepared_.view().points.begin(), prepared_.view().points.end());
@@ -351,7 +351,7 @@ void placing::look_at_place() {
         }
         result_.relation = relation_of(result_.nearest);
     }
-    if (result_.end == placement_end::bed) on_bed_at_place(there);
+    if (result_.outcome == placement_outcome::bed) on_bed_at_place(there);
     if (among_.empty() || !result_.contacts.empty()) return;
     if (result_.relation == mesh_relation::touching ||
         result_.relation == mesh_relation::penetrating)

@@ -40,7 +40,8 @@ class placing {
             work_.reach(1.0);
             over();
         } catch (const stopped&) {
-            return {.certificate = {.status = status::cancelled}, .end = placement_end::cancelled};
+            return {.certificate = {.status = status::cancelled},
+                    .outcome = placement_outcome::cancelled};
         }
         return finished();
     }
@@ -50,7 +51,7 @@ class placing {
     void separate();
     /// Keeps the mesh at its position, if that is representable in the output precision.
     void stay();
-    void measure() { result_.end = placement_end::unchanged; }
+    void measure() { result_.outcome = placement_outcome::unchanged; }
 
   private:
     struct stopped {};
@@ -62,13 +63,13 @@ class placing {
     [[nodiscard]] placement finished();
     [[nodiscard]] mesh_relation relation_of(const std::optional<mesh_measure>& near) const;
     [[nodiscard]] double radius(double more) const;
-    [[nodiscard]] bool placed() const { return result_.end <= placement_end::moved_apart; }
+    [[nodiscard]] bool placed() const { return result_.outcome <= placement_outcome::moved_apart; }
     void find_nearest(const shape& a, const box3& box, double radius, double begin, double end);
     void look_at_start();
     void look_at_place();
     void on_bed_at_place(mesh_view there);
     [[nodiscard]] bool stuck_at_start();
-    void settle(const chosen_parts& known, const point3& motion, double time, placement_end end,
+    void settle(const chosen_parts& known, const point3& motion, double time, placement_outcome end,
                 bool close_in = false, base::effort* effort = nullptr);
     void lift(const point3& motion, double above);
     void leave(const chosen_parts& parts, base::effort& effort);

@@ -1,6 +1,6 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/nearest_float.hpp>
-#include <libmesh/nearness/closest_points.hpp>
+#include <libmesh/nearness/closest_pair.hpp>
 #include <libmesh/place/plate.hpp>
 #include <libmesh/place/relation_of.hpp>
 #include <libmesh/place/shape.hpp>
@@ -160,8 +160,8 @@ bool plate::apart(const resident& a, const resident& b) {
         both.max[k] = std::max(both.max[k], b.box.max[k]);
     }
     const double error = 0x1p-48 * both.diagonal();
-    const auto found = nearness::closest_points(a.mesh(), a.faces_tree, b.mesh(), b.faces_tree,
-                                                spacing + 2.0 * error);
+    const auto found = nearness::closest_pair(a.mesh(), a.faces_tree, b.mesh(), b.faces_tree,
+                                              spacing + 2.0 * error);
     if (found && !(found->distance > 0.0 && found->distance - error >= spacing)) return false;
     if (!strictly_within(a.box, b.box) && !strictly_within(b.box, a.box)) return true;
     return relation_of(shape(*a.whose, a.part.points, a.faces_tree),
@@ -180,7 +180,7 @@ double plate::distance_to(const std::vector<const resident*>& others, const turn
     const transformed<3> moved(part.faces, transform<3>::translation(by));
     for (const resident* r : others) {
         const auto found =
-            nearness::closest_points(part.part.mesh(), moved, r->mesh(), r->faces_tree, most);
+            nearness::closest_pair(part.part.mesh(), moved, r->mesh(), r->faces_tree, most);
         if (found) most = std::min(most, found->distance);
     }
     return most;

@@ -2,7 +2,7 @@
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
-#include <libmesh/nearness/closest_points.hpp>
+#include <libmesh/nearness/closest_pair.hpp>
 #include <libmesh/place/facing.hpp>
 #include <libmesh/place/relation_of.hpp>
 #include <libmesh/place/separation_search.hpp>
@@ -142,14 +142,14 @@ class clearing {
     }
 
     /// The nearest pair at the offset within the clearance, over all parts.
-    [[nodiscard]] std::optional<closest_points_result> nearest(const point3& offset) const {
-        std::optional<closest_points_result> best;
+    [[nodiscard]] std::optional<closest_pair_result> nearest(const point3& offset) const {
+        std::optional<closest_pair_result> best;
         const transformed<3> there(tree_, transform<3>::translation(offset));
         for (std::size_t i = 0; i < parts_.size(); ++i) {
             if (!boxes_within(i, offset)) continue;
             const double radius = best ? best->distance : options_.clearance;
             const auto one =
-                nearness::closest_points(a_, there, parts_[i].mesh(), parts_[i].faces(), radius);
+                nearness::closest_pair(a_, there, parts_[i].mesh(), parts_[i].faces(), radius);
             if (one && (!best || one->distance < best->distance)) best = one;
         }
         return best;
@@ -243,7 +243,7 @@ class clearing {
                          .limit = 1,
                          .effort = options_.effort,
                          .progress = asking_});
-        return back.end == placement_end::contact ? time - back.time : time;
+        return back.outcome == placement_outcome::contact ? time - back.time : time;
     }
 
     [[nodiscard]] std::vector<point3> directions() {
@@ -288,7 +288,7 @@ class clearing {
         for (std::size_t i = 0; i < parts_.size(); ++i) {
             if (!boxes_within(i, {})) continue;
             const auto pair =
-                nearness::closest_points(a_, tree_, parts_[i].mesh(), parts_[i].faces());
+                nearness::closest_pair(a_, tree_, parts_[i].mesh(), parts_[i].faces());
             const point3 line{pair->on_b.x - pair->on_a.x, pair->on_b.y - pair->on_a.y,
                               pair->on_b.z - pair->on_a.z};
             offer(direction_of(line));

@@ -2,7 +2,7 @@
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/point_math.hpp>
 #include <libmesh/base/work_progress.hpp>
-#include <libmesh/nearness/closest_points.hpp>
+#include <libmesh/nearness/closest_pair.hpp>
 #include <libmesh/place/relation_of.hpp>
 #include <libmesh/place/snap_to_representable.hpp>
 #include <treeform/mesh/distance.hpp>
@@ -121,8 +121,8 @@ class settling {
     }
 
     [[nodiscard]] bool nearer(const shape& moved, const shape& part) const {
-        const auto pair = nearness::closest_points(moved.mesh(), moved.faces(), part.mesh(),
-                                                   part.faces(), options_.clearance);
+        const auto pair = nearness::closest_pair(moved.mesh(), moved.faces(), part.mesh(),
+                                                 part.faces(), options_.clearance);
         return pair && pair->distance < options_.clearance;
     }
 

@@ -13,7 +13,7 @@ namespace {
 
 /// What one part allows.
 struct part_end {
-    placement_end end = placement_end::nothing_met;
+    placement_outcome outcome = placement_outcome::nothing_met;
     double time = 0.0;
     sweep_contact exact{};
     std::vector<face_contact> contacts{};
@@ -29,14 +29,14 @@ part_end end_at(const shape& a, const shape& part, const point3& motion, double 
         auto one = approach_of(
             a.mesh(), a.faces(), part.mesh(), part.faces(), motion, options.clearance,
             {.latest = latest, .limit = options.limit, .progress = progress}, options.effort);
-        return {one.end,           one.time,         {}, std::move(one.contacts),
+        return {one.outcome,       one.time,         {}, std::move(one.contacts),
                 one.contact_count, one.pairs_tested, {}, one.status};
     }
     sweep_contact exact;
     auto one = impact_of(a.mesh(), a.faces(), part.mesh(), part.faces(), motion,
                          {.latest = latest, .limit = options.limit, .progress = progress},
                          options.effort, &exact);
-    return {one.end,           one.time,         exact,          std::move(one.contacts),
+    return {one.outcome,       one.time,         exact,          std::move(one.contacts),
             one.contact_count, one.pairs_tested, one.predicates, one.status};
 }
 
@@ -59,16 +59,16 @@ sweep_result sweep_among(const shape& a, std::span<const shape> parts, const poi
             return {.status = status::cancelled};
         result.pairs_tested += one.pairs_tested;
         result.predicates += one.predicates;
-        if (one.end == placement_end::nothing_met) continue;
-        if (one.end == placement_end::starts_touching) {
+        if (one.outcome == placement_outcome::nothing_met) continue;
+        if (one.outcome == placement_outcome::starts_touching) {
             work.reach(1.0);
-            return {.end = one.end,
+            return {.outcome = one.outcome,
                     .part = i,
                     .pairs_tested = result.pairs_tested,
                     .predicates = result.predicates};
         }
         int order = -1;
-        if (result.end == placement_end::contact) {
+        if (result.outcome == placement_outcome::contact) {
             order = options.clearance > 0.0 ? (one.time > result.time) - (one.time < result.time)
                                             : compare(motion, one.exact, earliest);
         }
@@ -77,7 +77,7 @@ sweep_result sweep_among(const shape& a, std::span<const shape> parts, const poi
             result.contacts.clear();
             result.contact_count = 0;
             result.part = i;
-            result.end = one.end;
+            result.outcome = one.outcome;
             result.time = one.time;
             earliest = one.exact;
         }
@@ -111,7 +111,7 @@ mate_motion motion_to_mate(const mesh_measure& nearest, const shape& a,
     sweep_options rest = options;
     rest.latest = 1.0 + 0x1p-20;
     result.met = sweep_among(a, parts, result.motion, rest);
-    result.time = result.met.end == placement_end::nothing_met
+    result.time = result.met.outcome == placement_outcome::nothing_met
                       ? std::max(0.0, 1.0 - options.clearance / nearest.distance)
                       : result.met.time;
     return result;

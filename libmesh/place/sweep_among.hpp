@@ -60,7 +60,7 @@ struct sweep_meeting {
 };
 
 struct sweep_result {
-    placement_end end = placement_end::nothing_met;
+    placement_outcome outcome = placement_outcome::nothing_met;
     double time = 0.0;     ///< not beyond the exact time, as in `time_of_impact`
     std::size_t part = 0;  ///< lowest part met, also at the start
     /// By ascending parts, then faces. Without a clearance, includes all parts met at the same

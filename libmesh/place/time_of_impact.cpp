@@ -6,7 +6,7 @@
 #include <libmesh/geometry/contact_order.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/intersect/mesh_intersections.hpp>
-#include <libmesh/nearness/closest_points.hpp>
+#include <libmesh/nearness/closest_pair.hpp>
 #include <libmesh/place/shape.hpp>
 #include <libmesh/place/sweep_among.hpp>
 #include <treeform/mesh/distance.hpp>
@@ -44,7 +44,7 @@ struct moving_pair {
     [[nodiscard]] std::optional<double> time_within(double level, double latest) const {
         double time = 0.0;
         for (int step = 0; step < 200; ++step) {
-            const auto at = closest_points(moved(a, motion, time), b);
+            const auto at = closest_pair(moved(a, motion, time), b);
             const double apart = std::sqrt(at.squared_distance);
             if (apart <= level) return time;
             double slope = 0.0;
@@ -139,7 +139,7 @@ void enter_contacts(std::vector<earliest::pair>& pairs, const point3& motion, st
     for (const auto& pair : pairs) {
         const triangle3 there = moved(face_a(pair.a), motion, result.time);
         result.contacts.push_back(
-            {pair.a, pair.b, pair.at, closest_points(there, face_b(pair.b)).on_b});
+            {pair.a, pair.b, pair.at, closest_pair(there, face_b(pair.b)).on_b});
     }
 }
 
@@ -169,10 +169,10 @@ impact detail::place::approach_of(mesh_view a, const tree<3>& tree_a, mesh_view 
         throw std::invalid_argument(
             "treeform::time_to_distance: the latest time is negative or NaN");
     impact result;
-    const auto near = detail::nearness::closest_points(a, tree_a, b, tree_b, distance);
+    const auto near = detail::nearness::closest_pair(a, tree_a, b, tree_b, distance);
     detail::base::work_progress work(options.progress);
     if (near && near->distance < distance) {
-        result.end = placement_end::starts_touching;
+        result.outcome = placement_outcome::starts_touching;
         work.reach(1.0);
         return result;
     }
@@ -206,7 +206,7 @@ impact detail::place::approach_of(mesh_view a, const tree<3>& tree_a, mesh_view 
     if (work.cancelled() || !work.reach(1.0)) return {.status = status::cancelled};
     if (pairs.empty()) return result;
 
-    result.end = placement_end::contact;
+    result.outcome = placement_outcome::contact;
     result.contact_count = pairs.size();
     std::sort(pairs.begin(), pairs.end());
     pairs.resize(std::min(pairs.size(), options.limit));
@@ -215,8 +215,7 @@ impact detail::place::approach_of(mesh_view a, const tree<3>& tree_a, mesh_view 
             {i,
              j,
              {feature::v0, feature::v0},
-             closest_points(moved(triangle_of(a, i), motion, result.time), triangle_of(b, j))
-                 .on_b});
+             closest_pair(moved(triangle_of(a, i), motion, result.time), triangle_of(b, j)).on_b});
     return result;
 }
 
@@ -265,7 +264,7 @@ impact detail::place::impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
     const auto meets = meets_at_start(a, tree_a, b, tree_b, options, effort);
     if (!meets) return {.status = status::cancelled};
     if (*meets) {
-        result.end = placement_end::starts_touching;
+        result.outcome = placement_outcome::starts_touching;
         work.reach(1.0);
         return result;
     }
@@ -302,7 +301,7 @@ impact detail::place::impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
         compare_cut(found.first->from, motion, found.first->until, options.latest) > 0)
         return result;
 
-    result.end = placement_end::contact;
+    result.outcome = placement_outcome::contact;
     if (exact != nullptr) *exact = *found.first;
     result.time = time_not_beyond(*found.first, motion);
     enter_contacts(found.pairs, motion, options.limit, face_a, face_b, result);

@@ -54,14 +54,16 @@ class turning {
 
     [[nodiscard]] placement run() {
         result_ = measured(moving_, 0.0, 0.2);
-        if (cancelled() || moving_.view().faces.empty()) return ended(placement_end::nothing_met);
+        if (cancelled() || moving_.view().faces.empty())
+            return ended(placement_outcome::nothing_met);
         const mesh_relation start = result_.relation;
-        if (start == mesh_relation::penetrating) return ended(placement_end::starts_penetrating);
+        if (start == mesh_relation::penetrating)
+            return ended(placement_outcome::starts_penetrating);
         if (start == mesh_relation::closer_than_clearance)
-            return ended(placement_end::starts_too_near);
+            return ended(placement_outcome::starts_too_near);
         if (start == mesh_relation::touching && options_.clearance > 0.0)
-            return ended(placement_end::starts_touching);
-        if (start == mesh_relation::touching) return settle(0.0, placement_end::unchanged);
+            return ended(placement_outcome::starts_touching);
+        if (start == mesh_relation::touching) return settle(0.0, placement_outcome::unchanged);
         return search();
     }
 
@@ -80,7 +82,8 @@ class turning {
         const detail::place::surroundings among(fixed_, options_.vertices);
         const auto near = among.around(ring.box, options_.clearance);
         result_.statistics.fixed_culled = among.size() - near.parts.size();
-        if (near.parts.empty() || !(ring.radius > 0.0)) return ended(placement_end::nothing_met);
+        if (near.parts.empty() || !(ring.radius > 0.0))
+            return ended(placement_outcome::nothing_met);
         turn_search found = search_turn(shape(moving_, options_.vertices), near.parts, axis_,
                                         {.clearance = options_.clearance,
                                          .tolerance = result_.tolerance,
@@ -91,11 +94,12 @@ class turning {
                                          .progress = work_.part(0.2, 0.8)});
         result_.statistics.steps = found.steps;
         result_.statistics.pairs_tested = found.pairs;
-        if (found.end == turn_search::end_of::gave_up) return ended(placement_end::too_many_steps);
-        if (found.end != turn_search::end_of::met) return ended(placement_end::nothing_met);
+        if (found.outcome == turn_search::end_of::gave_up)
+            return ended(placement_outcome::too_many_steps);
+        if (found.outcome != turn_search::end_of::met) return ended(placement_outcome::nothing_met);
         for (placement_contact& c : found.contacts) c.fixed = near.number[c.fixed];
         contacts_ = std::move(found.contacts);
-        return settle(found.angle, placement_end::contact);
+        return settle(found.angle, placement_outcome::contact);
     }
 
     [[nodiscard]] std::vector<point3> points_at(const transform<3>& there) const {
@@ -115,13 +119,13 @@ class turning {
     }
 
     /// At the angle, or the first before it that is good in coordinates to be written.
-    [[nodiscard]] placement settle(double angle, placement_end end) {
+    [[nodiscard]] placement settle(double angle, placement_outcome end) {
         double unit = 0.0;
         for (unsigned tries = 0; tries < most_steps_back && !cancelled(); ++tries) {
             const double at = std::max(0.0, angle - unit);
             const transform<3> there = axis_.by(at);
             std::vector<point3> points = points_at(there);
-            if (!detail::base::all_finite(points)) return ended(placement_end::out_of_range);
+            if (!detail::base::all_finite(points)) return ended(placement_outcome::out_of_range);
             const prepared_mesh written =
                 prepared_mesh::borrow({points, mesh_ref(moving_).view().faces});
             placement now = measured(written, 0.8, 1.0);
@@ -133,7 +137,7 @@ class turning {
             if (at == 0.0) break;  // where it came from
             unit = unit == 0.0 ? unit_of(points) : 2.0 * unit;
         }
-        return ended(placement_end::not_representable);
+        return ended(placement_outcome::not_representable);
     }
 
     /// The angle that moves the largest coordinate by about a unit in its last place.
@@ -148,10 +152,10 @@ class turning {
     }
 
     void accept(placement&& now, std::vector<point3>&& points, const transform<3>& there, double at,
-                placement_end end) {
+                placement_outcome end) {
         now.relation_at_start = result_.relation_at_start;
         now.statistics = result_.statistics;
-        now.end = end;
+        now.outcome = end;
         now.matrix = there;
         now.certificate.precision = options_.precision;
         now.certificate.max_displacement =
@@ -167,14 +171,14 @@ class turning {
     }
 
     /// No place, or cancelled.
-    [[nodiscard]] placement ended(placement_end end) {
-        result_.end = cancelled() ? placement_end::cancelled : end;
+    [[nodiscard]] placement ended(placement_outcome end) {
+        result_.outcome = cancelled() ? placement_outcome::cancelled : end;
         result_.certificate.precision = options_.precision;
-        result_.certificate.status = cancelled() ? status::cancelled
-                                     : end == placement_end::not_representable
-                                         ? status::not_certified
-                                     : end == placement_end::out_of_range ? status::out_of_range
-                                                                          : status::no_placement;
+        result_.certificate.status =
+            cancelled()                                   ? status::cancelled
+            : end == placement_outcome::not_representable ? status::not_certified
+            : end == placement_outcome::out_of_range      ? status::out_of_range
+                                                          : status::no_placement;
         return std::move(result_);
     }
 

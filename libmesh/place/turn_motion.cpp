@@ -104,9 +104,9 @@ class turn_searching {
         double trial = widest_step;
         std::size_t most = fewest_pairs;
         while (true) {
-            if (!work_.reach(found.angle / options_.latest)) return {.end = cancelled};
+            if (!work_.reach(found.angle / options_.latest)) return {.outcome = cancelled};
             if (found.steps++ == options_.max_steps) {
-                found.end = gave_up;
+                found.outcome = gave_up;
                 return found;
             }
             const double reach = options_.clearance + options_.radius * trial + slack_;
@@ -124,12 +124,12 @@ class turn_searching {
                 step = std::min(step, free_angle(there, pair));
             }
             if (nearest <= options_.clearance + std::max(options_.tolerance, 2.0 * slack_)) {
-                found.end = met;
+                found.outcome = met;
                 found.contacts = contacts_at(state, nearest);
                 return found;
             }
             if (!(found.angle + step > found.angle)) {
-                found.end = gave_up;
+                found.outcome = gave_up;
                 return found;
             }
             found.angle += step;
@@ -161,7 +161,7 @@ class turn_searching {
             const auto pairs = k_nearest_pairs(
                 moved, parts_[part].faces(), most,
                 [&](std::uint32_t a, std::uint32_t b) {
-                    return closest_points(face_at(there, a), triangle_of(fixed, b));
+                    return closest_pair(face_at(there, a), triangle_of(fixed, b));
                 },
                 reach);
             for (const auto& [faces, at] : pairs)

@@ -48,7 +48,7 @@ struct turn_search_options {
 };
 
 struct turn_search {
-    enum class end_of { met, free, gave_up, cancelled } end = end_of::free;
+    enum class end_of { met, free, gave_up, cancelled } outcome = end_of::free;
     double angle = 0.0;  ///< radians; nothing is met up to this angle
     std::uint64_t steps = 0;
     std::uint64_t pairs = 0;

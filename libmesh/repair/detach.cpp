@@ -121,11 +121,11 @@ class detacher {
     void move_alone(std::uint32_t v, int from, int to) {
         for (int doublings = from; doublings < to; ++doublings)
             for (int way = 0; way < (doublings < least_doublings ? all_ways : likely_ways); ++way)
-                if (is_left(v)) move({v}, way, steps(doublings));
+                if (is_kept(v)) move({v}, way, steps(doublings));
     }
 
     /// Whether it is where it was given, and another one, too.
-    [[nodiscard]] bool is_left(std::uint32_t v) const {
+    [[nodiscard]] bool is_kept(std::uint32_t v) const {
         const twin_vertex& twin = twins_.at(v);
         return !twin.moved && std::ranges::count_if(groups_[twin.group], [&](std::uint32_t w) {
                                   return !twins_.at(w).moved;
@@ -135,7 +135,7 @@ class detacher {
     [[nodiscard]] std::vector<std::uint32_t> vertices_left() const {
         std::vector<std::uint32_t> left;
         for (const auto& [v, twin] : twins_)
-            if (is_left(v)) left.push_back(v);
+            if (is_kept(v)) left.push_back(v);
         return left;
     }
 

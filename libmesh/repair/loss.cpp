@@ -69,7 +69,7 @@ double area_of_distinct(mesh_view mesh) {
     return topology::area(joined);
 }
 
-loss find_loss(mesh_view given, std::span<const std::uint8_t> is_left, mesh_view made,
+loss find_loss(mesh_view given, std::span<const std::uint8_t> is_kept, mesh_view made,
                const progress_callback& progress) {
     // Beyond this the arrangement takes no coordinates, and volumes are no numbers.
     const bool is_huge = std::ranges::any_of(given.points, [](const point3& p) {
@@ -81,25 +81,25 @@ loss find_loss(mesh_view given, std::span<const std::uint8_t> is_left, mesh_view
     if (meant.certificate && meant.statistics.tetrahedra == 0)
         return {meant.statistics.volume_after, std::abs(signed_volume(made)), true};
     const double before = area_of_distinct(given);
-    const double fall = std::min(before - topology::area(made), lost_area(given, is_left, made));
+    const double fall = std::min(before - topology::area(made), lost_area(given, is_kept, made));
     return {before, before - std::max(fall, 0.0), false};
 }
 
-double lost_area(mesh_view given, std::span<const std::uint8_t> is_left, mesh_view made) {
+double lost_area(mesh_view given, std::span<const std::uint8_t> is_kept, mesh_view made) {
     std::vector<std::uint32_t> gone;
     for (std::uint32_t f = 0; f < given.faces.size(); ++f)
-        if (is_left[f] == 0) gone.push_back(f);
+        if (is_kept[f] == 0) gone.push_back(f);
     double sum = 0.0;
     for (const double area : lost_areas(given, gone, made)) sum += area;
     return sum;
 }
 
-vanished_parts count_vanished(const working_mesh& mesh, std::span<const std::uint8_t> is_left,
+vanished_parts count_vanished(const working_mesh& mesh, std::span<const std::uint8_t> is_kept,
                               mesh_view made, double largest) {
     const std::vector<std::uint32_t> part = parts_by_edges(mesh);
     std::vector<std::uint8_t> has_face(part.size(), 0);
     for (std::uint32_t f = 0; f < part.size(); ++f)
-        if (mesh.source[f] != repair_result::none && is_left[mesh.source[f]] != 0)
+        if (mesh.source[f] != repair_result::none && is_kept[mesh.source[f]] != 0)
             has_face[part[f]] = 1;
     std::vector<std::uint32_t> gone;
     for (std::uint32_t f = 0; f < part.size(); ++f)

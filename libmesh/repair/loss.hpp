@@ -28,11 +28,11 @@ struct loss {
 /// faces hidden in a union nor new fillings count as a loss. Nothing is measured for coordinates
 /// beyond 2^300.
 ///
-/// \param is_left [F] whether `made` has a part of each face
+/// \param is_kept [F] whether `made` has a part of each face
 /// \pre   no two faces of `made` meet
 /// \cost  as `repair`
 /// \same  on any number of threads
-[[nodiscard]] loss find_loss(mesh_view given, std::span<const std::uint8_t> is_left, mesh_view made,
+[[nodiscard]] loss find_loss(mesh_view given, std::span<const std::uint8_t> is_kept, mesh_view made,
                              const progress_callback& progress);
 
 /// The area of the faces of `given` of which nothing is left, and which are neither on `made` nor
@@ -41,10 +41,10 @@ struct loss {
 /// Tested at the center of each face, in doubles: a limit for heuristics, which decides nothing
 /// about the mesh.
 ///
-/// \param is_left [F] whether `made` has a part of each face
+/// \param is_kept [F] whether `made` has a part of each face
 /// \cost  as `closest_point` and `locate` for the faces that are not left
 /// \same  on any number of threads
-[[nodiscard]] double lost_area(mesh_view given, std::span<const std::uint8_t> is_left,
+[[nodiscard]] double lost_area(mesh_view given, std::span<const std::uint8_t> is_kept,
                                mesh_view made);
 
 /// Numbers of parts of which nothing is left.
@@ -56,10 +56,10 @@ struct vanished_parts {
 /// Counts the parts of `mesh` (faces linked by edges) of which nothing is left, by whether they
 /// lost more than `largest` area (`lost_area`) or none.
 ///
-/// \param is_left [F] of the input, whether `made` has a part of each face
+/// \param is_kept [F] of the input, whether `made` has a part of each face
 /// \pre   `made` is closed
 [[nodiscard]] vanished_parts count_vanished(const working_mesh& mesh,
-                                            std::span<const std::uint8_t> is_left, mesh_view made,
+                                            std::span<const std::uint8_t> is_kept, mesh_view made,
                                             double largest);
 
 /// The area of the mesh, with faces of the same corners counted once.

@@ -61,7 +61,7 @@ class repairer {
     repairer(mesh_view given, const repair_options& options, inside_by way)
         : given_(given), options_(options), way_(way) {
         take(given);
-        result_.is_left.assign(given.faces.size(), 0);
+        result_.is_kept.assign(given.faces.size(), 0);
     }
 
     repair_result run() {
@@ -101,9 +101,9 @@ class repairer {
                    tally_.unbalanced + dropped_walls_.size() > 0;
         }
         if (dropped_walls_.empty()) return false;
-        std::vector<std::uint8_t> is_left(given_.faces.size(), 1);
-        for (const std::uint32_t f : dropped_walls_) is_left[f] = 0;
-        return detail::repair::lost_area(given_, is_left, made.mesh) > noise_of(made);
+        std::vector<std::uint8_t> is_kept(given_.faces.size(), 1);
+        for (const std::uint32_t f : dropped_walls_) is_kept[f] = 0;
+        return detail::repair::lost_area(given_, is_kept, made.mesh) > noise_of(made);
     }
 
   private:
@@ -322,7 +322,7 @@ class repairer {
         did_.labeled_cells = labeled.counts.cells;
         did_.dropped_area = labeled.counts.dropped_area;
         did_.flipped_area = labeled.counts.flipped_area;
-        count(guesses_.used(labeled.resolved.is_left));
+        count(guesses_.used(labeled.resolved.is_kept));
         take(std::move(labeled.resolved));
     }
 
@@ -333,8 +333,8 @@ class repairer {
         result_.mesh = std::move(made.mesh);
         for (const operand_element& e : made.face_source)
             result_.face_source.push_back(mesh_.source[e.index]);
-        for (std::size_t f = 0; f < resolved.is_left.size(); ++f)
-            if (resolved.is_left[f] != 0) set_left(mesh_.source[f]);
+        for (std::size_t f = 0; f < resolved.is_kept.size(); ++f)
+            if (resolved.is_kept[f] != 0) set_left(mesh_.source[f]);
         for (const operand_element& e : made.vertex_source)
             result_.vertex_source.push_back(source_of_point(e.index));
         did_.pairs = made.statistics.pairs;
@@ -342,7 +342,7 @@ class repairer {
     }
 
     void set_left(std::uint32_t source) {
-        if (source != repair_result::none) result_.is_left[source] = 1;
+        if (source != repair_result::none) result_.is_kept[source] = 1;
     }
 
     /// What fills holes may have points of its own.
@@ -397,21 +397,21 @@ class repairer {
         if (known.status != status::ok && known.status != status::sheet) return;
         const bool is_as_measured = is_kept_ && did_.detached == 0;
         did_.area_after = is_as_measured ? did_.area_before : area(result_.mesh);
-        const std::vector<std::uint8_t>& is_left = result_.is_left;
-        did_.removed = static_cast<std::uint64_t>(std::ranges::count(is_left, 0));
+        const std::vector<std::uint8_t>& is_kept = result_.is_kept;
+        did_.removed = static_cast<std::uint64_t>(std::ranges::count(is_kept, 0));
         const std::uint64_t dropped = did_.degenerate + did_.repeated + did_.strays + inner_faces_;
         did_.removed -= std::min(did_.removed, dropped);
         const bool is_solid = known.status == status::ok;
         if (is_solid)
             did_.volume_after = is_as_measured ? did_.volume_before : signed_volume(result_.mesh);
-        if (is_solid && !is_kept_) count_vanished(is_left);
-        did_.area_lost = detail::repair::lost_area(given_, is_left, result_.mesh);
+        if (is_solid && !is_kept_) count_vanished(is_kept);
+        did_.area_lost = detail::repair::lost_area(given_, is_kept, result_.mesh);
         if (options_.max_loss >= 1.0) return;
         if (did_.vanished_components > 0 || loses_too_much()) known.status = status::excessive_loss;
     }
 
-    void count_vanished(const std::vector<std::uint8_t>& is_left) {
-        const auto gone = detail::repair::count_vanished(mesh_, is_left, result_.mesh,
+    void count_vanished(const std::vector<std::uint8_t>& is_kept) {
+        const auto gone = detail::repair::count_vanished(mesh_, is_kept, result_.mesh,
                                                          options_.strays * did_.area_before);
         if (did_.resolved) did_.vanished_components = gone.lost;
         did_.dropped_shells = gone.within;

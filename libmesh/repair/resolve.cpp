@@ -20,7 +20,7 @@ namespace {
 /// A mesh without self-intersections, and what is left of each face of the input.
 struct resolved_mesh {
     repair_result result{};
-    std::vector<std::uint8_t> is_left{};  ///< [F]
+    std::vector<std::uint8_t> is_kept{};  ///< [F]
 };
 
 resolved_mesh from(detail::boolean::resolved_operand&& resolved) {
@@ -33,26 +33,26 @@ resolved_mesh from(detail::boolean::resolved_operand&& resolved) {
     result.statistics.covered = made.statistics.covered;
     result.statistics.exact_faces = made.statistics.exact_faces;
     result.statistics.split_vertices = made.statistics.split_vertices;
-    return {std::move(result), std::move(resolved.is_left)};
+    return {std::move(result), std::move(resolved.is_kept)};
 }
 
 resolved_mesh from(mesh_view mesh, repair_result&& result) {
-    std::vector<std::uint8_t> is_left(mesh.faces.size(), 0);
+    std::vector<std::uint8_t> is_kept(mesh.faces.size(), 0);
     for (const std::uint32_t f : result.face_source)
-        if (f != repair_result::none) is_left[f] = 1;
-    return {std::move(result), std::move(is_left)};
+        if (f != repair_result::none) is_kept[f] = 1;
+    return {std::move(result), std::move(is_kept)};
 }
 
-void count_losses(mesh_view mesh, std::span<const std::uint8_t> is_left, repair_result& result) {
+void count_losses(mesh_view mesh, std::span<const std::uint8_t> is_kept, repair_result& result) {
     const std::vector<std::uint32_t> component = face_components(mesh.points.size(), mesh.faces);
     std::uint32_t components = 0;
     for (const std::uint32_t c : component) components = std::max(components, c + 1);
     std::vector<std::uint8_t> has_face(components);
-    for (std::size_t f = 0; f < is_left.size(); ++f)
-        if (is_left[f] != 0) has_face[component[f]] = 1;
+    for (std::size_t f = 0; f < is_kept.size(); ++f)
+        if (is_kept[f] != 0) has_face[component[f]] = 1;
     result.statistics.filled =
         static_cast<std::uint64_t>(std::ranges::count(result.face_source, repair_result::none));
-    const auto gone = static_cast<std::uint64_t>(std::ranges::count(is_left, 0));
+    const auto gone = static_cast<std::uint64_t>(std::ranges::count(is_kept, 0));
     result.statistics.removed = gone - std::min(gone, result.statistics.covered);
     result.statistics.vanished_components =
         static_cast<std::uint64_t>(std::ranges::count(has_face, 0));
@@ -62,12 +62,12 @@ void count_losses(mesh_view mesh, std::span<const std::uint8_t> is_left, repair_
 
 /// `split` loses nothing; neither does `outer` where no component is inward.
 void check_loss(mesh_view mesh, resolve_mode mode, const resolve_options& options,
-                std::span<const std::uint8_t> is_left, repair_result& result) {
+                std::span<const std::uint8_t> is_kept, repair_result& result) {
     if (!result.certificate || mode == resolve_mode::split || options.max_loss >= 1.0) return;
     if (mode == resolve_mode::outer && !detail::repair::has_inward_component(mesh)) return;
     bool is_cancelled = false;
     const detail::repair::loss loss =
-        detail::repair::find_loss(mesh, is_left, result.mesh, [&](double) {
+        detail::repair::find_loss(mesh, is_kept, result.mesh, [&](double) {
             is_cancelled = options.progress && !options.progress(1.0);
             return !is_cancelled;
         });
@@ -107,13 +107,13 @@ repair_result resolve_self_intersections(const mesh_ref& given, resolve_mode mod
     require_limit("resolve_self_intersections", options.max_loss, "the largest loss");
     require_limit("resolve_self_intersections", options.max_displacement,
                   "the largest displacement");
-    auto [result, is_left] = by_mode(mesh, mode, options);
+    auto [result, is_kept] = by_mode(mesh, mode, options);
     detail::base::describe(result.certificate, result.mesh, options.precision);
     const bool is_there = result.certificate.status != status::cancelled &&
                           result.certificate.status != status::open_input;
     if (is_there) {
-        count_losses(mesh, is_left, result);
-        check_loss(mesh, mode, options, is_left, result);
+        count_losses(mesh, is_kept, result);
+        check_loss(mesh, mode, options, is_kept, result);
     }
     return std::move(result);
 }

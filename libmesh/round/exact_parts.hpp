@@ -28,18 +28,18 @@ class exact_parts {
     /// surface that was rounded, since vanished components do not count as moved.
     void count_vanished(rounded_surface& result, mesh& before) const {
         constexpr std::size_t most_listed = 100;
-        std::vector<std::uint8_t> is_left(place_of_part_.size(), 0);
-        if (!is_left.empty())
-            for (const std::uint32_t f : result.face_of) is_left[part_of_[f]] = 1;
-        for (std::size_t part = 0; part < is_left.size(); ++part) {
-            if (is_left[part] != 0) continue;
+        std::vector<std::uint8_t> is_kept(place_of_part_.size(), 0);
+        if (!is_kept.empty())
+            for (const std::uint32_t f : result.face_of) is_kept[part_of_[f]] = 1;
+        for (std::size_t part = 0; part < is_kept.size(); ++part) {
+            if (is_kept[part] != 0) continue;
             ++result.vanished_components;
             if (result.vanished_at.size() < most_listed)
                 result.vanished_at.push_back(place_of_part_[part]);
         }
         if (result.vanished_components == 0 || before.faces.empty()) return;
         std::size_t f = 0;
-        std::erase_if(before.faces, [&](const face&) { return is_left[part_of_[f++]] == 0; });
+        std::erase_if(before.faces, [&](const face&) { return is_kept[part_of_[f++]] == 0; });
     }
 
   private:

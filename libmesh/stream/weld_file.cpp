@@ -109,7 +109,7 @@ weld_result weld_soup(const mesh_file& file, const weld_options& options) {
     for (std::size_t c = 0; c < group_of_corner.size(); ++c)
         group_of_corner[c] = groups.group_of_point[equal.group_of_point[c]];
     groups.group_of_point = std::move(group_of_corner);
-    for (auto* points : {&welded.point_of_group, &groups.first_of_group})
+    for (auto* points : {&welded.vertex_source, &groups.first_of_group})
         for (std::uint32_t& p : *points) p = equal.first_of_group[p];
     welded.statistics.groups = detail::weld::count_groups_of_several(groups);
     return welded;
@@ -120,16 +120,15 @@ void check_counts(const mesh_file& file, const weld_result& r, const weld_option
     std::uint64_t kept = 0;
     for (std::uint32_t p = 0; p < r.groups.group_of_point.size(); ++p) {
         const std::uint32_t group = r.groups.group_of_point[p];
-        if (group >= r.point_of_group.size()) throw std::logic_error("a point belongs to no group");
-        kept += r.point_of_group[group] == p ? 1U : 0U;
+        if (group >= r.vertex_source.size()) throw std::logic_error("a point belongs to no group");
+        kept += r.vertex_source[group] == p ? 1U : 0U;
     }
-    if (r.groups.group_of_point.size() != file.mesh.points.size() ||
-        kept != r.point_of_group.size())
+    if (r.groups.group_of_point.size() != file.mesh.points.size() || kept != r.vertex_source.size())
         throw std::logic_error("points in are not points kept and points removed");
     const std::uint64_t dropped =
         options.keep_degenerate ? 0 : r.statistics.collapsed + r.statistics.degenerate;
     if (r.mesh.faces.size() + dropped != file.mesh.faces.size() ||
-        r.face_of_new.size() != r.mesh.faces.size())
+        r.face_source.size() != r.mesh.faces.size())
         throw std::logic_error("faces in are not faces kept and faces dropped");
 }
 
@@ -168,8 +167,8 @@ file_weld_result weld(const mesh_file& file, const weld_options& options) {
     }
     file_weld_result result{head_of(file),
                             std::move(welded.groups),
-                            std::move(welded.point_of_group),
-                            std::move(welded.face_of_new),
+                            std::move(welded.vertex_source),
+                            std::move(welded.face_source),
                             welded.statistics,
                             welded.status};
     if (result.status == status::cancelled) return result;
@@ -178,8 +177,8 @@ file_weld_result weld(const mesh_file& file, const weld_options& options) {
     result.file.stored_faces = result.file.mesh.faces.size();
     if (!has_polygons) return result;
     std::vector<std::uint32_t> polygon;
-    polygon.reserve(result.face_of_new.size());
-    for (const std::uint32_t f : result.face_of_new) polygon.push_back(file.stored_face[f]);
+    polygon.reserve(result.face_source.size());
+    for (const std::uint32_t f : result.face_source) polygon.push_back(file.stored_face[f]);
     detail::stream::rejoin_polygons(result.file, polygon, !options.keep_degenerate);
     return result;
 }
@@ -196,7 +195,7 @@ void file_weld_result::withhold(mesh_file& file) const {
     std::vector<std::uint8_t> flags(group_of.size());
     for (std::uint32_t p = 0; p < flags.size(); ++p) {
         const bool was = has_flags && before->number(p) != 0.0;
-        flags[p] = was || welded.point_of_group[group_of[p]] != p ? 1 : 0;
+        flags[p] = was || welded.vertex_source[group_of[p]] != p ? 1 : 0;
     }
     vertices.set(column::of<std::uint8_t>("withheld", flags));
 }

@@ -43,8 +43,8 @@ void renumber_points(column& c, const std::vector<std::uint32_t>& new_of_old) {
 }
 
 element carried(const element& e, const weld_result& welded) {
-    if (e.name == "vertex") return e.gathered(welded.point_of_group);
-    if (e.name == "face") return e.gathered(welded.face_of_new);
+    if (e.name == "vertex") return e.gathered(welded.vertex_source);
+    if (e.name == "face") return e.gathered(welded.face_source);
     element other = e;
     for (column& c : other.columns) renumber_points(c, welded.groups.group_of_point);
     return other;
@@ -109,7 +109,7 @@ void check_rows(const attributes& properties, std::size_t point_count, std::size
 }
 
 attributes carry_rows(const attributes& properties, const weld_result& welded) {
-    attributes result{.corners = properties.corners.gathered(welded.face_of_new),
+    attributes result{.corners = properties.corners.gathered(welded.face_source),
                       .parts = properties.parts,
                       .material_files = properties.material_files,
                       .texture_files = properties.texture_files,
@@ -118,7 +118,7 @@ attributes carry_rows(const attributes& properties, const weld_result& welded) {
                       .header = properties.header};
     result.elements.reserve(properties.elements.size());
     for (const element& e : properties.elements) result.elements.push_back(carried(e, welded));
-    const std::vector<std::uint32_t>& faces = welded.face_of_new;
+    const std::vector<std::uint32_t>& faces = welded.face_source;
     for (part& p : result.parts)
         p.first_face = static_cast<std::uint32_t>(
             std::lower_bound(faces.begin(), faces.end(), p.first_face) - faces.begin());
@@ -147,12 +147,12 @@ bool is_flipped(const plane_points& before, const plane_points& after) {
 }
 
 std::uint64_t count_flipped(mesh_view before, mesh_view after,
-                            std::span<const std::uint32_t> face_of_new) {
+                            std::span<const std::uint32_t> face_source) {
     std::vector<std::uint64_t> found(chunk_count(after.faces.size(), light_grain), 0);
     for_chunks(after.faces.size(), light_grain,
                [&](std::size_t begin, std::size_t end, std::size_t c) {
                    for (std::size_t i = begin; i < end; ++i)
-                       found[c] += is_flipped(corners_of(before, before.faces[face_of_new[i]]),
+                       found[c] += is_flipped(corners_of(before, before.faces[face_source[i]]),
                                               corners_of(after, after.faces[i]))
                                        ? 1
                                        : 0;

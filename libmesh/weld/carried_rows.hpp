@@ -53,8 +53,8 @@ void renumber(column& c, std::size_t begin, std::size_t end, std::uint64_t point
 /// product), decided exactly. False if either triangle has no area or a corner that is not finite.
 [[nodiscard]] bool is_flipped(const plane_points& before, const plane_points& after);
 
-/// Number of flipped faces of `after`; face i was `before.faces[face_of_new[i]]`.
+/// Number of flipped faces of `after`; face i was `before.faces[face_source[i]]`.
 [[nodiscard]] std::uint64_t count_flipped(mesh_view before, mesh_view after,
-                                          std::span<const std::uint32_t> face_of_new);
+                                          std::span<const std::uint32_t> face_source);
 
 }  // namespace treeform::detail::weld

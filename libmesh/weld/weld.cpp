@@ -178,14 +178,14 @@ void carry_faces(std::span<const face> faces, bool keep_degenerate, weld_result&
         result.statistics.collapsed += n.collapsed;
         result.statistics.degenerate += n.degenerate;
     }
-    detail::base::resize_all(total, result.mesh.faces, result.face_of_new);
+    detail::base::resize_all(total, result.mesh.faces, result.face_source);
     for_chunks(faces.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t c) {
         std::size_t at = counts[c].kept;
         for (std::size_t i = begin; i < end; ++i) {
             const face f = welded(faces[i]);
             if (!keep_degenerate && !detail::base::has_three_corners(f)) continue;
             result.mesh.faces[at] = f;
-            result.face_of_new[at++] = static_cast<std::uint32_t>(i);
+            result.face_source[at++] = static_cast<std::uint32_t>(i);
         }
     });
 }
@@ -194,9 +194,9 @@ void carry_faces(std::span<const face> faces, bool keep_degenerate, weld_result&
 void carry_points(points_view points, const attributes& properties, const weld_options& options,
                   weld_result& result) {
     std::vector<point3>& places = result.mesh.points;
-    detail::base::resize_all(result.point_of_group.size(), places);
+    detail::base::resize_all(result.vertex_source.size(), places);
     detail::base::for_numbers(places.size(),
-                              [&](std::size_t g) { places[g] = points[result.point_of_group[g]]; });
+                              [&](std::size_t g) { places[g] = points[result.vertex_source[g]]; });
     result.attributes = detail::weld::carry_rows(properties, result);
     if (options.keep != weld_keep::mean) return;
     const detail::weld::group_members members(result.groups);
@@ -231,7 +231,7 @@ weld_result weld(const mesh_ref& given, const attributes& properties, const weld
     }
     statistics.groups = detail::weld::count_groups_of_several(result.groups);
     statistics.non_finite = count_non_finite(mesh.points);
-    result.point_of_group =
+    result.vertex_source =
         detail::weld::kept_points(mesh.points, properties, options, result.groups);
     carry_faces(mesh.faces, options.keep_degenerate, result);
     carry_points(mesh.points, properties, options, result);
@@ -240,7 +240,7 @@ weld_result weld(const mesh_ref& given, const attributes& properties, const weld
             mesh.points, result.groups.group_of_point, result.mesh.points);
     if (mesh.faces.empty()) return result;
     if (statistics.max_displacement > 0.0)
-        statistics.flipped = detail::weld::count_flipped(mesh, result.mesh, result.face_of_new);
+        statistics.flipped = detail::weld::count_flipped(mesh, result.mesh, result.face_source);
     detail::base::parallel_invoke(
         [&] {
             statistics.nonmanifold_before =

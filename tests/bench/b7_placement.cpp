@@ -9,7 +9,7 @@
 #include "bench/poses.hpp"
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/geometry/contact_order.hpp>
-#include <libmesh/nearness/closest_points.hpp>
+#include <libmesh/nearness/closest_pair.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/measure.hpp>
@@ -51,8 +51,8 @@ make_asker own_from_arrays(pose_question question) {
         return [a = scene.a, b = scene.b, question](const transform<3>& pose) -> double {
             if (question == pose_question::collide)
                 return intersects(*a, *b, {.move_b = pose}) ? 1 : 0;
-            return detail::nearness::closest_points(*a, build_face_tree(*a), *b,
-                                                    transformed<3>(build_face_tree(*b), pose))
+            return detail::nearness::closest_pair(*a, build_face_tree(*a), *b,
+                                                  transformed<3>(build_face_tree(*b), pose))
                 .value()
                 .distance;
         };
@@ -147,7 +147,7 @@ contest contact_beside_distance(const setting& setting, const scene_name& name) 
                                                met += time_of_impact(p->b, p->a,
                                                                      toward_first(*p->given, pose),
                                                                      {.move_a = pose})
-                                                          .end == placement_end::contact;
+                                                          .outcome == placement_outcome::contact;
                                            return met;
                                        });
                                    }});
@@ -157,7 +157,7 @@ contest contact_beside_distance(const setting& setting, const scene_name& name) 
              return make_job([p] {
                  double sum = 0.0;
                  for (const transform<3>& pose : p->given->apart)
-                     sum += detail::nearness::closest_points(
+                     sum += detail::nearness::closest_pair(
                                 *p->given->a, build_face_tree(p->a), *p->given->b,
                                 transformed<3>(build_face_tree(p->b), pose))
                                 .value()

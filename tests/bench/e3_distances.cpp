@@ -147,7 +147,7 @@ std::vector<method> methods(distance_question question) {
         }));
     } else {
         all.push_back(each("treeform", [](const pair& p) {
-            return std::sqrt(closest_points(p.a, p.b).squared_distance);
+            return std::sqrt(closest_pair(p.a, p.b).squared_distance);
         }));
         all.push_back(each("naive float", [](const pair& p) {
             return plain_distance<float>::triangle_triangle(p.a, p.b);
@@ -242,7 +242,7 @@ section draw_distances(const std::vector<outcome>& outcomes, const std::string& 
             "distance computed in double from differences of them keeps a few units of u L "
             "and no more: that is many ulps of a small distance, for treeform too. It is the only "
             "error that treeform makes here; its bound is in the documentation of "
-            "closest_points, and holds for needles and slivers, where the others lose all digits.",
+            "closest_pair, and holds for needles and slivers, where the others lose all digits.",
             "Columns: pairs that meet and were given a distance, or do not and were given none; "
             "the largest error over all families; answers that were NaN or infinite. Pairs whose "
             "size is beyond 1e140 or below 1e-140, whose squares no double holds, are left out for "

@@ -115,7 +115,7 @@ contest contest_of_library(std::size_t size) {
                                 }),
                         of_ring("distance of two rings", size / 2,
                                 [](const mesh& m) {
-                                    return closest_points(m, test::moved(m, {0, 0, 3}));
+                                    return closest_pair(m, test::moved(m, {0, 0, 3}));
                                 })},
         .long_runs = size < 1'000'000 ? 3 : 1};
 }

@@ -145,7 +145,7 @@ ask_pose paper_distance_by(const scene& scene, const tree_config& config,
                 const triangle3 a = triangle_of(*trees->a, i);
                 // Most pairs of a leaf are told by their boxes not to be the nearest.
                 if (squared_distance(box_of(a), box_of_placed) < best)
-                    best = std::min(best, closest_points(a, placed).squared_distance);
+                    best = std::min(best, closest_pair(a, placed).squared_distance);
                 return best;
             });
         if (counted) {
@@ -177,7 +177,7 @@ ask_pose own_distance(const scene& scene) {
     const auto a = std::make_shared<const prepared_mesh>(prepared_mesh::borrow(*scene.a));
     const auto b = std::make_shared<const prepared_mesh>(prepared_mesh::borrow(*scene.b));
     return [a, b](const transform<3>& pose) {
-        return closest_points(*a, *b, {.move_b = pose}).value().distance;
+        return closest_pair(*a, *b, {.move_b = pose}).value().distance;
     };
 }
 

@@ -122,7 +122,8 @@ void add_parts(face f, std::array<std::uint32_t, 3> cut, std::vector<face>& part
 }
 
 /// Puts the new points of faces that meet back to `middles`; false when no faces met.
-bool put_back(mesh& mesh, std::size_t old_points, const std::vector<point3>& middles, bool all) {
+bool move_in_file(mesh& mesh, std::size_t old_points, const std::vector<point3>& middles,
+                  bool all) {
     const intersection_result found =
         self_intersections(mesh, {.vertices = vertex_identity::by_index});
     for (const face_pair& pair : found.pairs)
@@ -160,7 +161,7 @@ mesh refined_once(const mesh& base, std::size_t triangles, test::random& random)
                   result.faces);
     }
     constexpr int rounds = 6;  // moving a point back can make its neighbors meet
-    for (int round = 0; put_back(result, base.points.size(), middles, round + 2 >= rounds);)
+    for (int round = 0; move_in_file(result, base.points.size(), middles, round + 2 >= rounds);)
         if (++round == rounds) throw std::runtime_error("a refined model intersects itself");
     return result;
 }

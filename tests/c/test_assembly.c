@@ -115,13 +115,13 @@ static void test_bodies(void) {
     treeform_free(bodies);
     inputs[0] = files[0];
     OK(treeform_bodies_of(inputs, label, 1, TREEFORM_BODY_FILE, &bodies));
-    OK(treeform_put_back(bodies, 0, cube_points, 8, shift, TREEFORM_FLOAT64, &moved));
-    OK(treeform_file_look(moved, &view));
+    OK(treeform_move_in_file(bodies, 0, cube_points, 8, shift, TREEFORM_FLOAT64, &moved));
+    OK(treeform_file_content(moved, &view));
     CHECK(view->mesh.point_count == 8 && view->mesh.points[3] == 1.0);
     treeform_free(view);
     treeform_free(moved);
-    INVALID("7 points", treeform_put_back(bodies, 0, cube_points, 7, shift, 1, &moved));
-    INVALID("body 1", treeform_put_back(bodies, 1, cube_points, 8, shift, 1, &moved));
+    INVALID("7 points", treeform_move_in_file(bodies, 0, cube_points, 7, shift, 1, &moved));
+    INVALID("body 1", treeform_move_in_file(bodies, 1, cube_points, 8, shift, 1, &moved));
     treeform_free(bodies);
     INVALID("kind is 3", treeform_bodies_of(inputs, label, 1, 3, &bodies));
     INVALID("labels is null", treeform_bodies_of(inputs, NULL, 1, TREEFORM_BODY_FILE, &bodies));

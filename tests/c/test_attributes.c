@@ -47,7 +47,7 @@ static void test_of_two(void) {
     OK(treeform_file_create(made_mesh, &made_file));
     OK(treeform_carry(made_file, sources, 2, made->face_source, made->vertex_source, NULL));
     OK(treeform_add_source_columns(made_file, "from", made->face_source, names, 2));
-    OK(treeform_file_look(made_file, &view));
+    OK(treeform_file_content(made_file, &view));
     red = column(view, "face", "red");
     CHECK(red != NULL && column(view, "face", "from_mesh") != NULL);
     for (f = 0; red && f < made->mesh.face_count; ++f)
@@ -91,7 +91,7 @@ static void test_of_one(void) {
     source.triangle_of_face = seen;
     source.face_count = 11;
     OK(treeform_carry_one(part_file, &source, faces, vertices, NULL, NULL));
-    OK(treeform_file_look(part_file, &view));
+    OK(treeform_file_content(part_file, &view));
     CHECK(column(view, "face", "red") != NULL);
     treeform_free(view);
     INVALID("face_source names 11",
@@ -118,7 +118,7 @@ static void test_colors(void) {
     OK(treeform_color_contacts(file, relations, 12, 0.0));
     relations[5] = 5;
     INVALID("relation is 5", treeform_color_contacts(file, relations, 12, 0.0));
-    OK(treeform_file_look(file, &view));
+    OK(treeform_file_content(file, &view));
     CHECK(column(view, "vertex", "distance") != NULL && column(view, "face", "tf_class") != NULL);
     treeform_free(view);
     treeform_free(file);

@@ -18,7 +18,7 @@ static void test_look(void) {
     OK(treeform_read_memory(ply, sizeof ply - 1, "square", "ply", &file));
     OK(treeform_file_copy(file, &copy));
     treeform_free(file);
-    OK(treeform_file_look(copy, &view));
+    OK(treeform_file_content(copy, &view));
     CHECK(view->mesh.point_count == 4 && view->mesh.face_count == 2 && view->stored_faces == 1);
     CHECK(view->stored_face[1] == 0 && view->indexed == 1 && is(view->format, "ply-ascii"));
     CHECK(view->element_count == 2 && is(view->elements[0].name, "vertex"));
@@ -59,7 +59,7 @@ static void test_change(void) {
     INVALID("face 3", treeform_file_add_part(file, "lid", NULL, NULL, 3));
     OK(treeform_file_add_text(file, TREEFORM_COMMENT, "turned"));
     INVALID("kind is 9", treeform_file_add_text(file, 9, "turned"));
-    OK(treeform_file_turn_normals(file, turned));
+    OK(treeform_file_transform_normals(file, turned));
     OK(treeform_file_transform(file, mirror));
     OK(treeform_file_transform(file, mirror));
     INVALID("not finite", treeform_file_transform(file, nowhere));
@@ -67,7 +67,7 @@ static void test_change(void) {
     CHECK(furthest == 0.0);
     OK(treeform_file_round_to_las(file, &furthest));
     CHECK(furthest < 1e-6);
-    OK(treeform_file_look(file, &view));
+    OK(treeform_file_content(file, &view));
     CHECK(view->mesh.points[2] == 1.0 && view->stored_face == NULL && view->stored_faces == 2);
     CHECK(is(view->elements[0].columns[4].name, "heat"));
     CHECK(((const float*)view->elements[0].columns[4].values)[3] == 4.0f);
@@ -94,7 +94,7 @@ static void test_write(void) {
     CHECK(written->max_displacement == 0.0);
     treeform_free(written);
     OK(treeform_read(path, NULL, &back));
-    OK(treeform_file_look(back, &view));
+    OK(treeform_file_content(back, &view));
     CHECK(view->mesh.point_count == 8 && view->mesh.points[0] == 0.1);
     treeform_free(view);
     treeform_free(back);
@@ -149,7 +149,7 @@ static void test_columns(void) {
     OK(treeform_write(path_in_work("table.las"), file, &options, NULL));
     treeform_free(file);
     OK(treeform_read(path_in_work("table.las"), NULL, &file));
-    OK(treeform_file_look(file, &view));
+    OK(treeform_file_content(file, &view));
     CHECK(view->mesh.point_count == 2 && view->mesh.points[3] == 7.0);
     CHECK(view->las_scale[0] == 0.5);
     CHECK(is(view->elements[0].columns[view->elements[0].column_count - 1].name, "number"));
@@ -176,7 +176,7 @@ static void test_parts(void) {
     treeform_file_view* view = NULL;
     const treeform_file* both[2];
     const char* names[2] = {"soup", "ball"};
-    treeform_part* part = NULL;
+    treeform_usable_mesh* part = NULL;
     treeform_mesh* mesh = NULL;
     treeform_arrays arrays;
     treeform_part_options options;
@@ -209,7 +209,7 @@ static void test_parts(void) {
     both[0] = file;
     both[1] = sphere;
     OK(treeform_join_files(both, names, 2, &joined));
-    OK(treeform_file_look(joined, &view));
+    OK(treeform_file_content(joined, &view));
     CHECK(view->mesh.face_count == 640 + 1280);
     treeform_free(view);
     treeform_free(joined);
@@ -221,7 +221,7 @@ static void test_parts(void) {
     if (parts->count == 2) {
         CHECK(is(parts->parts[0].name, "soup") && is(parts->parts[1].name, "ball"));
         CHECK(parts->parts[1].face_count == 1280 && parts->parts[1].face_in_file[0] == 12);
-        OK(treeform_file_look(parts->parts[1].file, &view));
+        OK(treeform_file_content(parts->parts[1].file, &view));
         CHECK(view->mesh.point_count == 642);
         treeform_free(view);
     }
@@ -256,7 +256,7 @@ static void test_robots(void) {
     fclose(out);
     OK(treeform_write_mesh(path_in_work("hand.stl"), mesh, NULL, NULL));
     OK(treeform_read_urdf(path_in_work("arm.urdf"), NULL, 0, 0, &robot));
-    OK(treeform_robot_look(robot, &view));
+    OK(treeform_robot_content(robot, &view));
     CHECK(is(view->name, "arm") && view->link_count == 2 && is(view->links[1], "hand"));
     CHECK(view->joint_count == 1 && view->joints[0].kind == 1 && view->joints[0].upper == 2.0);
     CHECK(view->mesh_count == 2 && view->meshes[0].link == 1 && view->meshes[0].place[0] == 1.0);

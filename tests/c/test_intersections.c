@@ -102,7 +102,7 @@ static void test_of_two(void) {
 
 static void test_colored(void) {
     treeform_file* file = NULL;
-    treeform_part* part = NULL;
+    treeform_usable_mesh* part = NULL;
     treeform_mesh* mesh = NULL;
     treeform_pairs* pairs = NULL;
     treeform_file_view* view = NULL;
@@ -111,7 +111,7 @@ static void test_colored(void) {
     OK(treeform_mesh_of(&part->mesh, 0, &mesh));
     OK(treeform_self_intersections(mesh, NULL, &pairs));
     OK(treeform_color_pairs(file, part, pairs->pairs, pairs->count));
-    OK(treeform_file_look(file, &view));
+    OK(treeform_file_content(file, &view));
     CHECK(view->element_count == 2);
     treeform_free(view);
     treeform_free(pairs);

@@ -22,9 +22,9 @@ static void test_distances(void) {
     INVALID("point 0", treeform_closest_point(a, bad, 1, 1.0, faces, NULL, NULL));
     INVALID("", treeform_closest_point(a, queries, 1, -1.0, faces, NULL, NULL));
     INVALID("queries is null", treeform_closest_point(a, NULL, 1, 1.0, faces, NULL, NULL));
-    OK(treeform_closest_points(a, b, NULL, NULL, (double)INFINITY, &closest));
+    OK(treeform_closest_pair(a, b, NULL, NULL, (double)INFINITY, &closest));
     CHECK(closest.distance == 2.0 && closest.on_a[0] == 1.0 && closest.on_b[0] == 3.0);
-    OK(treeform_closest_points(a, b, NULL, NULL, 1.0, &closest));
+    OK(treeform_closest_pair(a, b, NULL, NULL, 1.0, &closest));
     CHECK(closest.face_a == TREEFORM_NONE && closest.distance > 1e300);
     OK(treeform_distance(a, b, moves, NULL, &distance));
     CHECK(distance == 1.0);
@@ -153,7 +153,7 @@ static void test_deviation(void) {
     CHECK(result->count == 3 && result->is_signed == 1 && result->distances[0] == 0.25);
     CHECK(result->distances[1] == -0.25 && result->distances[2] == 0.0 && result->max == 0.25);
     for (i = 0; i < 3; ++i) CHECK(result->band_counts[i] == 1 && result->side_counts[i] == 1);
-    CHECK(result->bins == 40 && near(result->max_bound, 0.25) && result->back_max > 0.0);
+    CHECK(result->bins == 40 && near(result->max_bound, 0.25) && result->reverse_max > 0.0);
     treeform_free(result);
     options.band_low = 0.2;
     INVALID("", treeform_deviation(cloud, fixed, 1, &options, &result));

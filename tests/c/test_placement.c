@@ -9,10 +9,10 @@ static const double down[3] = {0, 0, -1};
 /* A placed part is written in the coordinates that were checked, or not at all. */
 static void test_writing_a_placement(void) {
     treeform_mesh* part = cube(0, 0, 4, 1);
-    treeform_place_options options;
+    treeform_placement_options options;
     treeform_placement* low = NULL;
     const char* const stl = path_in_work("low.stl");
-    treeform_place_options_init(&options, sizeof options);
+    treeform_placement_options_init(&options, sizeof options);
     options.bed = 0.7; /* no float */
     OK(treeform_drop(part, NULL, 0, NULL, &options, &low));
     OK(treeform_write_placement(path_in_work("low.ply"), part, low, NULL, NULL));
@@ -31,7 +31,7 @@ static void test_moves(void) {
     treeform_mesh* other = cube(4, 0, 0, 1);
     const treeform_mesh* fixed[2];
     const double zero[3] = {0, 0, 0};
-    treeform_place_options options;
+    treeform_placement_options options;
     treeform_placement* placement = NULL;
     treeform_face_relations* faces = NULL;
     treeform_mesh_set* set = NULL;
@@ -39,7 +39,7 @@ static void test_moves(void) {
     fixed[0] = base;
     fixed[1] = other;
     OK(treeform_slide(moving, fixed, 2, down, NULL, &placement));
-    CHECK(placement->end == TREEFORM_END_CONTACT && placement->travel == 4.0);
+    CHECK(placement->outcome == TREEFORM_OUTCOME_CONTACT && placement->travel == 4.0);
     CHECK(placement->relation == TREEFORM_RELATION_TOUCHING && placement->points[2] == 1.0);
     CHECK(placement->nearest_fixed == 0 && placement->nearest->distance == 0.0);
     CHECK(placement->contact_listed > 0 && placement->contacts[0].fixed == 0);
@@ -54,7 +54,7 @@ static void test_moves(void) {
     INVALID("not of these meshes",
             treeform_find_face_relations(moving, fixed, 0, placement, &faces));
     treeform_free(placement);
-    treeform_place_options_init(&options, sizeof options);
+    treeform_placement_options_init(&options, sizeof options);
     options.clearance = 0.125;
     OK(treeform_mesh_set_create(fixed, 2, &set));
     OK(treeform_slide(moving, set->meshes, 2, down, &options, &placement));
@@ -64,12 +64,13 @@ static void test_moves(void) {
     options.max_travel = 1.0;
     ENDS(TREEFORM_NO_PLACE, "", treeform_slide(moving, fixed, 2, down, &options, &placement));
     CHECK(placement && placement->certificate->status == TREEFORM_STATUS_NO_PLACEMENT);
-    CHECK(placement && placement->message[0] != 0 && placement->end == TREEFORM_END_NOTHING_MET);
+    CHECK(placement && placement->message[0] != 0 &&
+          placement->outcome == TREEFORM_OUTCOME_NOTHING_MET);
     treeform_free(placement);
     INVALID("", treeform_slide(moving, fixed, 2, zero, NULL, &placement));
     INVALID("direction is null", treeform_slide(moving, fixed, 2, NULL, NULL, &placement));
     INVALID("moving is null", treeform_slide(NULL, fixed, 2, down, NULL, &placement));
-    treeform_place_options_init(&options, sizeof options);
+    treeform_placement_options_init(&options, sizeof options);
     options.progress = stop;
     options.progress_data = &calls;
     ENDS(TREEFORM_CANCELLED, "", treeform_slide(moving, fixed, 2, down, &options, &placement));
@@ -85,25 +86,26 @@ static void test_other_moves(void) {
     treeform_mesh* base = cube(0, 0, 0, 1);
     const treeform_mesh* fixed[1];
     const double up[3] = {0, 0, 1};
-    treeform_place_options options;
+    treeform_placement_options options;
     treeform_placement* placement = NULL;
     treeform_features* of_moving = NULL;
     treeform_features* of_fixed = NULL;
     fixed[0] = base;
     OK(treeform_drop(moving, NULL, 0, NULL, NULL, &placement));
-    CHECK(placement->end == TREEFORM_END_BED && placement->travel == 5.0 && placement->bed == 0.0);
+    CHECK(placement->outcome == TREEFORM_OUTCOME_BED && placement->travel == 5.0 &&
+          placement->bed == 0.0);
     treeform_free(placement);
     OK(treeform_drop(moving, fixed, 1, down, NULL, &placement));
-    CHECK(placement->travel == 4.0 && placement->end == TREEFORM_END_CONTACT);
+    CHECK(placement->travel == 4.0 && placement->outcome == TREEFORM_OUTCOME_CONTACT);
     treeform_free(placement);
     INVALID("", treeform_drop(moving, NULL, 0, up, NULL, &placement));
     OK(treeform_mate(moving, fixed, 1, NULL, &placement));
     CHECK(near(placement->travel, 4.0) && placement->relation == TREEFORM_RELATION_TOUCHING);
     treeform_free(placement);
-    treeform_place_options_init(&options, sizeof options);
+    treeform_placement_options_init(&options, sizeof options);
     options.clearance = 0.5;
     OK(treeform_separate(inside, fixed, 1, &options, &placement));
-    CHECK(placement->end == TREEFORM_END_MOVED_APART && placement->travel > 0.5);
+    CHECK(placement->outcome == TREEFORM_OUTCOME_MOVED_APART && placement->travel > 0.5);
     treeform_free(placement);
     OK(treeform_measure_among(inside, fixed, 1, NULL, &placement));
     CHECK(placement->relation == TREEFORM_RELATION_PENETRATING && placement->contact_count > 0);
@@ -132,7 +134,7 @@ static void test_turn(void) {
     fixed[0] = wall;
     OK(treeform_turn(moving, fixed, 1, origin, axis, NULL, &placement));
     CHECK(placement->angle > 10.0 && placement->angle < 90.0 && placement->steps > 0);
-    CHECK(placement->tolerance > 0.0 && placement->end == TREEFORM_END_CONTACT);
+    CHECK(placement->tolerance > 0.0 && placement->outcome == TREEFORM_OUTCOME_CONTACT);
     treeform_free(placement);
     INVALID("", treeform_turn(moving, fixed, 1, origin, none, NULL, &placement));
     treeform_free(moving);
@@ -149,7 +151,7 @@ static void test_motion(void) {
     treeform_impact_options_init(&options, sizeof options);
     options.limit = 1;
     OK(treeform_time_of_impact(a, b, along, &options, &impact));
-    CHECK(impact->end == TREEFORM_END_CONTACT && impact->time == 2.0 &&
+    CHECK(impact->outcome == TREEFORM_OUTCOME_CONTACT && impact->time == 2.0 &&
           impact->contact_listed == 1);
     CHECK(impact->contact_count > 1 && impact->contacts[0].point[0] == 5.0);
     treeform_free(impact);
@@ -161,7 +163,7 @@ static void test_motion(void) {
     CHECK(near(impact->time, 0.5));
     treeform_free(impact);
     OK(treeform_time_of_impact(a, b, away, NULL, &impact));
-    CHECK(impact->end == TREEFORM_END_NOTHING_MET);
+    CHECK(impact->outcome == TREEFORM_OUTCOME_NOTHING_MET);
     treeform_free(impact);
     OK(treeform_time_to_distance(a, b, along, 1.0, NULL, &impact));
     CHECK(near(impact->time, 1.5));
@@ -248,7 +250,7 @@ static void test_align(void) {
     treeform_align_options_init(&options, sizeof options);
     options.start = shift;
     OK(treeform_align(moving, fixed, &options, &result));
-    CHECK(result->rms < 1e-6 && result->rms_at_start > 1e-4 && result->end == 0);
+    CHECK(result->rms < 1e-6 && result->rms_at_start > 1e-4 && result->outcome == 0);
     CHECK(result->uncertainty < 1e-6);
     CHECK(result->freedom_count == 6 && result->freedoms[0].stiffness < 0.02);
     CHECK(result->point_count == arrays.point_count && near(result->scale, 1.0));

@@ -219,7 +219,7 @@ static void test_repair(void) {
     options.as_one = 1;
     OK(treeform_repair_file(file, &options, &result));
     CHECK(result->mesh.face_count == 1280 && result->statistics->hole_edges == 9);
-    OK(treeform_file_look(result->file, &view));
+    OK(treeform_file_content(result->file, &view));
     CHECK(view->mesh.points == result->mesh.points);
     treeform_free(view);
     treeform_free(result);
@@ -239,7 +239,7 @@ static void test_repair(void) {
     mesh = two_cubes();
     OK(treeform_repair(mesh, NULL, &result));
     CHECK(result->mesh.face_count == 12 && result->statistics->removed == 4);
-    CHECK(result->is_left[10] == 0 && result->is_left[22] == 1);
+    CHECK(result->is_kept[10] == 0 && result->is_kept[22] == 1);
     treeform_free(result);
     treeform_repair_options_init(&options, sizeof options);
     options.keep_cuts = 1;

@@ -46,7 +46,7 @@ static void test_weld_files(void) {
     CHECK(is(result->format, "ply-ascii") && result->tolerance == 0.5 && result->tiles > 1);
     treeform_free(result);
     OK(treeform_read(output, NULL, &made));
-    OK(treeform_file_look(made, &view));
+    OK(treeform_file_content(made, &view));
     CHECK(view->mesh.point_count == 100);
     treeform_free(view);
     OK(treeform_memory_to_weld(made, 1000, &bytes));
@@ -80,7 +80,7 @@ static void test_weld_files(void) {
         OK(treeform_weld_stream(inputs, 1, output, &options, &result));
         treeform_free(result);
         OK(treeform_read(output, NULL, &made));
-        OK(treeform_file_look(made, &view));
+        OK(treeform_file_content(made, &view));
         CHECK(view->mesh.point_count == 100 && view->mesh.points[99 * 3 + 2] == 9.0);
         treeform_free(view);
         treeform_free(made);
@@ -235,7 +235,7 @@ static void test_blocks(void) {
         OK(treeform_point_reader_next(reader, 300, &block));
         if (!block) break;
         OK(treeform_point_writer_write(writer, block));
-        OK(treeform_file_look(block, &view));
+        OK(treeform_file_content(block, &view));
         points += view->mesh.point_count;
         ++blocks;
         treeform_free(view);

@@ -65,7 +65,7 @@ static void test_mesh(void) {
     options.keep = TREEFORM_KEEP_MEAN;
     OK(treeform_weld(mesh, &options, &result));
     CHECK(result->mesh.point_count == 4 && result->mesh.face_count == 2);
-    CHECK(near(result->mesh.points[7], 1.0005) && result->face_of_new[1] == 1);
+    CHECK(near(result->mesh.points[7], 1.0005) && result->face_source[1] == 1);
     treeform_free(result);
     options.keep = 5;
     INVALID("keep is 5", treeform_weld(mesh, &options, &result));
@@ -90,11 +90,11 @@ static void test_file(void) {
     options.same = &same;
     options.same_count = 1;
     OK(treeform_weld_file(file, &options, &result));
-    CHECK(result->mesh.point_count == 3 && result->point_of_group[1] == 1);
+    CHECK(result->mesh.point_count == 3 && result->vertex_source[1] == 1);
     OK(treeform_count_mergeable(result->file, &options, TREEFORM_FLOAT32, &count, &known));
     CHECK(known == 1 && count == 0);
     OK(treeform_withhold(file, result));
-    OK(treeform_file_look(file, &view));
+    OK(treeform_file_content(file, &view));
     last = view->elements[0].columns + view->elements[0].column_count - 1;
     CHECK(is(last->name, "withheld") && last->value_count == 4);
     CHECK(((const uint8_t*)last->values)[2] == 0 && ((const uint8_t*)last->values)[3] == 1);

@@ -56,7 +56,7 @@ page                   small   {f} --touching --html page.html --png p.png --png
 touching               all     {f} --touching --pairs pairs.csv --curves curves.ply -o marked.glb
 vertices=file          all     {f} --vertices file --pairs pairs.csv
 vertices=equal         all     {f} --vertices equal --pairs pairs.csv
-no-overlap             small   {f} --no-overlap --pairs pairs.csv --curves curves.obj
+no-overlap             small   {f} --no-coplanar --pairs pairs.csv --curves curves.obj
 between                small   {f} --between --touching --pairs pairs.csv -o marked.ply
 within                 small   {f} --within --touching --pairs pairs.csv -o marked.ply
 tolerance=0.01%        all     {f} -t 0.01% --pairs pairs.csv

@@ -393,14 +393,14 @@ class Moves(PlaceTest):
         self.put("moved.xyz", "".join(f"{x!r} {y!r} {z!r}\n" for x, y, z in moved))
         entry = self.entry("align", "moved.xyz", "--fixed", "fixed.obj", "--weights", "equal", "-n",
                            status=1)
-        self.assertEqual((entry["align"]["end"], entry["align"]["converged"]), ("doubtful", False))
+        self.assertEqual((entry["align"]["outcome"], entry["align"]["converged"]), ("doubtful", False))
         for options in ([], ["--trim", "0.26"], ["--overlap", "0.7", "--metric", "plane"],
                         ["--trim", "0.26", "--starts", "6"]):
             with self.subTest(options):
                 entry = self.entry("align", "moved.xyz", "--fixed", "fixed.obj", *options, "-n",
                                    status=0)
                 found = entry["align"]
-                self.assertEqual((found["end"], found["undetermined"], len(found["freedoms"])),
+                self.assertEqual((found["outcome"], found["undetermined"], len(found["freedoms"])),
                                  ("converged", 0, 6))
                 self.assertEqual(found["inliers"], len(bowl))
                 for row, wanted in zip(entry["matrix"], ((c, s, 0), (-s, c, 0), (0, 0, 1))):
@@ -408,7 +408,7 @@ class Moves(PlaceTest):
                         self.assertAlmostEqual(x, y, places=6)
         entry = self.entry("align", "moved.xyz", "--fixed", "fixed.obj", "--iterations", "1", "-n",
                            status=1)
-        self.assertEqual((entry["align"]["end"], entry["align"]["iterations"]),
+        self.assertEqual((entry["align"]["outcome"], entry["align"]["iterations"]),
                          ("out-of-iterations", 1))
 
     def test_fit_of_a_plane_on_a_plane_says_that_it_slides(self):

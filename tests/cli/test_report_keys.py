@@ -175,7 +175,7 @@ class Reports(PlaceTest):
         for arguments, status in [
                 (["two.obj", "--units", "mm"], 1),
                 (["two.stl", "-t", "0.01%", "--touching", "--limit", "2"], 1),
-                (["nan.obj", "-o", "marked.ply", "--precision", "float", "--no-overlap"], 1),
+                (["nan.obj", "-o", "marked.ply", "--precision", "float", "--no-coplanar"], 1),
                 (["two.obj", "--first"], 1),
                 (["two.stl", "--tile-faces", "10"], 1),
                 (["two.obj", "--between", "--box", "0,0,0,1,1,1"], (0, 1)),

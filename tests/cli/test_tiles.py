@@ -108,7 +108,7 @@ class Tiles(ToolTest):
 
     def test_tiles_of_any_size_tell_what_memory_tells(self):
         for name in self.put_all(heap(60)):
-            for more in ([], ["--touching"], ["--no-overlap", "--vertices", "equal"],
+            for more in ([], ["--touching"], ["--no-coplanar", "--vertices", "equal"],
                          ["--box", "1,1,1,4,5,6.5"]):
                 memory = self.look(name, *more)
                 self.assertGreater(memory[0]["faces_hit"], 10)

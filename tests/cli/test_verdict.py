@@ -51,9 +51,9 @@ class Verdict(ToolTest):
         for mesh in (OVERLAP, FOLD, DUPLICATE):
             part = self.model(mesh)
             self.run_tool(part, status=1)
-            self.run_tool(part, "--no-overlap", status=0)
-        self.run_tool(self.model(CROSSING), "--no-overlap", status=1)
-        self.assertIsNone(self.counts(self.model(FOLD), "--no-overlap")["fold"])
+            self.run_tool(part, "--no-coplanar", status=0)
+        self.run_tool(self.model(CROSSING), "--no-coplanar", status=1)
+        self.assertIsNone(self.counts(self.model(FOLD), "--no-coplanar")["fold"])
 
     def test_between_and_within_split_the_pairs(self):
         mesh = together(PIERCE, ([(2, 0.5, -1), (2, 0.5, 1), (3, 0.5, 1)], [(0, 1, 2)]))

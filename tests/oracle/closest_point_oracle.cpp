@@ -1,5 +1,5 @@
 /// \file
-/// `tf::closest_point` and `tf::closest_points` against exact rational geometry: the stated error
+/// `tf::closest_point` and `tf::closest_pair` against exact rational geometry: the stated error
 /// bound, on slivers, needles, degenerate triangles, far and mixed coordinates.
 
 #include <libmesh/geometry/closest_point.hpp>
@@ -123,7 +123,7 @@ TEST_CASE("closest points: the distance of two triangles is within its bound, an
                     size = std::max(
                         {size, length(a[j], b[k]), length(a[j], a[k]), length(b[j], b[k])});
             if (!(size > 1e-140 && size < 1e150)) continue;
-            const auto found = tf::closest_points(a, b);
+            const auto found = tf::closest_pair(a, b);
             const bool meet = tf::intersect(a, b).count != 0;
             REQUIRE((found.squared_distance == 0.0) == meet);
             if (meet) {

@@ -4,7 +4,7 @@
 
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/base/nearest_float.hpp>
-#include <libmesh/nearness/closest_points.hpp>
+#include <libmesh/nearness/closest_pair.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -85,8 +85,8 @@ TEST_CASE("models: what is dropped on another stops outside of it, and not an ul
             const auto found = tf::slide(
                 moving, fixed, down,
                 {.precision = to_single ? tf::precision::float32 : tf::precision::float64});
-            if (found.end == tf::placement_end::nothing_met) continue;
-            REQUIRE(found.end == tf::placement_end::contact);
+            if (found.outcome == tf::placement_outcome::nothing_met) continue;
+            REQUIRE(found.outcome == tf::placement_outcome::contact);
             const tf::mesh there{found.points, a.faces};
             CHECK(there.points == dropped(a, found.travel, to_single).points);
             const auto now = tf::relation(tf::prepared_mesh::borrow(there), fixed).relation;
@@ -158,8 +158,8 @@ TEST_CASE("models: fifty parts on a plate keep their distance, and those left ou
         for (const tf::mesh& part : placed) trees.push_back(tf::build_face_tree(part));
         for (std::size_t i = 0; i < placed.size(); ++i)
             for (std::size_t j = i + 1; j < placed.size(); ++j) {
-                const auto gap = tf::detail::nearness::closest_points(placed[i], trees[i],
-                                                                      placed[j], trees[j], 2.5);
+                const auto gap = tf::detail::nearness::closest_pair(placed[i], trees[i], placed[j],
+                                                                    trees[j], 2.5);
                 if (gap) CHECK(gap->distance >= 2.0);
             }
         MESSAGE(placed.size() << " of 50 parts on a plate of " << side);

@@ -71,9 +71,9 @@ TEST_CASE("truth: every distance of every pair of files is that of the exact ker
         exactly += found->surface_distance == truth;
         CHECK(std::abs(between(found->on_a.point, found->on_b.point) - truth) <= 0x1p-47 * scale);
         // The pair that the exact kernel names is no nearer.
-        const auto named = tf::closest_points(
-            triangle_of(a, static_cast<std::size_t>(row.number("closest_tri_a"))),
-            triangle_of(b, static_cast<std::size_t>(row.number("closest_tri_b"))));
+        const auto named =
+            tf::closest_pair(triangle_of(a, static_cast<std::size_t>(row.number("closest_tri_a"))),
+                             triangle_of(b, static_cast<std::size_t>(row.number("closest_tri_b"))));
         CHECK(std::sqrt(named.squared_distance) >= found->surface_distance - 0x1p-47 * scale);
 
         if (row.number("degenerate_a") == 0 && row.number("degenerate_b") == 0) {

@@ -18,34 +18,34 @@ FOUND = tf.self_intersections(SPHERES)
 ONE, TWO = {"mesh": CUBE}, {"a": CUBE, "b": FAR}
 AT = {"mesh": CUBE, "points": POINTS}
 RAYS = {"mesh": CUBE, "origins": POINTS, "directions": POINTS}
-ONTO = {"moving": FAR, "onto": CUBE}
+PLACED = {"moving": FAR, "fixed": CUBE}
 
 #: Arguments that each function takes; those without here take no data, or are tested elsewhere.
 TAKES = {
-    "align": ONTO, "boolean": {"expression": "a", "a": CUBE},
+    "align": PLACED, "boolean": {"expression": "a", "a": CUBE},
     "check_poses": {"parts": [CUBE, FAR], "poses": np.tile(np.eye(4), (3, 2, 1, 1))},
-    "check_operand": ONE, "clash": {"parts": [CUBE, FAR]}, "closest_point": AT, "closest_points": TWO,
+    "check_operand": ONE, "clash": {"parts": [CUBE, FAR]}, "closest_point": AT, "closest_pair": TWO,
     "clip": {"sheet": CUBE}, "contains": AT, "convex_hull": {"points": POINTS},
     "components": ONE, "concatenate": {"meshes": [CUBE]}, "cut": {**ONE, "at": [0.5, 0.5, 0.5]},
     "cut_to_fit": {"mesh": CUBE, "size": [1, 1, 0.5]}, "mass_properties": ONE,
     "submesh": {"mesh": CUBE, "faces": [0]},
     "transformed": {"mesh": CUBE, "matrix": np.eye(4)}, "count_inside_out": ONE,
     "count_nearly_equal": {"points": POINTS, "distance": 0.1}, "count_topology": ONE,
-    "deviation": TWO, "distance": TWO, "drop": ONTO, "face_components": ONE,
+    "deviation": TWO, "distance": TWO, "drop": PLACED, "face_components": ONE,
     "faces_in_box": {"mesh": CUBE, "min": [0, 0, 0], "max": [1, 1, 1]}, "find_invalid_faces": ONE,
     "find_features": ONE, "find_rounding_defects": {"mesh": CUBE, "placed": CUBE.vertices},
     "find_solid_defects": ONE, "intersection_curves": {"mesh": SPHERES, "found": FOUND},
     "intersection_regions": {"mesh": SPHERES, "found": FOUND}, "intersects": TWO,
     "join_equal_points": ONE, "lay_flat": ONE,
-    "layer_heights": {"mesh": CUBE, "thickness": 0.5}, "section": ONE, "locate": AT, "mate": ONTO,
-    "mate_features": {**ONTO, "of_moving": PLANE, "of_fixed": PLANE}, "measure": TWO,
+    "layer_heights": {"mesh": CUBE, "thickness": 0.5}, "section": ONE, "locate": AT, "mate": PLACED,
+    "mate_features": {**PLACED, "of_moving": PLANE, "of_fixed": PLANE}, "measure": TWO,
     "mesh_intersections": TWO, "pack": {"parts": [CUBE], "size": [5, 5]},
     "penetration_depth": {"a": CUBE, "b": NEAR}, "raycast": RAYS, "raycast_all": RAYS,
     "raycast_any": RAYS, "read": {"path": "data/cube.stl"}, "repair": ONE,
     "resolve_self_intersections": ONE, "rounded": {"points": POINTS}, "self_intersections": ONE,
     "self_intersections_of_file": {"path": "data/two_spheres.stl"},
     "separate": {"moving": NEAR, "fixed": CUBE}, "signed_distance": AT,
-    "slide": {**ONTO, "direction": [0, 0, -1]}, "time_of_impact": {**TWO, "motion": [0, 0, -1]},
+    "slide": {**PLACED, "direction": [0, 0, -1]}, "time_of_impact": {**TWO, "motion": [0, 0, -1]},
     "turn": {"moving": FAR, "fixed": CUBE, "axis": [0, 0, 1]}, "weld": {"mesh_or_points": CUBE},
     "winding_number": AT, "wrap": {"mesh": CUBE, "size": 0.5},
     "cut_along": {"mesh": CUBE, "values": CUBE.vertices[:, 2], "levels": [0.5]},
@@ -73,7 +73,7 @@ BAD = {
     "str": [3, None, ["a"]], "bool": ["x", np.zeros(3)],
     "several": [3, 1.5],
     "found": ["x", 3, None], "feature": ["x", 3, None]}
-KINDS = {"mesh": "mesh", "moving": "mesh", "onto": "mesh", "fixed": "mesh", "a": "mesh",
+KINDS = {"mesh": "mesh", "moving": "mesh", "fixed": "mesh", "a": "mesh",
          "b": "mesh",
          "sheet": "mesh", "mesh_or_points": "mesh", "points": "points", "origins": "points",
          "directions": "points", "placed": "points", "min": "vector", "max": "vector",
@@ -84,7 +84,7 @@ KINDS = {"mesh": "mesh", "moving": "mesh", "onto": "mesh", "fixed": "mesh", "a":
          "ignored": "several", "kinds": "several", "steps": "several", "ignored_seams": "several",
          "same": "several", "communicator": "several", "found": "found", "of_moving": "feature",
          "of_fixed": "feature"}
-NOTHING = {"onto", "fixed"}  # may be None
+NOTHING = {"fixed"}  # may be None
 
 
 def test_every_function_is_here():

@@ -71,7 +71,7 @@ MOVED = (CUBE.vertices + 0.5, CUBE.faces)
     lambda: tf.pack([CUBE], [9, 9]), lambda: tf.drop(CUBE), lambda: tf.find_features(CUBE),
     lambda: tf.self_intersections(tf.read("data/two_spheres.stl")),
     lambda: tf.face_components(CUBE), lambda: tf.find_invalid_faces(CUBE),
-    lambda: tf.faces_in_box(CUBE, [0] * 3, [1] * 3), lambda: tf.closest_points(CUBE, MOVED),
+    lambda: tf.faces_in_box(CUBE, [0] * 3, [1] * 3), lambda: tf.closest_pair(CUBE, MOVED),
     lambda: tf.penetration_depth(CUBE, MOVED), lambda: tf.time_of_impact(CUBE, MOVED, [1, 0, 0]),
     lambda: tf.check_poses([CUBE, MOVED], np.eye(4)[None]), lambda: CUBE.bounds,
     lambda: tf.intersects(CUBE, CUBE, move_b=np.eye(4)[None]),

@@ -17,10 +17,10 @@ def test_two_bodies():
     away = moved(CUBE, 3, 0, 0)
     assert tf.distance(CUBE, away) == 2 and not tf.intersects(CUBE, away)
     assert tf.distance(CUBE, away, radius=1) == np.inf
-    near = tf.closest_points(CUBE, away)
+    near = tf.closest_pair(CUBE, away)
     assert near.distance == 2 and near.on_a[0] == 1 and near.on_b[0] == 3
-    assert tf.closest_points(CUBE, away, radius=1) is None
-    assert tf.closest_points(CUBE, ([], [])) is None
+    assert tf.closest_pair(CUBE, away, radius=1) is None
+    assert tf.closest_pair(CUBE, ([], [])) is None
     how = tf.measure(CUBE, box([0.25] * 3, [0.75] * 3))
     assert how.relation == "penetrating" and how.b_inside_a and how.distance == 0
     assert how.surface_distance == 0.25
@@ -36,9 +36,9 @@ def test_two_bodies():
 
 def test_the_first_contact_is_exact():
     met = tf.time_of_impact(CUBE, moved(CUBE, 3, 0, 0), [2, 0, 0])
-    assert met.end == "contact" and met.time == 1 and len(met.faces) == len(met.points) > 0
-    assert tf.time_of_impact(CUBE, moved(CUBE, 3, 0, 0), [-1, 0, 0]).end == "nothing_met"
-    assert tf.time_of_impact(CUBE, moved(CUBE, 1, 0, 0), [1, 0, 0]).end == "starts_touching"
+    assert met.outcome == "contact" and met.time == 1 and len(met.faces) == len(met.points) > 0
+    assert tf.time_of_impact(CUBE, moved(CUBE, 3, 0, 0), [-1, 0, 0]).outcome == "nothing_met"
+    assert tf.time_of_impact(CUBE, moved(CUBE, 1, 0, 0), [1, 0, 0]).outcome == "starts_touching"
 
 
 def test_many_positions_are_as_one_by_one():

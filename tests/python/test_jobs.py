@@ -88,7 +88,7 @@ def test_a_bar_of_tqdm_will_do():
 
 
 @pytest.mark.parametrize("verb", [
-    lambda p: tf.closest_points(CUBE, SPHERES, progress=p),
+    lambda p: tf.closest_pair(CUBE, SPHERES, progress=p),
     lambda p: tf.find_features(CUBE, progress=p), lambda p: tf.find_invalid_faces(CUBE, progress=p),
     lambda p: tf.count_topology(CUBE, progress=p), lambda p: tf.face_components(CUBE, progress=p),
     lambda p: tf.count_inside_out(CUBE, progress=p),

@@ -31,7 +31,7 @@ def test_coordinates_are_those_of_the_tool(tmp_path):
 def test_slide():
     ball = moved(sphere(3), 0.5, 0.5, 9)
     made = tf.slide(ball, CUBE, [0, 0, -5])
-    assert made and made.end == "contact" and made.relation == "touching"
+    assert made and made.outcome == "contact" and made.relation == "touching"
     assert made.direction.tolist() == [0, 0, -1] and made.travel == pytest.approx(7)
     assert tf.measure(made, CUBE).relation == "touching"
     assert np.allclose(made.vertices, ball.vertices + made.matrix[:3, 3])
@@ -40,7 +40,7 @@ def test_slide():
     gap = tf.slide(ball, CUBE, [0, 0, -1], 0.25)
     assert gap.relation == "clear" and tf.distance(gap, CUBE) == pytest.approx(0.25)
     none = tf.slide(ball, CUBE, [0, 0, 1])
-    assert not none and none.end == "nothing_met" and none.message
+    assert not none and none.outcome == "nothing_met" and none.message
     assert np.array_equal(none.vertices, ball.vertices)
     nearest_of = tf.slide(ball, [box([0, 0, 3], [1, 1, 4]), CUBE], [0, 0, -1])
     assert nearest_of.travel == pytest.approx(4) and nearest_of.nearest_fixed == 0
@@ -50,7 +50,7 @@ def test_slide():
 
 def test_drop():
     low = tf.drop(moved(SPHERES, 0, 0, 7))
-    assert low.end == "bed" and low.mesh.bounds[0, 2] == 0
+    assert low.outcome == "bed" and low.mesh.bounds[0, 2] == 0
     single = tf.drop(moved(SPHERES, 0, 0, 7), bed=0.1, precision="float32")
     assert single.mesh.bounds[0, 2] == np.nextafter(np.float32(0.1), np.float32(1)) or \
         single.mesh.bounds[0, 2] == np.float32(0.1)
@@ -70,13 +70,13 @@ def test_mate_separate_turn():
     assert tf.mate(other, CUBE, clearance=0.5).relation == "clear"
     inside = moved(CUBE, 0.9, 0.1, 0)
     apart = tf.separate(inside, CUBE)
-    assert apart.end == "moved_apart" and apart.travel == pytest.approx(0.1)
+    assert apart.outcome == "moved_apart" and apart.travel == pytest.approx(0.1)
     assert tf.measure(apart, CUBE).relation != "penetrating"
     door = tf.turn(box([0, 0, 0], [4, 0.25, 1]), box([-5, 2, 0], [5, 3, 1]), [0, 0, 1])
     assert door and 20 < door.angle < 40 and door.relation in ("separate", "touching")
     assert tf.distance(door, box([-5, 2, 0], [5, 3, 1])) <= 2 * door.tolerance
     free = tf.turn(CUBE, moved(CUBE, 9, 9, 9), [0, 0, 1])
-    assert not free and free.end == "nothing_met"
+    assert not free and free.outcome == "nothing_met"
 
 
 def test_features():
@@ -132,7 +132,7 @@ def test_align():
     assert twice and twice.scale == pytest.approx(0.5, rel=1e-3)
     assert tf.align(2 * scan, ball.vertices, scale=(0.4, 0.6)).scale == twice.scale
     at_bound = tf.align(2 * scan, ball.vertices, scale=(0.7, 3))
-    assert not at_bound and at_bound.scale == 0.7 and at_bound.end == "doubtful"
+    assert not at_bound and at_bound.scale == 0.7 and at_bound.outcome == "doubtful"
     for bad in (2.0, "some", (1, 2, 3), (2, 1), (-1, 1)):
         with pytest.raises(ValueError, match="scale"):
             tf.align(scan, ball, scale=bad)
@@ -171,7 +171,7 @@ def test_queries_of_two_meshes_take_clouds_too():
         lower = np.eye(4)
         lower[2, 3] = -1
         assert tf.intersects(CUBE, cloud, move_b=[np.eye(4), lower]).tolist() == [False, True]
-        near = tf.closest_points(CUBE, cloud)
+        near = tf.closest_pair(CUBE, cloud)
         assert near.face_b == 1 and near.on_a.tolist() == [0.5, 0.5, 1]
         assert tf.closest_point(cloud, [[0.5, 0.5, 0]]).distance.tolist() == [2]
         assert tf.penetration_depth(cloud, CUBE) is None

@@ -37,9 +37,9 @@ def test_a_dirty_mesh_becomes_a_solid():
     assert tf.find_solid_defects(dirty)
     mended = tf.repair(dirty)
     assert not tf.find_solid_defects(mended.mesh)
-    assert mended.steps["holes"] == 2 and mended.steps["strays"] == 1
+    assert mended.statistics["holes"] == 2 and mended.statistics["strays"] == 1
     filled = mended.face_source == tf.NONE
-    assert filled.sum() == mended.steps["filled"]
+    assert filled.sum() == mended.statistics["filled"]
 
 
 def test_a_solid_comes_back_bit_for_bit():
@@ -51,9 +51,9 @@ def test_coplanar_faces_that_were_cut_are_merged_unless_values_part_them():
                    np.vstack([CUBE.faces, CUBE.faces + 8]))
     merged, as_cut = tf.repair(both), tf.repair(both, keep_cuts=True)
     assert len(merged.mesh.faces) == 12 < len(as_cut.mesh.faces)
-    assert merged.is_left.dtype == bool and merged.is_left.sum() == 20
-    assert np.array_equal(merged.is_left, as_cut.is_left)
-    assert set(as_cut.face_source) == set(np.flatnonzero(merged.is_left))
+    assert merged.is_kept.dtype == bool and merged.is_kept.sum() == 20
+    assert np.array_equal(merged.is_kept, as_cut.is_kept)
+    assert set(as_cut.face_source) == set(np.flatnonzero(merged.is_kept))
     outer = tf.resolve_self_intersections
     assert len(outer(both).mesh.faces) == 12
     assert len(outer(both, keep_cuts=True).mesh.faces) == len(as_cut.mesh.faces)
@@ -175,7 +175,7 @@ def test_what_is_not_finite_or_no_face_is_a_defect():
 
 def test_help_has_the_keys_of_steps_and_what_is_raised():
     made = tf.repair(tf.read("data/dirty.stl"))
-    for key in made.steps:
+    for key in made.statistics:
         assert f"'{key}'" in tf.RepairResult.__doc__
     assert "Mesh.volume" in tf.RepairResult.__doc__
     for key in tf.weld(CUBE).statistics:

@@ -214,7 +214,7 @@ def test_deviation():
     assert found.mean == pytest.approx(found.distances.mean())
     assert found.max == np.abs(found.distances).max() == np.abs(found.distances)[found.worst]
     both = tf.deviation(CUBE, moved(CUBE, 0, 0, 0.5))
-    assert both.max == both.back_max == 0.5
+    assert both.max == both.reverse_max == 0.5
     assert not tf.deviation(points, SHEET).is_signed
     assert tf.deviation(points, SHEET).side_counts is None
     where = tf.locate(CUBE, points)

@@ -99,7 +99,7 @@ def test_measures_are_those_of_the_tool(folder, moving, fixed):
     made = tf.measure(a, b)
     assert (made.relation, made.distance, made.surface_distance) == (
         report["status"], report["distance"], report["surface_distance"])
-    assert tf.distance(a, b) == tf.closest_points(a, b).distance == made.surface_distance
+    assert tf.distance(a, b) == tf.closest_pair(a, b).distance == made.surface_distance
     for mine, face, theirs in ((made.on_a, made.face_a, report["closest"]["moving"]),
                                (made.on_b, made.face_b, report["closest"]["fixed"])):
         assert (mine.tolist(), face) == (theirs["point"], theirs["face"])
@@ -112,7 +112,7 @@ def test_measures_are_those_of_the_tool(folder, moving, fixed):
         assert getattr(own, name) == theirs[name], name
     hausdorff, band = theirs["hausdorff"], theirs["tolerance_band"]
     assert hausdorff == {"forward": {"sampled": own.max, "bound": own.max_bound},
-                         "backward": {"sampled": own.back_max, "bound": own.back_max_bound}}
+                         "backward": {"sampled": own.reverse_max, "bound": own.reverse_max_bound}}
     assert own.band_counts == (band["below"], band["within"], band["above"])
     assert own.histogram.tolist() == theirs["histogram"]["counts"]
     written = tf.read(folder / "distances.ply").attributes.vertex

@@ -45,7 +45,7 @@ def test_a_cloud_is_welded_as_defined(seed, count, tolerance):
     kept, index = first_rule(points, tolerance)
     assert np.array_equal(made.points, points[kept].reshape(-1, 3))
     assert np.array_equal(made.index, index)
-    assert np.array_equal(made.source, kept)
+    assert np.array_equal(made.vertex_source, kept)
     assert len(tf.weld(made.points, tolerance).points) == len(kept)
 
 
@@ -64,12 +64,12 @@ def test_meshes_and_their_attributes():
     extra = tf.Attributes()
     extra.set_vertex("quality", np.arange(36.0))
     made = tf.weld(tf.Mesh(repeated.vertices, repeated.faces, extra), 0.0)
-    assert np.array_equal(made.mesh.attributes.vertex["quality"], made.source)
+    assert np.array_equal(made.mesh.attributes.vertex["quality"], made.vertex_source)
     apart = tf.weld(tf.Mesh(repeated.vertices, repeated.faces, extra), 0.0, same={"quality": 0.5})
     assert len(apart.vertices) == 36
     kept = tf.weld(tf.Mesh(repeated.vertices, repeated.faces, extra), 0.0, keep="highest",
                    keep_by="quality")
-    assert (kept.mesh.attributes.vertex["quality"] > made.source).any()
+    assert (kept.mesh.attributes.vertex["quality"] > made.vertex_source).any()
 
 
 def test_labels_and_other_options():

@@ -5,7 +5,7 @@
 
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
-#include <libmesh/nearness/closest_points.hpp>
+#include <libmesh/nearness/closest_pair.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -36,7 +36,7 @@ double by_all_pairs(const tf::mesh& a, const tf::mesh& b) {
     for (const tf::face& f : a.faces)
         for (const tf::face& g : b.faces)
             least = std::min(
-                least, tf::closest_points(triangle_of(a, f), triangle_of(b, g)).squared_distance);
+                least, tf::closest_pair(triangle_of(a, f), triangle_of(b, g)).squared_distance);
     return std::sqrt(least);
 }
 
@@ -83,9 +83,9 @@ TEST_CASE("no pose has another distance than all pairs of faces give") {
         meeting += truth == 0.0;
         const double most = 1e-14;  // 16 u times the largest distance of corners
         const auto by_trees =
-            tf::detail::nearness::closest_points(a, tree_a, b, tf::transformed<3>(tree_b, pose));
-        const auto by_models = tf::closest_points(model_a, model_b, {.move_b = pose});
-        const auto other_way = tf::closest_points(model_b, model_a, {.move_a = pose});
+            tf::detail::nearness::closest_pair(a, tree_a, b, tf::transformed<3>(tree_b, pose));
+        const auto by_models = tf::closest_pair(model_a, model_b, {.move_b = pose});
+        const auto other_way = tf::closest_pair(model_b, model_a, {.move_a = pose});
         const auto measured = tf::measure(a, moved);
         for (const double found : {by_trees->distance, by_models->distance, other_way->distance,
                                    measured->surface_distance}) {

@@ -38,7 +38,7 @@ void add(fit_counts& all, const test::fit_pair& pair) {
     CHECK((right || !found.converged));
     std::printf("%-32s %7zu %7zu  %7.3f%s %s\n", pair.name.c_str(), pair.moving.size(),
                 pair.fixed.faces.empty() ? pair.fixed.points.size() : pair.fixed.faces.size(),
-                error, right ? " " : "*", tf::name_of(found.end));
+                error, right ? " " : "*", tf::name_of(found.outcome));
 }
 
 }  // namespace

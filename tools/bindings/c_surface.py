@@ -8,7 +8,7 @@ from c_language import Bound, List, Member
 #: Names of enumerations in C, and the prefix of their constants; "": as in C++, after TREEFORM_.
 ENUMS = {
     "precision": ("treeform_precision", ""),
-    "vertex_identity": ("treeform_vertices", ""),
+    "vertex_identity": ("treeform_vertex_identity", ""),
     "status": ("treeform_status", "STATUS_"),
     "fill_rule": ("treeform_fill_rule", ""),
     "resolve_mode": ("treeform_resolve_mode", "RESOLVE_"),
@@ -17,10 +17,10 @@ ENUMS = {
     "mesh_relation": ("treeform_mesh_relation", "RELATION_"),
     "feature": ("treeform_triangle_feature", "AT_"),
     "feature_kind": ("treeform_feature_kind", ""),
-    "placement_end": ("treeform_placement_end", "END_"),
+    "placement_outcome": ("treeform_placement_outcome", "OUTCOME_"),
     "urdf_joint_kind": ("int32_t", ""),
     "align_method": ("treeform_align_method", {"automatic": "ALIGN_AUTOMATIC"}),
-    "align_end": ("treeform_align_end", {"converged": "ALIGN_CONVERGED",
+    "align_outcome": ("treeform_align_outcome", {"converged": "ALIGN_CONVERGED",
                                          "out_of_iterations": "ALIGN_OUT_OF_ITERATIONS",
                                          "doubtful": "ALIGN_DOUBTFUL",
                                          "nothing_to_align": "ALIGN_NOTHING"}),
@@ -173,7 +173,7 @@ BOUND = [
             Member("int32_t mergeable_known", "",
                    "to.mergeable_known = from.mergeable.has_value();")]}),
     # placement.h
-    Bound("placement_options", "place_options"),
+    Bound("placement_options"),
     Bound("placement_contact", "contact", "part", custom={"fixed": [
         Member("uint32_t fixed", "number of the fixed mesh",
                "to.fixed = static_cast<std::uint32_t>(from.fixed);")]}),
@@ -248,7 +248,7 @@ BOUND = [
     Bound("write_options", leave="keep_names round"),
     Bound("write_result", "written"),
     Bound("part_options"),
-    Bound("usable_mesh", "part", leave="distinct stored_face", custom={
+    Bound("usable_mesh", leave="distinct stored_face", custom={
         "+": [Member("const uint32_t* face_in_file",
                      "[F] number of each face in the file, counting polygons",
                      "to.face_in_file = faces_in_file(kept, from).data();")],

@@ -16,6 +16,7 @@ INCLUDE = ROOT / "tools/c/include/treeform/c"
 MADE = ROOT / "tools/c/made"
 #: Phrases of C++ docstrings, and those of C.
 IN_C = {"operand_element::none": "TREEFORM_NONE", "carry_sources": "treeform_carry",
+        "carry_sources::corner_groups": "treeform_corner_groups",
         "shared_search": "treeform_shared_search",
         "shared_weld": "treeform_shared_weld", "relation": "treeform_relate",
         "convex_hull_result::faces": "treeform_hull::faces", "part.mesh": "mesh",
@@ -69,6 +70,8 @@ class Writer:
             word, _, of = found.group(1).partition("::")
             if word in self.fields and not of:
                 return found.group(0)
+            if not of and f"treeform_{word}" in self.known:
+                return f"`treeform_{word}`"
             if not of and word not in (*_OTHERS, *self.near) and self.constant_of(word):
                 return f"`{self.constant_of(word)}`"
             if word in self.enums and not of and self.enums[word][0].startswith("treeform_"):

@@ -32,7 +32,7 @@ WORDS = {"columns as in `las_header`": "columns are the fields of its records",
          "pass prepared meshes": "pass a `Mesh`", "once for a prepared mesh": "once for a `Mesh`",
          "; none if one has no faces": "; None if one has no faces",
          "returns none": "returns None", "so none means": "so None means",
-         "`penetration_depth_result`": "`Depth`", "`repair_statistics`": "`RepairResult.steps`",
+         "`penetration_depth_result`": "`Depth`", "`repair_statistics`": "`RepairResult.statistics`",
          "those of `repair_options`": "those of `steps`",
          "For `self_intersections`: which": "Which",
          "Check the certificate: its status says whether this was possible, and it lists where it "
@@ -41,7 +41,7 @@ WORDS = {"columns as in `las_header`": "columns are the fields of its records",
          "Check the certificate: its status says whether this was possible.":
              "If this is not possible, an error is raised; with `check=False`, the certificate of "
              "the result says why.",
-         "counted in `statistics`": "counted in `RepairResult.steps`",
+         "counted in `statistics`": "counted in `RepairResult.statistics`",
          "first in `sides`": "first in `LaidFlat.areas`", "first `overhang_sides` sides":
              "32 largest sides",
          "line \"unit ...\" of `obj_info`": "line \"obj_info unit ...\" of a PLY file",
@@ -166,13 +166,13 @@ RESULTS = [
     Result("isolines_result", "Isolines", "_shapes"),
     # _repair
     Result("repair_result", "RepairResult", "_repair", "MadeMesh", context="attributes",
-           doc="A repaired mesh.", inherited="mesh certificate", names={"statistics": "steps"},
-           docs={"steps": "Counts of each step's changes. The volume of the input is its `Mesh.volume`."},
-           custom={"is_left": [Attribute(
-               "is_left", "NDArray[np.bool_]", "(faces of the input,) whether a part of each face "
+           doc="A repaired mesh.", inherited="mesh certificate",
+           docs={"statistics": "Counts of each step's changes. The volume of the input is its `Mesh.volume`."},
+           custom={"is_kept": [Attribute(
+               "is_kept", "NDArray[np.bool_]", "(faces of the input,) whether a part of each face "
                                                "is left, "
                "also if it was merged with others.",
-               'as_python(std::move(from.is_left)).attr("view")("bool")')]}),
+               'as_python(std::move(from.is_kept)).attr("view")("bool")')]}),
     Result("convex_hull_result", "ConvexHull", "_repair", "MeshResult", context="cloud",
            doc="The convex hull of points: triangles, grouped by flat sides.",
            docs={"faces": "(F, 3) triangles, by point numbers, outward."},
@@ -273,8 +273,7 @@ RESULTS = [
     # _weld
     Result("weld_result", "WeldResult", "_weld", "MeshResult", context="data",
            doc="A welded mesh or cloud.", leave="attributes",
-           names={"point_of_group": "source", "face_of_new": "face_source"},
-           docs={"source": "(m,) the input point whose properties each new point has.",
+           docs={"vertex_source": "(m,) the input point whose properties each new point has.",
                  "face_source": "(F,) the input face of each face; empty for a cloud.",
                  "statistics": "Counts of what welding changed."},
            custom={"groups": [Attribute("index", "Ids", "(n,) the new number of each point.",
@@ -314,7 +313,7 @@ RESULTS = [
                    Attribute("histogram", "NDArray[np.uint64]", "(bins,) number of signed "
                              "distances in intervals of equal length from `lowest` to `highest`.",
                              "as_python(std::move(from.histogram))")]}),
-    Result("closest_points_result", "NearestPoints", "_assembly", "NamedTuple"),
+    Result("closest_pair_result", "ClosestPair", "_assembly", "NamedTuple"),
     Result("closest_point_result", "ClosestPoints", "_nearness", "NamedTuple",
            rows="std::optional<tf::{}>",
            doc="The nearest point of a mesh for each query, in the order of trimesh: "
@@ -356,7 +355,7 @@ RESULTS = [
            doc="The result of a placement. True if the mesh has a place; else `message` has the "
                "reason.",
            leave="clearance bed below_bed max_travel statistics",
-           docs={"end": "Why the placement ended where it did: 'contact', 'bed', 'unchanged', "
+           docs={"outcome": "Why the placement ended where it did: 'contact', 'bed', 'unchanged', "
                         "'moved_apart', "
                         "'nothing_met', 'too_far', 'starts_penetrating', 'starts_too_near', "
                         "'starts_touching', 'starts_below_bed', 'not_representable', "
@@ -375,7 +374,7 @@ RESULTS = [
     Result("impact", "Impact", "_placement", "NamedTuple",
            leave="contact_count pairs_tested predicates",
            doc="The first contact of a moving mesh with another.",
-           docs={"end": "'nothing_met', 'contact' or 'starts_touching'."},
+           docs={"outcome": "'nothing_met', 'contact' or 'starts_touching'."},
            custom={"contacts": [
                column("faces", "Ids", "(n, 2) the faces of `a` and `b` that touch at that time.",
                       "contacts", "std::array{one.face_a, one.face_b}"),
@@ -399,7 +398,7 @@ RESULTS = [
     Result("align_result", "Alignment", "_placement", "MeshResult", context="moving",
            leave="pivot pivot_moved freedoms", true="self.converged",
            doc="The motion that `align` found.",
-           docs={"end": "'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'.",
+           docs={"outcome": "'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'.",
                  "matrix": "(4, 4) new = M * old, with `start` included.",
                  "converged": "Whether `end` is 'converged'."},
            custom={"points": [Attribute("mesh", "Mesh", "The moved mesh; without faces for a "

@@ -82,9 +82,9 @@ def _of_others(own: str) -> str:
 
 
 def _placed(signature: str, call: str, own: str = "", **more: dict[str, str]) -> Function:
-    words = {"fixed": "onto"} if "onto" in signature else \
-        {"direction": "axis"} if "axis:" in signature else {}
-    return Function(f"{signature} -> Placement", call, "moving", leave=_of_others(own),
+    words = {"direction": "axis"} if "axis:" in signature else {}
+    return Function(f"{signature} -> Placement", call, "moving",
+                    leave=_of_others(own) + (" max_travel" if "axis:" in signature else ""),
                     words=words, **more)
 
 
@@ -509,28 +509,28 @@ FUNCTIONS = [
              "t_max: float = np.inf) -> AllRayHits",
              body="all_hits(mesh, origins, directions, t_min, t_max, progress)", docs=_RAYS),
     # _placement
-    _placed("slide(moving: Body, onto: Bodies, direction: Vector, options: "
-            "placement_options(clearance))", "tf::slide($moving, $onto, $direction, options)",
-            "bed", docs={"onto": _FIXED,
+    _placed("slide(moving: Body, fixed: Bodies, direction: Vector, options: "
+            "placement_options(clearance))", "tf::slide($moving, $fixed, $direction, options)",
+            "bed", docs={"fixed": _FIXED,
                          "direction": "(3,) the direction of motion, of any length.",
                          "bed":
                          "z of a bed, which also stops the mesh: points resting on the bed have "
                          "exactly this z (for float32, the smallest value not below it), and no "
                          "point is below it."}),
-    _placed("drop(moving: Body, onto: Bodies = None, *, direction: Vector = (0, 0, -1), "
+    _placed("drop(moving: Body, fixed: Bodies = None, *, direction: Vector = (0, 0, -1), "
             "options: placement_options)",
-            "onto.empty() ? tf::drop($moving, options, $direction) : "
-            "tf::drop($moving, $onto, options, $direction)", "bed",
-            doc="Moves `moving` down until it rests on the bed or on one of `onto`. A mesh "
-                "below the bed moves up to it, against the direction; but with `onto`, it has no "
+            "fixed.empty() ? tf::drop($moving, options, $direction) : "
+            "tf::drop($moving, $fixed, options, $direction)", "bed",
+            doc="Moves `moving` down until it rests on the bed or on one of `fixed`. A mesh "
+                "below the bed moves up to it, against the direction; but with `fixed`, it has no "
                 "place.",
-            docs={"onto": _FIXED, "direction": "(3,) the downward direction, of any length.",
+            docs={"fixed": _FIXED, "direction": "(3,) the downward direction, of any length.",
                   "bed": "z of the bed. None: no bed if there are fixed bodies, otherwise a bed "
                          "at 0.",
                   "clearance": "as for `slide`.", "max_travel": "as for `slide`.",
                   "precision": "as for `slide`."}),
-    _placed("mate(moving: Body, onto: Bodies, options: placement_options)",
-            "tf::mate($moving, $onto, options)", docs={"onto": _FIXED}),
+    _placed("mate(moving: Body, fixed: Bodies, options: placement_options)",
+            "tf::mate($moving, $fixed, options)", docs={"fixed": _FIXED}),
     _placed("separate(moving: Body, fixed: Bodies, options: placement_options(clearance))",
             "tf::separate($moving, $fixed, options)", "effort", docs={
                 "fixed": _FIXED,
@@ -572,17 +572,17 @@ FUNCTIONS = [
     Function("lay_flat(mesh: Mesh, options: lay_flat_options) -> Optional[LaidFlat]",
              "tf::lay_flat(mesh.prepared(), options)", "mesh",
              missing="no flat side: fewer than three points, or all on a line"),
-    Function("align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False, "
+    Function("align(moving: Body, fixed: Body, *, scale: bool | tuple[float, float] = False, "
              "options: align_options) -> Alignment",
-             "tf::align(moving.prepared(), onto.prepared(), options)", "moving",
+             "tf::align(moving.prepared(), fixed.prepared(), options)", "moving",
              given="**scale_of(scale)", leave="scale least_scale most_scale",
              docs={"scale": "also find a uniform scale; a pair gives its lower and upper bound, "
                             "relative to the scale of `start`."}),
-    Function("mate_features(moving: Body, onto: Bodies, of_moving: Feature, of_fixed: Feature, "
+    Function("mate_features(moving: Body, fixed: Bodies, of_moving: Feature, of_fixed: Feature, "
              "options: placement_options) -> Placement",
-             "tf::mate_features($moving, $onto, of_moving, of_fixed, options)", "moving",
-             words={"fixed": "onto"}, leave=_of_others("flip"),
-             docs={"onto": _FIXED, "of_moving": "a plane or an axis found by `find_features`.",
+             "tf::mate_features($moving, $fixed, of_moving, of_fixed, options)", "moving",
+             leave=_of_others("flip"),
+             docs={"fixed": _FIXED, "of_moving": "a plane or an axis found by `find_features`.",
                    "of_fixed": "one of the same kind.",
                    "flip": "make the normals of the planes point in the same direction instead of"
                            " in opposite directions; for axes, reverse the direction."}),
@@ -598,9 +598,9 @@ FUNCTIONS = [
              "radius: float = np.inf) -> Floats", cpp="distance in distance", made="Any",
              also=_BODIES, docs=_POSES | {"radius": "larger distances are returned as infinite."},
              value="one_or_all({}, move_a, move_b)"),
-    Function("closest_points(a: Body, b: Body, *, move_a: Matrix = None, move_b: Matrix = None, "
-             "radius: float = np.inf) -> Optional[NearestPoints]",
-             "tf::closest_points(a.prepared(), b.prepared(), {$move_a, $move_b, radius})",
+    Function("closest_pair(a: Body, b: Body, *, move_a: Matrix = None, move_b: Matrix = None, "
+             "radius: float = np.inf) -> Optional[ClosestPair]",
+             "tf::closest_pair(a.prepared(), b.prepared(), {$move_a, $move_b, radius})",
              also=_BODIES,
              docs=_MOVES | {"radius": "return None if the meshes are farther apart than this."}),
     Function("clash_parts(parts: Parts, options: clash_options, ignored: Pairs) -> ClashResult",

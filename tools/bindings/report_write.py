@@ -48,7 +48,7 @@ OBJECTS = [
            "mean mean_absolute rms p50 p95 p99 max lowest highest", ("deviation",)),
     Object("freedom_entry", "align_freedom", "", ("align.freedoms[]",)),
     Object("fit_entry", "align_result",
-           "rms rms_at_start overlap inliers correlation uncertainty scale converged end "
+           "rms rms_at_start overlap inliers correlation uncertainty scale converged outcome "
            "iterations "
            "start pivot pivot_moved freedoms", ("align",)),
 ]

@@ -42,8 +42,9 @@ inline answer_of<treeform_bodies> bodies_of(const treeform_file* const* files,
 /// Replaces the body's points in its file by `points` [count][3], the points of a placement,
 /// transforms all other points of the file by `matrix` [12], and returns the file. The meshes of
 /// the bodies do not change.
-inline tf::mesh_file put_back(treeform_bodies* bodies, std::size_t body, const double* points,
-                              std::size_t count, const double* matrix, tf::precision written_as) {
+inline tf::mesh_file move_in_file(treeform_bodies* bodies, std::size_t body, const double* points,
+                                  std::size_t count, const double* matrix,
+                                  tf::precision written_as) {
     auto& set = kept_in<tf::body_set>(need(bodies, "bodies"), "bodies");
     if (body >= set.shapes.size())
         throw std::invalid_argument("body " + std::to_string(body) + " does not exist");
@@ -51,7 +52,8 @@ inline tf::mesh_file put_back(treeform_bodies* bodies, std::size_t body, const d
     if (count != wanted)
         throw std::invalid_argument(std::to_string(count) + " points for a body of " +
                                     std::to_string(wanted));
-    set.put_back(body, glue::points(points, count, "points"), finite_matrix(matrix), written_as);
+    set.move_in_file(body, glue::points(points, count, "points"), finite_matrix(matrix),
+                     written_as);
     return set.file_of(body).content;
 }
 

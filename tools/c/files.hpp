@@ -60,7 +60,7 @@ inline tf::mesh_file file_create(const treeform_mesh* mesh) {
 inline tf::mesh_file file_copy(const tf::mesh_file& file) { return file; }
 
 /// The content of a file, as arrays that the file owns.
-inline answer_of<treeform_file_view> file_look(const tf::mesh_file& file) {
+inline answer_of<treeform_file_view> file_content(const tf::mesh_file& file) {
     auto made = make<treeform_file_view>();
     fill(*made, file, made->value);
     return made;
@@ -136,7 +136,7 @@ inline void file_add_part(tf::mesh_file& file, const char* object, const char* g
 }
 
 /// Adds a line of text: a comment, a remark, or the name of a material or texture file, by `kind`.
-inline void file_add_text(tf::mesh_file& file, treeform_text kind, const std::string& text) {
+inline void file_add_text(tf::mesh_file& file, treeform_text_kind kind, const std::string& text) {
     tf::attributes& a = file.attributes;
     const std::array lists{&a.comments, &a.obj_info, &a.material_files, &a.texture_files};
     lists[choice<std::size_t>(kind, lists.size(), "kind")]->push_back(text);
@@ -159,8 +159,8 @@ inline void file_transform(tf::mesh_file& file, const double* matrix) {
 
 /// Transforms the normals of the file by a matrix. If it mirrors, outward normals stay outward, as
 /// for flipped faces.
-inline void file_turn_normals(tf::mesh_file& file, const double* matrix) {
-    file.turn_normals(finite_matrix(matrix));
+inline void file_transform_normals(tf::mesh_file& file, const double* matrix) {
+    file.transform_normals(finite_matrix(matrix));
 }
 
 // ---- writing ----
@@ -272,7 +272,7 @@ inline answer_of<treeform_scene_parts> split_parts(const tf::mesh_file& file) {
 // ---- robots ----
 
 /// The content of a robot, as arrays that the robot owns.
-inline answer_of<treeform_robot_view> robot_look(const tf::urdf_robot& robot) {
+inline answer_of<treeform_robot_view> robot_content(const tf::urdf_robot& robot) {
     auto made = make<treeform_robot_view>();
     fill(*made, robot, made->value);
     return made;

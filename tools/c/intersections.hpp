@@ -67,9 +67,9 @@ inline void write_curves(const std::filesystem::path& path, tf::mesh_view mesh,
 
 /// Colors the faces of `file` that meet, and gives faces the properties tf_class and tf_region.
 /// `part` is the part of this file that was searched, and `pairs` are pairs of faces of its mesh.
-inline void color_pairs(tf::mesh_file& file, const treeform_part* part,
+inline void color_pairs(tf::mesh_file& file, const treeform_usable_mesh* part,
                         const treeform_face_pair* pairs, std::size_t count) {
-    const treeform_part& p = need(part, "part");
+    const treeform_usable_mesh& p = need(part, "part");
     const std::size_t faces = p.mesh.face_count;
     tf::usable_mesh searched;
     searched.mesh.points = copied_as<tf::point3>(p.mesh.points, p.mesh.point_count, "points");

@@ -36,13 +36,13 @@ inline void closest_point(const treeform_mesh* mesh, const double* queries, std:
 
 /// The nearest points of the surfaces `a` and `b`, each moved by a matrix (null: not moved), at
 /// most `radius` apart.
-inline treeform_closest closest_points(const tf::mesh_ref& a, const tf::mesh_ref& b,
-                                       const tf::transform<3>& move_a,
-                                       const tf::transform<3>& move_b, double radius) {
+inline treeform_closest closest_pair(const tf::mesh_ref& a, const tf::mesh_ref& b,
+                                     const tf::transform<3>& move_a, const tf::transform<3>& move_b,
+                                     double radius) {
     return same<treeform_closest>(
-        tf::closest_points(a, b, {move_a, move_b, radius})
-            .value_or(tf::closest_points_result{TREEFORM_NONE, TREEFORM_NONE, infinity, nowhere,
-                                                nowhere}));
+        tf::closest_pair(a, b, {move_a, move_b, radius})
+            .value_or(
+                tf::closest_pair_result{TREEFORM_NONE, TREEFORM_NONE, infinity, nowhere, nowhere}));
 }
 
 /// The distance of the surfaces; infinite if one has no faces.

@@ -48,7 +48,7 @@ inline void withhold(tf::mesh_file& file, const treeform_weld_result* welded) {
     tf::file_weld_result from;
     from.groups.group_of_point = copied(w.group_of_point, w.point_count);
     from.groups.first_of_group = copied(w.first_of_group, w.group_count);
-    from.point_of_group = copied(w.point_of_group, w.group_count);
+    from.vertex_source = copied(w.vertex_source, w.group_count);
     for (const std::uint32_t group : from.groups.group_of_point)
         if (group >= w.group_count)
             throw std::invalid_argument("group " + std::to_string(group) +

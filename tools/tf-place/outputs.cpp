@@ -51,9 +51,9 @@ void write_result(job& work, const place_settings& settings, tf::body_set& movin
         labels.push_back(file.label);
     };
     for (const placed_body& at : placed) {
-        moving.put_back(at.number, at.points, at.matrix, precision);
+        moving.move_in_file(at.number, at.points, at.matrix, precision);
         tf::body_file& file = moving.files[moving.file_number(at.number)];
-        file.content.turn_normals(at.matrix);
+        file.content.transform_normals(at.matrix);
         add(file);
     }
     std::for_each(fixed.files.begin(), fixed.files.end(), add);

@@ -119,7 +119,7 @@ tf::placement mate(placing& p, double clearance, const tf::progress_callback& pr
                                p.reason);
     if (p.mated) return std::move(p.mated->found);
     return {.certificate = {.status = tf::status::no_placement},
-            .end = tf::placement_end::nothing_met};
+            .outcome = tf::placement_outcome::nothing_met};
 }
 
 /// Calls the verb of the mode.
@@ -156,10 +156,11 @@ tf::placement search(placing& p, const tf::progress_callback& progress) {
 
 /// What else may be done.
 std::string remedy_for(const tf::placement& at) {
-    if (at.end == tf::placement_end::starts_penetrating) return "; tf-place separate moves it out";
-    if (at.end == tf::placement_end::starts_below_bed)
+    if (at.outcome == tf::placement_outcome::starts_penetrating)
+        return "; tf-place separate moves it out";
+    if (at.outcome == tf::placement_outcome::starts_below_bed)
         return "; with --fixed, drop only moves down: first drop it without --fixed";
-    if (at.end == tf::placement_end::not_representable &&
+    if (at.outcome == tf::placement_outcome::not_representable &&
         at.certificate.precision == tf::precision::float32)
         return "; --precision double, in a format that has it, may help";
     return {};
@@ -171,7 +172,7 @@ void find_place(job& work, placing& p) {
         p.at = search(p, work.progress("search"));
     } catch (const std::overflow_error&) {
         p.at = {.certificate = {.status = tf::status::out_of_range},
-                .end = tf::placement_end::out_of_range};
+                .outcome = tf::placement_outcome::out_of_range};
     }
     work.call_ended();
     p.at.certificate.precision = p.precision;  // also of what was only measured

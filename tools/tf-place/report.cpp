@@ -95,7 +95,7 @@ void enter_place(json& entry, const placing& p) {
     if (at.bed)
         entry["bed"] = {{"given", p.settings.bed.value_or(0.0)},
                         {"used", *at.bed},
-                        {"reached", at.end == tf::placement_end::bed}};
+                        {"reached", at.outcome == tf::placement_outcome::bed}};
     entry["placed"] = static_cast<bool>(at);
     entry["status_at_start"] = name_of(at.relation_at_start);
     entry["status"] = name_of(at.relation);

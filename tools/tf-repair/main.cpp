@@ -192,14 +192,14 @@ exit_status look_at(tools::job& work, const repair_settings& s) {
     if (!why.empty()) {
         work.out.result(work.name + ": not written: " + why);
         tools::write_page(work, input, "not written: " + why, false, made.file.mesh,
-                          made.face_source, made.is_left);
+                          made.face_source, made.is_kept);
         return tools::found;
     }
     const std::string verdict = tools::verdict(input, made);
     work.out.result(work.name + ": " + verdict);
     tools::warn_of_surprises(work, s, made);
     tools::warn_of_moves(work, made.file.mesh.points, made.certificate);
-    tools::write_page(work, input, verdict, true, made.file.mesh, made.face_source, made.is_left);
+    tools::write_page(work, input, verdict, true, made.file.mesh, made.face_source, made.is_kept);
     if (output && !o.dry_run) tools::write_solid(work, input, s, made, *output);
     return tools::done;
 }

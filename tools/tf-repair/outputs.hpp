@@ -68,11 +68,11 @@ void write_solid(job& work, const dirty_mesh& input, const repair_settings& sett
                  tf::repaired_file& made, const std::filesystem::path& path);
 
 /// Page and picture, where they are asked for: before and after with what became of each face, or
-/// the input alone where nothing was `made`. `face_source` and `is_left` are as in `repaired_file`;
+/// the input alone where nothing was `made`. `face_source` and `is_kept` are as in `repaired_file`;
 /// a wrap has nothing left of any face.
 void write_page(job& work, const dirty_mesh& input, const std::string& verdict, bool good,
                 const tf::mesh& made = {}, const std::vector<std::uint32_t>& face_source = {},
-                const std::vector<std::uint8_t>& is_left = {});
+                const std::vector<std::uint8_t>& is_kept = {});
 
 /// The lines along which faces of the input meet, as OBJ or PLY, where a file is named.
 void write_curves(job& work, const dirty_mesh& input, const repair_settings& settings);

@@ -48,7 +48,7 @@ float_corners corners_of(tf::mesh_view mesh, std::size_t f, bool turned) {
 
 fate compare(const dirty_mesh& input, tf::mesh_view made,
              const std::vector<std::uint32_t>& face_source,
-             const std::vector<std::uint8_t>& is_left, bool filled_holes) {
+             const std::vector<std::uint8_t>& is_kept, bool filled_holes) {
     const tf::mesh_view before = input.file.mesh;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> of_number;  // in the file, in `before`
     for (std::uint32_t f = 0; f < before.faces.size(); ++f)
@@ -57,8 +57,8 @@ fate compare(const dirty_mesh& input, tf::mesh_view made,
     fate result{
         std::vector<std::uint8_t>(before.faces.size(), mark::removed),
         std::vector<std::uint8_t>(made.faces.size(), filled_holes ? mark::filled : mark::added)};
-    for (std::size_t f = 0; f < is_left.size(); ++f)
-        if (is_left[f] != 0) result.before[f] = mark::cut;
+    for (std::size_t f = 0; f < is_kept.size(); ++f)
+        if (is_kept[f] != 0) result.before[f] = mark::cut;
     for (std::size_t f = 0; f < made.faces.size(); ++f) {
         if (face_source[f] == tf::repair_result::none) continue;
         std::uint8_t& own = result.after[f] = mark::cut;
@@ -153,7 +153,7 @@ void add_tables(scene& shown, const job& work) {
 
 void write_page(job& work, const dirty_mesh& input, const std::string& verdict, bool good,
                 const tf::mesh& made, const std::vector<std::uint32_t>& face_source,
-                const std::vector<std::uint8_t>& is_left) {
+                const std::vector<std::uint8_t>& is_kept) {
     if (!work.options.shows()) return;
     const auto timing = work.time("write");
     scene shown = scene_of(work, "tf-repair");
@@ -164,7 +164,7 @@ void write_page(job& work, const dirty_mesh& input, const std::string& verdict, 
     const bool filled_holes = repair.is_object() && repair["steps"]["fill"].is_object() &&
                               repair["steps"]["fill"]["holes"].get<std::uint64_t>() > 0;
     const bool after = !made.faces.empty();
-    fate was = compare(input, made, face_source, is_left, filled_holes);
+    fate was = compare(input, made, face_source, is_kept, filled_holes);
     if (!after) {
         std::fill(was.before.begin(), was.before.end(), mark::kept);
         const tf::mesh joined = tf::join_meshes({&before, 1});

@@ -43,7 +43,7 @@ void add_what_counts(command_line& line, tools::search_settings& s) {
                            "also count faces that touch without crossing and are\n"
                            "not neighbors, and pairs with a degenerate face",
                            "off"});
-    line.flag(s.no_overlap, {"--no-overlap", "", "do not count overlap, fold and duplicate"});
+    line.flag(s.no_coplanar, {"--no-coplanar", "", "do not count overlap, fold and duplicate"});
     line.flag(s.between, {"--between", "", "only pairs of different connected components"});
     line.flag(s.within, {"--within", "", "only pairs inside one connected component"});
     static constexpr std::array<const char*, 2> identities{"equal", "file"};

@@ -36,7 +36,7 @@ tf::intersection_options search_options(job& work, const findings& result,
 tf::pair_kinds search_settings::counted() const {
     using kind = tf::pair_kind;
     tf::pair_kinds kinds = tf::pair_kinds::all;
-    if (no_overlap) kinds = kinds - kind::overlap - kind::fold - kind::duplicate;
+    if (no_coplanar) kinds = kinds - kind::overlap - kind::fold - kind::duplicate;
     return touching ? kinds : kinds - kind::touching - kind::degenerate;
 }
 

@@ -18,7 +18,7 @@ namespace tools {
 
 struct search_settings {
     bool touching = false;
-    bool no_overlap = false;
+    bool no_coplanar = false;
     bool between = false;
     bool within = false;
     bool first = false;

@@ -35,7 +35,7 @@ void add_points(scene& shown, const tf::mesh_file& file, const welding& w) {
     // Of a cloud of millions, all are thinned out alike.
     const bool many = w.points > 2'000'000;
     for (std::size_t k = mark::of_two; k <= mark::dropped; ++k) shown.classes[k].context = many;
-    scene_dots kept{.points = places, .number = w.result.point_of_group};
+    scene_dots kept{.points = places, .number = w.result.vertex_source};
     std::array<std::uint64_t, mark::way> counts{};
     for (std::size_t g = 0; g < size.size(); ++g) {
         kept.kind.push_back(mark_of(size[g]));

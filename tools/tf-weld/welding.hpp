@@ -32,14 +32,14 @@ struct welding {
     std::optional<kept> counted{};
 
     [[nodiscard]] std::uint64_t distinct() const {
-        return counted ? counted->points : result.point_of_group.size();
+        return counted ? counted->points : result.vertex_source.size();
     }
     [[nodiscard]] std::uint64_t triangles_kept() const {
         return counted ? counted->triangles : result.file.mesh.faces.size();
     }
     [[nodiscard]] std::uint64_t removed() const { return points - distinct(); }
     [[nodiscard]] bool keeps(std::uint32_t point) const {
-        return result.point_of_group[result.groups.group_of_point[point]] == point;
+        return result.vertex_source[result.groups.group_of_point[point]] == point;
     }
 };
 

@@ -59,7 +59,7 @@ TEST_CASE("errors name the function that was called, the operand, and the caller
         {named("mesh_intersections", "b: "), [&] { (void)tf::mesh_intersections(good, wild); }},
         {named("intersects", "a: "), [&] { (void)tf::intersects(wild, good); }},
         {named("distance", "b: "), [&] { (void)tf::distance(good, wild); }},
-        {named("closest_points", "b: "), [&] { (void)tf::closest_points(good, wild); }},
+        {named("closest_pair", "b: "), [&] { (void)tf::closest_pair(good, wild); }},
         {named("closest_point", ""), [&] { (void)tf::closest_point(wild, tf::point3{}); }},
         {named("locate", ""), [&] { (void)tf::contains(wild, tf::point3{}); }},
         {named("relation", "b: "), [&] { (void)tf::relation(good, wild); }},

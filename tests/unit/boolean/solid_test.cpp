@@ -49,8 +49,8 @@ TEST_CASE("solid: from the mesh of a file; a formula as a string; names of kinds
     const auto prepared = tf::prepared_mesh(box_at(0));
     CHECK_FALSE(tf::find_open_edge(prepared).has_value());
     CHECK(tf::name_of(tf::pair_kind::touching) == std::string("touching"));
-    CHECK(tf::name_of(tf::placement_end::cancelled) == std::string("cancelled"));
-    CHECK(tf::name_of(tf::placement_end::too_far) == std::string("too-far"));
+    CHECK(tf::name_of(tf::placement_outcome::cancelled) == std::string("cancelled"));
+    CHECK(tf::name_of(tf::placement_outcome::too_far) == std::string("too-far"));
     CHECK(tf::name_of(tf::location::boundary) == std::string("boundary"));
 }
 

@@ -120,8 +120,8 @@ TEST_CASE("repair_file: coplanar faces are merged, but not where that would mix 
     const auto faces_made = [&] {
         const tf::repaired_file made = tf::repair_file({&file});
         CHECK(made.certificate);
-        CHECK(made.is_left.size() == 24);
-        CHECK(std::ranges::count(made.is_left, 0) == 4);  // the two ends within
+        CHECK(made.is_kept.size() == 24);
+        CHECK(std::ranges::count(made.is_kept, 0) == 4);  // the two ends within
         return made.file.mesh.faces.size();
     };
     const tf::carry_source source{&file, {}};
@@ -154,6 +154,6 @@ TEST_CASE("repair_file: parts of one value each are merged, each in itself") {
     file.attributes.find_or_add("face", 48).set(tf::column::of<std::int32_t>("number", numbers));
     const tf::repaired_file made = tf::repair_file({&file});
     CHECK(made.file.mesh.faces.size() == 24);
-    CHECK(std::ranges::count(made.is_left, 0) == 8);
+    CHECK(std::ranges::count(made.is_kept, 0) == 8);
     CHECK(tf::repair_file({&file}, {.as_one = true}).file.mesh.faces.size() > 24);
 }

@@ -1,6 +1,6 @@
 #include <libmesh/base/build_face_tree.hpp>
 #include <libmesh/nearness/bounding_cylinders.hpp>
-#include <libmesh/nearness/closest_points.hpp>
+#include <libmesh/nearness/closest_pair.hpp>
 #include <libmesh/nearness/triangle_blocks.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/mesh.hpp>
@@ -44,11 +44,11 @@ tf::transform<3> turned(test::random& source, double scale, double away) {
 /// The answer of the models must be that of the meshes and their trees.
 void compare(const tf::mesh& a, const tf::mesh& b, const tf::transform<3>& move_a,
              const tf::transform<3>& move_b) {
-    const auto found = tf::closest_points(tf::prepared_mesh::borrow(a),
-                                          tf::prepared_mesh::borrow(b), {move_a, move_b});
+    const auto found = tf::closest_pair(tf::prepared_mesh::borrow(a), tf::prepared_mesh::borrow(b),
+                                        {move_a, move_b});
     const auto expected =
-        tf::detail::nearness::closest_points(a, tf::transformed<3>(tf::build_face_tree(a), move_a),
-                                             b, tf::transformed<3>(tf::build_face_tree(b), move_b));
+        tf::detail::nearness::closest_pair(a, tf::transformed<3>(tf::build_face_tree(a), move_a), b,
+                                           tf::transformed<3>(tf::build_face_tree(b), move_b));
     REQUIRE(found);
     REQUIRE(expected);
     if (expected->distance > 0.0)
@@ -63,11 +63,11 @@ TEST_CASE("prepared distance: one without faces is near to nothing") {
     const tf::prepared_mesh none;
     const tf::prepared_mesh one(test::grid(1));
     CHECK(none.view().faces.empty());
-    CHECK(!tf::closest_points(none, one));
-    CHECK(!tf::closest_points(one, none));
-    CHECK(!tf::closest_points(none, tf::prepared_mesh(tf::mesh{})));
-    const auto away = tf::closest_points(
-        one, one, {.move_b = tf::transform<3>::translation(tf::point3{0, 0, 2})});
+    CHECK(!tf::closest_pair(none, one));
+    CHECK(!tf::closest_pair(one, none));
+    CHECK(!tf::closest_pair(none, tf::prepared_mesh(tf::mesh{})));
+    const auto away =
+        tf::closest_pair(one, one, {.move_b = tf::transform<3>::translation(tf::point3{0, 0, 2})});
     REQUIRE(away);
     CHECK(away->distance == 2.0);
 }
@@ -75,20 +75,20 @@ TEST_CASE("prepared distance: one without faces is near to nothing") {
 TEST_CASE("prepared distance: the radius is inclusive, and what cannot be meant is refused") {
     const tf::prepared_mesh one(test::grid(1));
     const auto above = tf::transform<3>::translation(tf::point3{0, 0, 2});
-    CHECK(tf::closest_points(one, one, {.move_b = above, .radius = 2.0}));
-    CHECK(!tf::closest_points(one, one, {.move_b = above, .radius = std::nextafter(2.0, 0.0)}));
-    CHECK_THROWS_AS((void)tf::closest_points(one, one, {.radius = -1.0}), std::invalid_argument);
+    CHECK(tf::closest_pair(one, one, {.move_b = above, .radius = 2.0}));
+    CHECK(!tf::closest_pair(one, one, {.move_b = above, .radius = std::nextafter(2.0, 0.0)}));
+    CHECK_THROWS_AS((void)tf::closest_pair(one, one, {.radius = -1.0}), std::invalid_argument);
     tf::transform<3> bad;
     bad.rows[1][2] = std::numeric_limits<double>::quiet_NaN();
-    CHECK_THROWS_AS((void)tf::closest_points(one, one, {.move_a = bad}), std::invalid_argument);
+    CHECK_THROWS_AS((void)tf::closest_pair(one, one, {.move_a = bad}), std::invalid_argument);
     tf::mesh broken = test::grid(2);
     broken.points[1].y = std::numeric_limits<double>::infinity();
-    CHECK_THROWS_WITH_AS((void)tf::closest_points(one, tf::prepared_mesh::borrow(broken)),
-                         doctest::Contains("closest_points: b: face"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)tf::closest_pair(one, tf::prepared_mesh::borrow(broken)),
+                         doctest::Contains("closest_pair: b: face"), std::invalid_argument);
     broken = test::grid(2);
     broken.faces[1][2] = 77;
-    CHECK_THROWS_WITH_AS((void)tf::closest_points(one, tf::prepared_mesh::borrow(broken)),
-                         doctest::Contains("closest_points: b: face"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)tf::closest_pair(one, tf::prepared_mesh::borrow(broken)),
+                         doctest::Contains("closest_pair: b: face"), std::invalid_argument);
 }
 
 TEST_CASE("bounding cylinders: those of every node hold the triangles below it") {
@@ -188,16 +188,16 @@ TEST_CASE("prepared distance: many equally near faces give one answer on any num
     const tf::mesh flat = test::grid(60);
     const tf::prepared_mesh one = tf::prepared_mesh::borrow(flat),
                             other(test::moved(flat, {0.25, 0.5, 3}));
-    const auto expected = tf::closest_points(one, other);
+    const auto expected = tf::closest_pair(one, other);
     CHECK(expected->distance == 3.0);
     CHECK(expected->face_a == 0);
-    const auto meeting = tf::closest_points(one, one);
+    const auto meeting = tf::closest_pair(one, one);
     CHECK(meeting->distance == 0.0);
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        CHECK(tf::closest_points(one, other) == expected);
-        CHECK(tf::closest_points(one, one) == meeting);
+        CHECK(tf::closest_pair(one, other) == expected);
+        CHECK(tf::closest_pair(one, one) == meeting);
         const tf::prepared_mesh again = tf::prepared_mesh::borrow(flat);
-        CHECK(tf::closest_points(again, other) == expected);
+        CHECK(tf::closest_pair(again, other) == expected);
     }
 }

@@ -39,7 +39,7 @@ TEST_CASE(
     const std::vector<tf::ray3> rays{{{-1, 0.5, 0.25}, {1, 0, 0}}, {{-1, 9, 9}, {1, 0, 0}}};
     const std::vector<std::function<bool()>> questions{
         [&] { return tf::distance(a, b) == 3.0 && tf::distance(cube, other) == 3.0; },
-        [&] { return tf::closest_points(a, b) == tf::closest_points(cube, other); },
+        [&] { return tf::closest_pair(a, b) == tf::closest_pair(cube, other); },
         [&] { return tf::closest_point(a, points[1]) == tf::closest_point(cube, points[1]); },
         [&] { return tf::closest_point(a, points) == tf::closest_point(cube, points); },
         [&] { return tf::locate(a, points) == tf::locate(cube, points); },

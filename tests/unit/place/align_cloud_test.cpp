@@ -117,7 +117,7 @@ TEST_CASE("align: what does not tell where it belongs is in doubt, with how far 
         return tf::align(moving, {hills(count, height), {}});
     };
     const auto low = fit(300, 0.05), high = fit(6000, 1.0);
-    CHECK(low.end == tf::align_end::doubtful);
+    CHECK(low.outcome == tf::align_outcome::doubtful);
     CHECK(high.converged);
     CHECK(high.uncertainty < 0.01);
     CHECK(low.uncertainty > 10.0 * high.uncertainty);
@@ -185,10 +185,10 @@ TEST_CASE("align: a scale stays within its bounds, and is in doubt at one") {
         for (const unsigned starts : {1U, 2U}) {
             const auto above = within(3.0, 4.0, starts), below = within(0.1, 1.5, starts);
             CHECK(above.scale == doctest::Approx(3.0).epsilon(1e-9));
-            CHECK(above.end == tf::align_end::doubtful);
+            CHECK(above.outcome == tf::align_outcome::doubtful);
             CHECK(above.matrix != tf::transform<3>{});
             CHECK(below.scale == doctest::Approx(1.5).epsilon(1e-9));
-            CHECK(below.end == tf::align_end::doubtful);
+            CHECK(below.outcome == tf::align_outcome::doubtful);
         }
         const auto known = within(2.0, 2.0);
         CHECK(known.converged);

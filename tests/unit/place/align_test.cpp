@@ -316,7 +316,7 @@ TEST_CASE("align: a noisy scan converges, and again from its own answer") {
             const auto scan =
                 test::scan_of(solid, {.points = 4000, .noise = noise, .degrees = 8}, source);
             const auto found = tf::align(scan.moving, scan.fixed, {.method = method});
-            CHECK(found.end == tf::align_end::converged);
+            CHECK(found.outcome == tf::align_outcome::converged);
             CHECK(test::error_of(scan, found.matrix, false) < noise);
             CHECK(found.inliers > 3900);
             CHECK(std::abs(found.correlation) < 0.15);
@@ -338,7 +338,7 @@ TEST_CASE("align: a tolerance of 0 asks for a pose that does not move, a large o
     const auto exact = tf::align(scan.moving, scan.fixed, {.tolerance = 0.0});
     CHECK(exact.rms <= usual.rms * (1.0 + 1e-12));
     const auto none = tf::align(scan.moving, scan.fixed, {.max_iterations = 0});
-    CHECK(none.end == tf::align_end::out_of_iterations);
+    CHECK(none.outcome == tf::align_outcome::out_of_iterations);
     CHECK(none.iterations == 0);
     CHECK(none.matrix == tf::transform<3>{});
 }
@@ -372,7 +372,7 @@ TEST_CASE("align: what has no partner is found by weights, trimmed by its share,
         CHECK(weighed.converged);
         CHECK(test::error_of(scan, weighed.matrix, false) < 1e-5);
         const tf::align_options equal{.robust = false};
-        CHECK(tf::align(scan.moving, scan.fixed, equal).end == tf::align_end::doubtful);
+        CHECK(tf::align(scan.moving, scan.fixed, equal).outcome == tf::align_outcome::doubtful);
         // a share that is too large does no harm, either
         for (const double overlap : {0.5, 0.6, 0.62}) {
             const auto trimmed = tf::align(scan.moving, scan.fixed, {.overlap = overlap});

@@ -61,8 +61,8 @@ TEST_CASE("bodies: a file without faces is a cloud of its finite points") {
     CHECK(file.box->max == tf::point3{1, 1, 1});
     CHECK(found.shapes[0].is_cloud());
     CHECK(found.triangle(0, 1) == 2);
-    found.put_back(0, std::vector<tf::point3>{{5, 5, 5}, {6, 6, 6}}, tf::transform<3>{},
-                   tf::precision::float64);
+    found.move_in_file(0, std::vector<tf::point3>{{5, 5, 5}, {6, 6, 6}}, tf::transform<3>{},
+                       tf::precision::float64);
     CHECK(file.content.mesh.points[0] == tf::point3{5, 5, 5});
     CHECK(file.content.mesh.points[2] == tf::point3{6, 6, 6});
 }
@@ -105,7 +105,7 @@ TEST_CASE("bodies: points go back to where they are in the file, others move alo
     for (tf::point3& p : placed) p.z += 4;
     tf::transform<3> up;
     up.rows[2][3] = 4;
-    found.put_back(0, placed, up, tf::precision::float32);
+    found.move_in_file(0, placed, up, tf::precision::float32);
     const tf::mesh expected = moved(test::unjoined(box(1, 1, 1)), {0, 0, 4});
     for (std::size_t i = 0; i < expected.points.size(); ++i)
         CHECK(there.mesh.points[i] == expected.points[i]);

@@ -156,7 +156,7 @@ TEST_CASE("clouds: sliding ends at the first exact contact of any point") {
                     tf::first_contact(triangle_of(given, i), triangle_of(still, j), motion);
                 if (one && (!first || tf::compare(motion, *one, *first) < 0)) first = one;
             }
-        REQUIRE((found.end == tf::placement_end::contact) == first.has_value());
+        REQUIRE((found.outcome == tf::placement_outcome::contact) == first.has_value());
         if (!first) continue;
         ++met;
         CHECK(tf::compare_cut(first->from, motion, first->until, found.time) >= 0);
@@ -178,14 +178,14 @@ TEST_CASE("clouds: what has been slid or separated penetrates nothing as written
             CHECK(moving.is_cloud());
             const auto slid = tf::slide(moving, fixed, {0.1, 0, -1}, {.precision = precision});
             REQUIRE(slid);
-            CHECK(slid.end == tf::placement_end::contact);
+            CHECK(slid.outcome == tf::placement_outcome::contact);
             CHECK(relation_by_points(cloud(slid.points), solid) != mesh_relation::penetrating);
             CHECK(std::abs(slid.travel / std::hypot(0.1, 1.0) - time) < 1e-5);
         }
         const tf::mesh within = random_cloud(source, 40, 0.4, {0.5, 0.1, 0.2});
         const auto out = tf::separate(within.points, fixed);
         REQUIRE(out);
-        CHECK(out.end == tf::placement_end::moved_apart);
+        CHECK(out.outcome == tf::placement_outcome::moved_apart);
         CHECK(relation_by_points(cloud(out.points), solid) != mesh_relation::penetrating);
     }
 }
@@ -196,7 +196,7 @@ TEST_CASE("clouds: points without faces are a cloud in every query, prepared or 
     const auto prepared = tf::prepared_mesh::borrow({points});
     for (const tf::mesh_ref& given : {tf::mesh_ref(points), tf::mesh_ref(prepared)}) {
         CHECK(tf::distance(given, solid) == 1.0);
-        CHECK(tf::closest_points(solid, given)->face_b == 0);
+        CHECK(tf::closest_pair(solid, given)->face_b == 0);
         CHECK(tf::closest_point(given, {4, 5, 5})->face == 1);
         CHECK_FALSE(tf::intersects(given, solid));
         CHECK(tf::mesh_intersections(given, solid).pairs.empty());

@@ -58,7 +58,8 @@ double least_exit(const tf::mesh& a, const tf::mesh& b) {
         tf::impact_options options;
         options.move_a = tf::transform<3>::translation(tf::point3{d.x * out, d.y * out, d.z * out});
         const auto back = tf::time_of_impact(pa, pb, {-d.x, -d.y, -d.z}, options);
-        least = std::min(least, back.end == tf::placement_end::contact ? out - back.time : out);
+        least =
+            std::min(least, back.outcome == tf::placement_outcome::contact ? out - back.time : out);
     }
     return least;
 }

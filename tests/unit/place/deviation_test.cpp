@@ -73,7 +73,7 @@ TEST_CASE("deviation: points outside, inside and on a box") {
     CHECK(found.highest == 3.0);
     CHECK(found.max_bound >= 3.0);
     CHECK(found.max_bound < 3.0 + 1e-12);
-    CHECK(found.back_max.value() == doctest::Approx(std::sqrt(1.0625)));  // of (0, 0, 0)
+    CHECK(found.reverse_max.value() == doctest::Approx(std::sqrt(1.0625)));  // of (0, 0, 0)
     CHECK(found.band_counts == std::array<std::uint64_t, 3>{0, 2, 2});
 }
 
@@ -114,9 +114,9 @@ TEST_CASE("deviation: points of `b` that no face uses change nothing on the way 
     for (tf::face& f : more.faces)
         for (std::uint32_t& corner : f) corner += 5;
     const auto expected = found_for(a, b), found = found_for(a, more);
-    REQUIRE((expected.back_max && expected.back_max_bound));
-    CHECK(found.back_max == expected.back_max);
-    CHECK(found.back_max_bound == expected.back_max_bound);
+    REQUIRE((expected.reverse_max && expected.reverse_max_bound));
+    CHECK(found.reverse_max == expected.reverse_max);
+    CHECK(found.reverse_max_bound == expected.reverse_max_bound);
 }
 
 TEST_CASE("deviation: each distance and side is that of the point alone") {
@@ -163,12 +163,12 @@ TEST_CASE(
     const auto none = found_for(b, b);
     CHECK(none.max == 0.0);
     CHECK(none.rms == 0.0);
-    CHECK(none.back_max == 0.0);
+    CHECK(none.reverse_max == 0.0);
     CHECK(none.histogram.at(0) == b.points.size());
     const auto far = found_for(moved(b, {100, 0, 0}), b);
     CHECK(far.max <= 100.0);
     CHECK(far.max_bound > far.max);
-    CHECK(*far.back_max <= 100.0);
+    CHECK(*far.reverse_max <= 100.0);
     CHECK(far.lowest > 97.9);
 }
 

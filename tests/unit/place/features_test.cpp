@@ -169,7 +169,7 @@ TEST_CASE("mate features: a block comes to lie flat on another, center above cen
         const auto found = tf::mate_features(block, base, of_block, of_base, options);
         check_features(block, base, found);
         CHECK(found.offset == doctest::Approx(options.clearance).epsilon(1e-12));
-        CHECK(found.end == tf::placement_end::contact);
+        CHECK(found.outcome == tf::placement_outcome::contact);
         const tf::mesh there{found.points, block.faces};
         CHECK(tf::distance(there, base) >= options.clearance);
         CHECK(tf::distance(there, base) <= options.clearance + 1e-12);
@@ -208,7 +208,7 @@ TEST_CASE("mate features: a bolt goes into its hole, coaxial, until its head is 
         for (const bool flip : {false, true}) {
             const auto found = tf::mate_features(bolt, plate, shank, hole, {.flip = flip});
             check_features(bolt, plate, found);
-            CHECK(found.end == tf::placement_end::contact);
+            CHECK(found.outcome == tf::placement_outcome::contact);
             const tf::point3 center = minus(found.matrix(shank.origin), hole.origin);
             const double along = dot(center, hole.direction);
             CHECK(std::abs(along) == doctest::Approx(std::abs(found.offset)));
@@ -230,7 +230,7 @@ TEST_CASE("mate features: a shaft that goes through its bore stays in the middle
     const auto on_shaft = tf::find_features(shaft, feature_kind::axis)[0];
     const auto found = tf::mate_features(shaft, bore, on_shaft, in_bore);
     check_features(shaft, bore, found);
-    CHECK(found.end == tf::placement_end::unchanged);
+    CHECK(found.outcome == tf::placement_outcome::unchanged);
     CHECK(std::abs(found.offset) < 1e-12);
     CHECK(found.relation == tf::mesh_relation::separate);
     // One that is too thick stops outside.

@@ -21,7 +21,7 @@ namespace {
 using test::box;
 using test::moved;
 using test::still_parts;
-using tf::placement_end;
+using tf::placement_outcome;
 using tf::prepared_mesh;
 
 }  // namespace
@@ -33,7 +33,7 @@ TEST_CASE("mate: a corner comes to a corner, or to the clearance from it") {
     const prepared_mesh a(moved(box(1, 1, 1), {7, 8, 1}));
     const auto found = tf::mate(a, among.prepared);
     REQUIRE(found);
-    CHECK(found.end == placement_end::contact);
+    CHECK(found.outcome == placement_outcome::contact);
     CHECK(found.relation_at_start == tf::mesh_relation::separate);
     CHECK(found.relation == tf::mesh_relation::touching);
     REQUIRE(found.nearest);
@@ -47,31 +47,33 @@ TEST_CASE("mate: a corner comes to a corner, or to the clearance from it") {
     REQUIRE(apart);
     CHECK(apart.travel == doctest::Approx(3.75).epsilon(1e-12));
     CHECK(apart.relation == tf::mesh_relation::clear);
-    CHECK(tf::mate(a, among.prepared, {.clearance = 6}).end == placement_end::starts_too_near);
-    CHECK(tf::mate(a, among.prepared, {.max_travel = 4.5}).end == placement_end::too_far);
+    CHECK(tf::mate(a, among.prepared, {.clearance = 6}).outcome ==
+          placement_outcome::starts_too_near);
+    CHECK(tf::mate(a, among.prepared, {.max_travel = 4.5}).outcome == placement_outcome::too_far);
     CHECK(tf::mate(a.view(), among.meshes[1]).points == found.points);
 }
 
 TEST_CASE("mate: of nothing there is no way, and what meets stays") {
     still_parts among;
     const prepared_mesh a(box(1, 1, 1));
-    CHECK(tf::mate(a, among.prepared).end == placement_end::nothing_met);
+    CHECK(tf::mate(a, among.prepared).outcome == placement_outcome::nothing_met);
     among.add({});
-    CHECK(tf::mate(a, among.prepared).end == placement_end::nothing_met);
+    CHECK(tf::mate(a, among.prepared).outcome == placement_outcome::nothing_met);
     among.add(moved(box(1, 1, 1), {1, 0, 0}));
     const auto touching = tf::mate(a, among.prepared);
     REQUIRE(touching);
-    CHECK(touching.end == placement_end::unchanged);
+    CHECK(touching.outcome == placement_outcome::unchanged);
     CHECK(touching.nearest_fixed == 1);
     CHECK(touching.relation == tf::mesh_relation::touching);
     CHECK(touching.travel == 0.0);
-    CHECK(tf::mate(a, among.prepared, {.clearance = 1}).end == placement_end::starts_touching);
+    CHECK(tf::mate(a, among.prepared, {.clearance = 1}).outcome ==
+          placement_outcome::starts_touching);
     among.add(moved(box(1, 1, 1), {0.5, 0, 0}));
     const auto inside = tf::mate(a, among.prepared);
     CHECK(inside.nearest_fixed == 2);
-    CHECK(inside.end == placement_end::starts_penetrating);
+    CHECK(inside.outcome == placement_outcome::starts_penetrating);
     CHECK(inside.certificate.status == tf::status::no_placement);
-    CHECK(tf::mate(prepared_mesh(), among.prepared).end == placement_end::nothing_met);
+    CHECK(tf::mate(prepared_mesh(), among.prepared).outcome == placement_outcome::nothing_met);
     for (const double clearance : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})
         CHECK_THROWS_AS(static_cast<void>(tf::mate(a, among.prepared, {.clearance = clearance})),
                         std::invalid_argument);
@@ -87,7 +89,7 @@ TEST_CASE("mate: the place is at the part that is nearest of all, and penetrates
         const tf::mesh a = moved(test::ball(1, 0.4), {source.in(-3, 3), source.in(-3, 3), 6.0});
         double least = std::numeric_limits<double>::infinity();
         for (const tf::mesh& part : among.meshes)
-            least = std::min(least, tf::closest_points(a, part)->distance);
+            least = std::min(least, tf::closest_pair(a, part)->distance);
         const auto found = tf::mate(prepared_mesh::borrow(a), among.prepared);
         REQUIRE(found);
         CHECK(found.travel == doctest::Approx(least).epsilon(1e-12));
@@ -95,7 +97,7 @@ TEST_CASE("mate: the place is at the part that is nearest of all, and penetrates
         for (const tf::mesh& part : among.meshes) {
             const tf::mesh at{found.points, a.faces};
             CHECK(tf::relation(at, part).relation != tf::mesh_relation::penetrating);
-            there = std::min(there, tf::closest_points(at, part)->distance);
+            there = std::min(there, tf::closest_pair(at, part)->distance);
         }
         CHECK(there < 1e-14);
     }

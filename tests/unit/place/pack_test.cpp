@@ -123,7 +123,7 @@ void check_packed(const std::vector<tf::mesh>& parts, const tf::pack_options& o,
             if (!found.parts[i].placed || !found.parts[j].placed) continue;
             const tf::mesh a{found.parts[i].points, parts[i].faces};
             const tf::mesh b{found.parts[j].points, parts[j].faces};
-            const auto nearest = tf::closest_points(a, b);
+            const auto nearest = tf::closest_pair(a, b);
             if (!nearest || found.parts[i].plate != found.parts[j].plate) continue;
             CAPTURE(i);
             CAPTURE(j);

@@ -100,7 +100,7 @@ TEST_CASE("separate: every move given leads to a place that settles nearby") {
             CHECK(placed.time - found[i].time < 1e-9);
             const tf::mesh there{placed.points, a.faces};
             CHECK(tf::relation(there, b).relation != mesh_relation::penetrating);
-            CHECK(tf::closest_points(there, b)->distance >= clearance);
+            CHECK(tf::closest_pair(there, b)->distance >= clearance);
         }
         // The balls lie within spheres, which the line of the centers takes apart.
         const tf::point3& tip = a.points[0];
@@ -151,12 +151,12 @@ TEST_CASE("separate: the mesh comes out of all, in coordinates that hold") {
         const tf::mesh there{found.points, a.faces};
         for (const prepared_mesh& one : fixed) {
             CHECK(tf::relation(there, one.view()).relation != mesh_relation::penetrating);
-            CHECK(tf::closest_points(there, one.view())->distance >= clearance);
+            CHECK(tf::closest_pair(there, one.view())->distance >= clearance);
         }
         if (found.travel == 0.0) continue;
         const auto barred =
             tf::separate(whole, fixed, {.clearance = clearance, .max_travel = 1e-9});
-        CHECK(barred.end == tf::placement_end::too_far);
+        CHECK(barred.outcome == tf::placement_outcome::too_far);
         CHECK(barred.points == a.points);
     }
 }

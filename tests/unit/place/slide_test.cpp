@@ -29,7 +29,7 @@ using test::box;
 using test::moved;
 using test::still_parts;
 using tf::mesh_relation;
-using tf::placement_end;
+using tf::placement_outcome;
 using tf::prepared_mesh;
 
 const tf::point3 down{0.0, 0.0, -1.0};
@@ -53,7 +53,7 @@ TEST_CASE("slide: the first of several ends it, what is beside the way is not in
         const auto found = tf::slide(a, among.prepared, {0, 0, -3}, {.clearance = clearance});
         REQUIRE(found);
         CHECK(found.certificate.status == tf::status::ok);
-        CHECK(found.end == placement_end::contact);
+        CHECK(found.outcome == placement_outcome::contact);
         CHECK(found.travel == 6.0 - clearance);
         CHECK(found.direction == down);
         CHECK(found.points == moved(box(6, 1, 1), {0, 0, 3.0 + clearance}).points);
@@ -73,7 +73,7 @@ TEST_CASE("slide: the first of several ends it, what is beside the way is not in
     CHECK(among.prepared[1].indexes_built() > 0);
     const std::uint64_t built = among.prepared[1].indexes_built();
     const auto beyond = tf::slide(a, among.prepared, down, {.max_travel = 5.0});
-    CHECK(beyond.end == placement_end::nothing_met);
+    CHECK(beyond.outcome == placement_outcome::nothing_met);
     CHECK(beyond.points == moved(box(6, 1, 1), {0, 0, 9}).points);
     CHECK(among.prepared[1].indexes_built() == built);
 }
@@ -82,26 +82,27 @@ TEST_CASE("slide: what touches stays, what penetrates or is too near has no plac
     const tf::mesh floor = box(4, 4, 1);
     const tf::mesh on = moved(box(1, 1, 1), {1, 1, 1});
     const auto stays = tf::slide(on, floor, down);
-    CHECK(stays.end == placement_end::unchanged);
+    CHECK(stays.outcome == placement_outcome::unchanged);
     CHECK(stays.points == on.points);
     CHECK(stays.relation == mesh_relation::touching);
     CHECK(stays.contact_count > 0);
-    CHECK(tf::slide(on, floor, down, {.clearance = 0.5}).end == placement_end::starts_touching);
+    CHECK(tf::slide(on, floor, down, {.clearance = 0.5}).outcome ==
+          placement_outcome::starts_touching);
     const auto in = tf::slide(moved(on, {0, 0, -0.5}), floor, down);
-    CHECK(in.end == placement_end::starts_penetrating);
+    CHECK(in.outcome == placement_outcome::starts_penetrating);
     CHECK(in.certificate.status == tf::status::no_placement);
-    CHECK(tf::slide(moved(on, {0, 0, 0.25}), floor, down, {.clearance = 0.5}).end ==
-          placement_end::starts_too_near);
-    CHECK(tf::slide(on, tf::mesh{}, down).end == placement_end::nothing_met);
-    CHECK(tf::slide(tf::mesh{}, floor, down).end == placement_end::nothing_met);
+    CHECK(tf::slide(moved(on, {0, 0, 0.25}), floor, down, {.clearance = 0.5}).outcome ==
+          placement_outcome::starts_too_near);
+    CHECK(tf::slide(on, tf::mesh{}, down).outcome == placement_outcome::nothing_met);
+    CHECK(tf::slide(tf::mesh{}, floor, down).outcome == placement_outcome::nothing_met);
 }
 
 TEST_CASE("slide: an unjoined box inside of another is found to penetrate it") {
     const tf::mesh big = test::unjoined(box(10, 10, 10));
     const tf::mesh small = moved(test::unjoined(box(1, 1, 1)), {5, 5, 5});
-    CHECK(tf::slide(small, big, down).end == placement_end::starts_penetrating);
-    CHECK(tf::slide(small, big, down, {.vertices = tf::vertex_identity::by_index}).end ==
-          placement_end::contact);
+    CHECK(tf::slide(small, big, down).outcome == placement_outcome::starts_penetrating);
+    CHECK(tf::slide(small, big, down, {.vertices = tf::vertex_identity::by_index}).outcome ==
+          placement_outcome::contact);
 }
 
 TEST_CASE("slide: what is returned does not penetrate, and keeps the clearance") {
@@ -122,7 +123,7 @@ TEST_CASE("slide: what is returned does not penetrate, and keeps the clearance")
                       {.clearance = clearance,
                        .precision = single ? tf::precision::float32 : tf::precision::float64});
         REQUIRE(found);
-        CHECK(found.end == placement_end::contact);
+        CHECK(found.outcome == placement_outcome::contact);
         CHECK(found.certificate.precision ==
               (single ? tf::precision::float32 : tf::precision::float64));
         CHECK(found.certificate.max_displacement ==
@@ -133,7 +134,7 @@ TEST_CASE("slide: what is returned does not penetrate, and keeps the clearance")
         const tf::mesh there{found.points, a.faces};
         for (const tf::mesh& part : among.meshes) {
             CHECK(tf::relation(there, part).relation != tf::mesh_relation::penetrating);
-            least = std::min(least, tf::closest_points(there, part)->distance);
+            least = std::min(least, tf::closest_pair(there, part)->distance);
         }
         CHECK(least >= clearance);
         CHECK(least < clearance + 1e-2);
@@ -161,7 +162,7 @@ TEST_CASE("slide: what fell on something is close to it in the coordinates writt
                                           {source.in(-0.5, 0.5), source.in(-0.5, 0.5), 4.0}));
         const tf::point3 motion{source.in(-0.1, 0.1), source.in(-0.1, 0.1), -1.0};
         const auto contact = tf::time_of_impact(a, b, motion);
-        REQUIRE(contact.end == tf::placement_end::contact);
+        REQUIRE(contact.outcome == tf::placement_outcome::contact);
         const auto found = tf::slide(
             a, b, motion, {.precision = single ? tf::precision::float32 : tf::precision::float64});
         REQUIRE(found);
@@ -191,7 +192,7 @@ TEST_CASE("drop: on the bed exactly, from above and from below") {
                          .precision = single ? tf::precision::float32 : tf::precision::float64,
                          .bed = bed});
         REQUIRE(found);
-        CHECK(found.end == placement_end::bed);
+        CHECK(found.outcome == placement_outcome::bed);
         REQUIRE(found.bed);
         CHECK(*found.bed >= bed + clearance);
         CHECK(*found.bed - bed - clearance <= (single ? 1e-6 : 0.0));
@@ -209,12 +210,12 @@ TEST_CASE("drop: on what comes first, of fixed meshes and the bed") {
     CHECK(lowest(tf::drop(a, step).points) == 2.0);
     CHECK(lowest(tf::drop(a, step, {.bed = 3.0}).points) == 3.0);
     CHECK(lowest(tf::drop(beside, step, {.bed = -1.0}).points) == -1.0);
-    CHECK(tf::drop(beside, step).end == placement_end::nothing_met);
+    CHECK(tf::drop(beside, step).outcome == placement_outcome::nothing_met);
     const auto below = tf::drop(a, step, {.bed = 20.0});
-    CHECK(below.end == placement_end::starts_below_bed);
+    CHECK(below.outcome == placement_outcome::starts_below_bed);
     CHECK(below.below_bed == 11.0);
-    CHECK(tf::drop(a, {.max_travel = 4.0, .bed = 20.0}).end == placement_end::too_far);
-    CHECK(tf::drop(a, {.max_travel = 4.0}).end == placement_end::nothing_met);
+    CHECK(tf::drop(a, {.max_travel = 4.0, .bed = 20.0}).outcome == placement_outcome::too_far);
+    CHECK(tf::drop(a, {.max_travel = 4.0}).outcome == placement_outcome::nothing_met);
 }
 
 TEST_CASE("slide and drop: what cannot be meant is refused, and named") {

@@ -22,7 +22,7 @@ using test::box;
 using test::moved;
 using test::still_parts;
 using tf::mesh_relation;
-using tf::placement_end;
+using tf::placement_outcome;
 using tf::prepared_mesh;
 using tf::detail::place::shape;
 using tf::detail::place::snap_to_representable;
@@ -39,30 +39,31 @@ TEST_CASE("time to distance: a box stops the clearance above another") {
     const tf::mesh floor = box(4, 4, 1);
     const tf::mesh a = moved(box(1, 1, 1), {1, 1, 5.5});
     const auto found = approach(a, floor, {0, 0, -1}, 0.5);
-    CHECK(found.end == placement_end::contact);
+    CHECK(found.outcome == placement_outcome::contact);
     CHECK(found.time == 4.0);
     CHECK(found.contact_count > 0);
     for (const auto& c : found.contacts) CHECK(c.point.z == 1.0);
     CHECK(approach(a, floor, {0, 0, -2}, 0.5).time == 2.0);
-    CHECK(approach(a, floor, {0, 0, 1}, 0.5).end == placement_end::nothing_met);
-    CHECK(approach(a, floor, {0, 0, -1}, 0.5, {.latest = 3.5}).end == placement_end::nothing_met);
+    CHECK(approach(a, floor, {0, 0, 1}, 0.5).outcome == placement_outcome::nothing_met);
+    CHECK(approach(a, floor, {0, 0, -1}, 0.5, {.latest = 3.5}).outcome ==
+          placement_outcome::nothing_met);
     const auto up = tf::transform<3>::translation(tf::point3{0, 0, 1}),
                down = tf::transform<3>::translation(tf::point3{0, 0, -1});
     CHECK(approach(a, floor, {0, 0, -1}, 0.5, {.move_a = up, .move_b = down}).time ==
           found.time + 2);
     CHECK(approach(a, floor, {0, 0, -1}, 4.5).time == 0.0);
-    CHECK(approach(a, floor, {0, 0, -1}, 5.0).end == placement_end::starts_touching);
+    CHECK(approach(a, floor, {0, 0, -1}, 5.0).outcome == placement_outcome::starts_touching);
 }
 
 TEST_CASE("time to distance: along a wall at just the distance a mesh goes on, a hair nearer not") {
     const tf::mesh wall = box(10, 1, 10);
     const tf::mesh stop = moved(box(1, 10, 10), {20, 0, 0});
     const tf::mesh a = moved(box(1, 1, 1), {-5, 1.5, 1});
-    CHECK(approach(a, wall, {1, 0, 0}, 0.5).end == placement_end::nothing_met);
+    CHECK(approach(a, wall, {1, 0, 0}, 0.5).outcome == placement_outcome::nothing_met);
     const tf::mesh nearer = moved(box(1, 1, 1), {-5, 1.5 - 0x1p-30, 1});
-    CHECK(approach(nearer, wall, {1, 0, 0}, 0.5).end == placement_end::contact);
+    CHECK(approach(nearer, wall, {1, 0, 0}, 0.5).outcome == placement_outcome::contact);
     const auto end = approach(a, test::together(wall, stop), {1, 0, 0}, 0.5);
-    CHECK(end.end == placement_end::contact);
+    CHECK(end.outcome == placement_outcome::contact);
     CHECK(end.time == 23.5);
 }
 
@@ -78,13 +79,13 @@ TEST_CASE(
         const tf::point3 motion{source.in(-0.2, 0.2), source.in(-0.2, 0.2), source.in(0.5, 2)};
         const auto found = approach(a, b, motion, distance);
         const auto at = [&](double time) {
-            return tf::closest_points(moved(a, {time * motion.x, time * motion.y, time * motion.z}),
-                                      b)
+            return tf::closest_pair(moved(a, {time * motion.x, time * motion.y, time * motion.z}),
+                                    b)
                 ->distance;
         };
-        const double end = found.end == placement_end::contact ? found.time : 20.0;
+        const double end = found.outcome == placement_outcome::contact ? found.time : 20.0;
         for (int i = 0; i <= 20; ++i) CHECK(at(end * i / 20) >= distance - 1e-12);
-        if (found.end != placement_end::contact) continue;
+        if (found.outcome != placement_outcome::contact) continue;
         ++met;
         CHECK(std::abs(at(found.time) - distance) < 1e-12);
         CHECK(at(found.time + 1e-4) < distance);
@@ -103,7 +104,7 @@ TEST_CASE("sweep among: the first of several parts ends it, all that are met at 
     const shape given(whole);
     for (const double clearance : {0.0, 0.25}) {
         const auto found = sweep_among(given, among.parts(), {0, 0, -1}, {.clearance = clearance});
-        CHECK(found.end == placement_end::contact);
+        CHECK(found.outcome == placement_outcome::contact);
         CHECK(found.time == 6.0 - clearance);
         CHECK(found.part == 1);
         bool second = false;
@@ -114,12 +115,12 @@ TEST_CASE("sweep among: the first of several parts ends it, all that are met at 
         }
         if (clearance == 0.0) CHECK(second);
     }
-    CHECK(sweep_among(given, among.parts(), {0, 0, -1}, {.latest = 5.0}).end ==
-          placement_end::nothing_met);
-    CHECK(sweep_among(given, {}, {0, 0, -1}).end == placement_end::nothing_met);
+    CHECK(sweep_among(given, among.parts(), {0, 0, -1}, {.latest = 5.0}).outcome ==
+          placement_outcome::nothing_met);
+    CHECK(sweep_among(given, {}, {0, 0, -1}).outcome == placement_outcome::nothing_met);
     among.add(moved(box(1, 1, 1), {3, 1, 9}));  // it touches this one
     const auto stuck = sweep_among(given, among.parts(), {0, 0, -1});
-    CHECK(stuck.end == placement_end::starts_touching);
+    CHECK(stuck.outcome == placement_outcome::starts_touching);
     CHECK(stuck.part == 4);
 }
 
@@ -138,7 +139,7 @@ TEST_CASE("settle among: what is written neither penetrates nor is nearer than t
         const tf::point3 down{source.in(-0.05, 0.05), 0, -1};
         const auto whole = prepared_mesh::borrow(a);
         const auto found = sweep_among(shape(whole), among.parts(), down, {.clearance = clearance});
-        REQUIRE(found.end == placement_end::contact);
+        REQUIRE(found.outcome == placement_outcome::contact);
         const auto settled = snap_to_representable(
             whole, among.parts(), down, found.time,
             {.precision = single ? tf::precision::float32 : tf::precision::float64,
@@ -149,7 +150,7 @@ TEST_CASE("settle among: what is written neither penetrates nor is nearer than t
         const tf::mesh there{settled.points, a.faces};
         for (const tf::mesh& part : among.meshes) {
             CHECK(tf::relation(there, part).relation != mesh_relation::penetrating);
-            CHECK(tf::closest_points(there, part)->distance >= clearance);
+            CHECK(tf::closest_pair(there, part)->distance >= clearance);
         }
         for (const tf::point3& p : there.points)
             if (single) CHECK(p.z == double{static_cast<float>(p.z)});

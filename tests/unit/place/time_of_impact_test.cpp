@@ -48,11 +48,11 @@ expected by_brute_force(const tf::mesh& a, const tf::mesh& b, const tf::point3& 
 void check_impact(const tf::mesh& a, const tf::mesh& b, const tf::point3& d) {
     const auto ours = tf::time_of_impact(a, b, d, {.limit = 1'000'000});
     if (tf::intersects(a, b)) {
-        CHECK(ours.end == tf::placement_end::starts_touching);
+        CHECK(ours.outcome == tf::placement_outcome::starts_touching);
         return;
     }
     const expected truth = by_brute_force(a, b, d);
-    REQUIRE((ours.end == tf::placement_end::contact) == truth.first.has_value());
+    REQUIRE((ours.outcome == tf::placement_outcome::contact) == truth.first.has_value());
     if (!truth.first) return;
     REQUIRE(ours.contacts.size() == truth.pairs.size());
     CHECK(ours.contact_count == truth.pairs.size());
@@ -71,7 +71,7 @@ void check_impact(const tf::mesh& a, const tf::mesh& b, const tf::point3& d) {
 TEST_CASE("time of impact: a box falls flat on another, on every pair of faces that share area") {
     const tf::mesh floor = box(4, 4, 1);
     const auto found = tf::time_of_impact(moved(box(1, 1, 1), {1, 1, 5.5}), floor, {0, 0, -1});
-    CHECK(found.end == tf::placement_end::contact);
+    CHECK(found.outcome == tf::placement_outcome::contact);
     CHECK(found.time == 4.5);
     for (const tf::face_contact& c : found.contacts) CHECK(c.point.z == 1.0);
     CHECK(found.contact_count >= 2);
@@ -79,22 +79,22 @@ TEST_CASE("time of impact: a box falls flat on another, on every pair of faces t
     CHECK(tf::time_of_impact(moved(box(1, 1, 1), {1, 1, 5.5}), floor, {0, 0, -2}).time == 2.25);
     const auto short_of = tf::time_of_impact(moved(box(1, 1, 1), {1, 1, 5.5}), floor, {0, 0, -1},
                                              {.latest = std::nextafter(4.5, 0.0)});
-    CHECK(short_of.end == tf::placement_end::nothing_met);
+    CHECK(short_of.outcome == tf::placement_outcome::nothing_met);
     CHECK(tf::time_of_impact(moved(box(1, 1, 1), {1, 1, 5.5}), floor, {0, 0, -1}, {.latest = 4.5})
-              .end == tf::placement_end::contact);
+              .outcome == tf::placement_outcome::contact);
 }
 
 TEST_CASE("time of impact: what only grazes has a contact, what passes by an ulp has none") {
     const tf::mesh still = box(1, 1, 1);
     const double low = std::nextafter(1.0, 2.0);
     CHECK(tf::time_of_impact(moved(box(1, 1, 1), {-3, 1, 0}), still, {1, 0, 0}).time == 2.0);
-    CHECK(tf::time_of_impact(moved(box(1, 1, 1), {-3, low, 0}), still, {1, 0, 0}).end ==
-          tf::placement_end::nothing_met);
+    CHECK(tf::time_of_impact(moved(box(1, 1, 1), {-3, low, 0}), still, {1, 0, 0}).outcome ==
+          tf::placement_outcome::nothing_met);
     CHECK(tf::time_of_impact(moved(box(1, 1, 1), {-3, 1, 1}), still, {1, 0, 0}).time == 2.0);
-    CHECK(tf::time_of_impact(moved(box(1, 1, 1), {1, 0, 0}), still, {1, 0, 0}).end ==
-          tf::placement_end::starts_touching);
-    CHECK(tf::time_of_impact(moved(box(1, 1, 1), {2, 0, 0}), still, {1, 0, 0}).end ==
-          tf::placement_end::nothing_met);
+    CHECK(tf::time_of_impact(moved(box(1, 1, 1), {1, 0, 0}), still, {1, 0, 0}).outcome ==
+          tf::placement_outcome::starts_touching);
+    CHECK(tf::time_of_impact(moved(box(1, 1, 1), {2, 0, 0}), still, {1, 0, 0}).outcome ==
+          tf::placement_outcome::nothing_met);
 }
 
 TEST_CASE("time of impact: a mesh inside another runs to its wall") {
@@ -128,7 +128,7 @@ TEST_CASE(
     const tf::mesh b = test::random_soup(source, 60, 0.3);
     const tf::point3 d{0.1, -0.2, -1};
     const auto plain = tf::time_of_impact(a, b, d);
-    REQUIRE(plain.end == tf::placement_end::contact);
+    REQUIRE(plain.outcome == tf::placement_outcome::contact);
     for (const double scale : {0x1p-300, 0x1p-40, 0x1p40, 0x1p300}) {
         const auto scaled = [&](tf::mesh mesh) {
             for (tf::point3& p : mesh.points)
@@ -155,7 +155,7 @@ TEST_CASE(
         const tf::point3 d{source.in(-0.2, 0.2), source.in(-0.2, 0.2), 1.0};
         const auto one = tf::time_of_impact(a, b, d);
         const auto other = tf::time_of_impact(b, a, {-d.x, -d.y, -d.z});
-        REQUIRE(one.end == other.end);
+        REQUIRE(one.outcome == other.outcome);
         CHECK(one.time == other.time);
         CHECK(one.contact_count == other.contact_count);
         if (one.contact_count != 1) continue;
@@ -192,7 +192,8 @@ TEST_CASE("time of impact: motions and times that cannot be meant are refused") 
                     std::invalid_argument);
     CHECK_THROWS_AS(static_cast<void>(tf::time_of_impact(a, b, {0, 0, 1}, {.latest = nan})),
                     std::invalid_argument);
-    CHECK(tf::time_of_impact(tf::mesh{}, b, {0, 0, 1}).end == tf::placement_end::nothing_met);
+    CHECK(tf::time_of_impact(tf::mesh{}, b, {0, 0, 1}).outcome ==
+          tf::placement_outcome::nothing_met);
 }
 
 TEST_CASE("a sweep visits every pair of boxes that meet within the time, once") {

@@ -65,7 +65,7 @@ void check_turn(const tf::mesh& moving, const tf::mesh& fixed, const tf::placeme
             if (single) CHECK(found.points[i][k] == double{static_cast<float>(found.points[i][k])});
         }
     }
-    CHECK(found.end == tf::placement_end::contact);
+    CHECK(found.outcome == tf::placement_outcome::contact);
     CHECK_FALSE(found.contacts.empty());
 }
 
@@ -96,10 +96,10 @@ TEST_CASE("turn: what is free all around meets nothing, also in a bore that it n
     const tf::mesh bore = test::moved(test::tube(20, 10 + 0.05, 10, 96), {0, 0, 5});
     const auto found = tf::turn(shaft, bore, {}, up);
     CHECK_FALSE(found);
-    CHECK(found.end == tf::placement_end::nothing_met);
+    CHECK(found.outcome == tf::placement_outcome::nothing_met);
     CHECK(found.statistics.steps < 5000);
     const auto nothing = tf::turn(shaft, test::moved(bore, {100, 0, 0}), {}, up);
-    CHECK(nothing.end == tf::placement_end::nothing_met);
+    CHECK(nothing.outcome == tf::placement_outcome::nothing_met);
     CHECK(nothing.statistics.fixed_culled == 1);
     // A hexagonal shaft in a hexagonal bore gets stuck.
     const tf::mesh nut = test::tube(20, 11, 10, 6),
@@ -112,9 +112,9 @@ TEST_CASE("turn: what is free all around meets nothing, also in a bore that it n
     const double angle = 30 - std::acos(11 * std::cos(pi / 6) / 10.5) * 180 / pi;
     CHECK(stuck.angle == doctest::Approx(angle).epsilon(1e-7));
     tf::placement_options few{.max_steps = 3};
-    CHECK(tf::turn(shaft, bore, {}, up, few).end == tf::placement_end::too_many_steps);
+    CHECK(tf::turn(shaft, bore, {}, up, few).outcome == tf::placement_outcome::too_many_steps);
     few = {.max_angle = 0.5 * angle};
-    CHECK(tf::turn(screw, nut, {}, up, few).end == tf::placement_end::nothing_met);
+    CHECK(tf::turn(screw, nut, {}, up, few).outcome == tf::placement_outcome::nothing_met);
 }
 
 TEST_CASE("turn: on the way nothing is met, and a little further something is") {
@@ -174,20 +174,20 @@ TEST_CASE("turn: what touches at the start stays, what penetrates has no place")
     const tf::mesh box = test::box(1, 1, 1);
     const auto touching = tf::turn(box, test::moved(box, {1, 0, 0}), {}, up);
     REQUIRE(touching);
-    CHECK(touching.end == tf::placement_end::unchanged);
+    CHECK(touching.outcome == tf::placement_outcome::unchanged);
     CHECK(touching.points == box.points);
     CHECK(touching.angle == 0.0);
-    CHECK(tf::turn(box, test::moved(box, {1, 0, 0}), {}, up, {.clearance = 1}).end ==
-          tf::placement_end::starts_touching);
-    CHECK(tf::turn(box, test::moved(box, {0.5, 0, 0}), {}, up).end ==
-          tf::placement_end::starts_penetrating);
-    CHECK(tf::turn(box, test::moved(box, {1.5, 0, 0}), {}, up, {.clearance = 1}).end ==
-          tf::placement_end::starts_too_near);
-    CHECK(tf::turn(box, tf::mesh{}, {}, up).end == tf::placement_end::nothing_met);
-    CHECK(tf::turn(tf::mesh{}, box, {}, up).end == tf::placement_end::nothing_met);
+    CHECK(tf::turn(box, test::moved(box, {1, 0, 0}), {}, up, {.clearance = 1}).outcome ==
+          tf::placement_outcome::starts_touching);
+    CHECK(tf::turn(box, test::moved(box, {0.5, 0, 0}), {}, up).outcome ==
+          tf::placement_outcome::starts_penetrating);
+    CHECK(tf::turn(box, test::moved(box, {1.5, 0, 0}), {}, up, {.clearance = 1}).outcome ==
+          tf::placement_outcome::starts_too_near);
+    CHECK(tf::turn(box, tf::mesh{}, {}, up).outcome == tf::placement_outcome::nothing_met);
+    CHECK(tf::turn(tf::mesh{}, box, {}, up).outcome == tf::placement_outcome::nothing_met);
     CHECK(tf::turn(box, test::moved(box, {3, 0, 0}), {}, up,
                    {.progress = [](double) { return false; }})
-              .end == tf::placement_end::cancelled);
+              .outcome == tf::placement_outcome::cancelled);
 }
 
 TEST_CASE("turn: what cannot be meant is refused") {

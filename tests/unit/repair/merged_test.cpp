@@ -56,13 +56,13 @@ void check_same(const tf::mesh& mesh, tf::repair_options options) {
     CHECK(merged.mesh.faces.size() <= as_cut.mesh.faces.size());
     CHECK(tf::signed_volume(merged.mesh) == doctest::Approx(tf::signed_volume(as_cut.mesh)));
     CHECK(area_filled(merged) == doctest::Approx(area_filled(as_cut)));
-    CHECK(merged.is_left == as_cut.is_left);
+    CHECK(merged.is_kept == as_cut.is_kept);
     CHECK(merged.statistics.removed == as_cut.statistics.removed);
     CHECK(merged.statistics.dropped_shells == as_cut.statistics.dropped_shells);
     CHECK(merged.statistics.vanished_components == as_cut.statistics.vanished_components);
     CHECK(merged.statistics.area_lost == doctest::Approx(as_cut.statistics.area_lost));
     for (const std::uint32_t f : merged.face_source)
-        if (f != tf::repair_result::none) CHECK(merged.is_left[f] == 1);
+        if (f != tf::repair_result::none) CHECK(merged.is_kept[f] == 1);
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ TEST_CASE(
     CHECK(made.statistics.area_lost == 0.0);
     check_same(dirty, {});
     // A face that is none of the lowest is left, too.
-    CHECK(std::ranges::count(made.is_left, 1) >
+    CHECK(std::ranges::count(made.is_kept, 1) >
           static_cast<std::ptrdiff_t>(dirty.faces.size() / 2));
 }
 
@@ -130,7 +130,7 @@ TEST_CASE("repair: what is too thin for floats is a loss, also where its faces w
         const tf::repair_result made =
             tf::repair(dirty, {.precision = to_float, .keep_cuts = keep_cuts});
         CHECK(made.certificate.status == tf::status::excessive_loss);
-        CHECK(std::ranges::count(made.is_left, 1) == 12);
+        CHECK(std::ranges::count(made.is_kept, 1) == 12);
         CHECK(made.statistics.vanished_components == 2);
         const tf::repair_result resolved = tf::resolve_self_intersections(
             dirty, tf::resolve_mode::outer, {.precision = to_float, .keep_cuts = keep_cuts});

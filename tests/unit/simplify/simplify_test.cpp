@@ -129,7 +129,7 @@ void check_distances(const tf::mesh& given, const tf::simplify_result& made) {
     const auto far = tf::deviation(given, made.mesh);
     REQUIRE(far);
     CHECK(far->max <= made.input_to_result_bound * (1 + 1e-12));
-    CHECK(far->back_max.value() <= made.result_to_input_bound * (1 + 1e-12));
+    CHECK(far->reverse_max.value() <= made.result_to_input_bound * (1 + 1e-12));
 }
 
 bool same(const tf::simplify_result& a, const tf::simplify_result& b) {

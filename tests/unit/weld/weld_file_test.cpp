@@ -79,7 +79,7 @@ TEST_CASE("weld: the polygons of a file are polygons again") {
     CHECK(welded.file.stored_face == ids{0, 0, 1});
     CHECK(welded.file.stored_faces == 2);
     CHECK(welded.groups.group_of_point == ids{0, 1, 2, 3, 1, 4, 2});
-    CHECK(welded.face_of_new == ids{0, 1, 2});
+    CHECK(welded.face_source == ids{0, 1, 2});
 }
 
 TEST_CASE("weld: the groups of a soup are those of its corners") {
@@ -88,10 +88,10 @@ TEST_CASE("weld: the groups of a soup are those of its corners") {
     CHECK(welded.file.indexed);
     CHECK(welded.file.format == file.format);
     CHECK(welded.groups.group_of_point.size() == file.mesh.points.size());
-    CHECK(welded.point_of_group.size() == 8);
+    CHECK(welded.vertex_source.size() == 8);
     CHECK(welded.statistics.groups == 8);
     for (std::uint32_t g = 0; g < 8; ++g)
-        CHECK(file.mesh.points[welded.point_of_group[g]] == welded.file.mesh.points[g]);
+        CHECK(file.mesh.points[welded.vertex_source[g]] == welded.file.mesh.points[g]);
 }
 
 TEST_CASE("weld: seams of a mesh are kept when asked for, except for those across") {

@@ -63,8 +63,8 @@ void check_survivors(const tf::weld_result& welded, const ids& expected) {
     for (const std::uint32_t g : welded.groups.group_of_point)
         found.push_back(welded.groups.first_of_group[g]);
     CHECK(found == expected);
-    CHECK(welded.point_of_group == welded.groups.first_of_group);
-    CHECK(std::is_sorted(welded.point_of_group.begin(), welded.point_of_group.end()));
+    CHECK(welded.vertex_source == welded.groups.first_of_group);
+    CHECK(std::is_sorted(welded.vertex_source.begin(), welded.vertex_source.end()));
 }
 
 /// Values with many ties, some NaN, an infinity now and then.
@@ -86,7 +86,7 @@ TEST_CASE("weld: an order says which point stays, ties by number and NaN last") 
     const auto kept = [&](const std::vector<double>& q, bool highest_first, const char* by = "q") {
         return tf::weld(cloud.points, vertex_columns({{"q", q}}),
                         {.tolerance = 1.0, .order_by = by, .highest_first = highest_first})
-            .point_of_group;
+            .vertex_source;
     };
     constexpr bool lowest = false, highest = true;
     for (const bool highest_first : {lowest, highest})
@@ -99,7 +99,7 @@ TEST_CASE("weld: an order says which point stays, ties by number and NaN last") 
     CHECK(kept({not_a_number, -infinity, not_a_number, -1}, highest) == ids{1, 3});
     const auto by_axis =
         tf::weld(cloud.points, {.tolerance = 1.0, .order_by = "x", .highest_first = true});
-    CHECK(by_axis.point_of_group == ids{1, 3});
+    CHECK(by_axis.vertex_source == ids{1, 3});
     CHECK(by_axis.groups.group_of_point == ids{0, 0, 1, 1});
     CHECK(by_axis.mesh.points == std::vector<tf::point3>{{1, 0, 0}, {3, 0, 0}});
 }
@@ -161,7 +161,7 @@ TEST_CASE("weld: an order of whole numbers that no double holds") {
                                                    tf::column::of<std::uint64_t>("id", id)};
     const auto kept = [&](const char* by, bool highest_first) {
         return tf::weld(cloud.points, properties, {.order_by = by, .highest_first = highest_first})
-            .point_of_group;
+            .vertex_source;
     };
     CHECK(kept("time", false) == ids{2});
     CHECK(kept("time", true) == ids{0});
@@ -179,7 +179,7 @@ TEST_CASE("weld: faces follow points that are kept by an order, split groups kee
         tf::weld_options options{.keep_manifold = manifold};
         options.order_by = "rank";
         const auto welded = tf::weld(file, options);
-        CHECK(welded.point_of_group == ids{1, 3, 4, 5});
+        CHECK(welded.vertex_source == ids{1, 3, 4, 5});
         CHECK(welded.groups.group_of_point == ids{1, 0, 2, 1, 2, 3});
         CHECK(welded.file.mesh.faces == std::vector<tf::face>{{1, 0, 2}, {1, 2, 3}});
     }

@@ -105,7 +105,7 @@ TEST_CASE("weld: whole numbers that no double holds are told apart") {
     CHECK(groups("id", 0x1p63) == ids{0, 0, 1});
     CHECK(groups("id", 0x1p64) == ids{0, 0, 0});
     const auto kept = [&](tf::weld_keep keep, const char* by) {
-        return tf::weld(cloud, properties, {.keep = keep, .keep_by = by}).point_of_group;
+        return tf::weld(cloud, properties, {.keep = keep, .keep_by = by}).vertex_source;
     };
     CHECK(kept(tf::weld_keep::lowest, "time") == ids{1});
     CHECK(kept(tf::weld_keep::highest, "time") == ids{2});
@@ -157,8 +157,8 @@ TEST_CASE("weld: the point that is kept is the one asked for") {
         const auto welded =
             tf::weld(cloud, properties, {.tolerance = 4.0, .keep = keep, .keep_by = by});
         CHECK(welded.groups.first_of_group == ids{0, 4});
-        CHECK(welded.mesh.points[0] == cloud.points[welded.point_of_group[0]]);
-        return welded.point_of_group;
+        CHECK(welded.mesh.points[0] == cloud.points[welded.vertex_source[0]]);
+        return welded.vertex_source;
     };
     CHECK(kept(tf::weld_keep::first) == ids{0, 4});
     CHECK(kept(tf::weld_keep::last) == ids{3, 4});
@@ -237,7 +237,7 @@ TEST_CASE("weld: rows of vertices, faces and edges follow, parts keep their face
     properties.comments = {"kept"};
 
     const auto welded = tf::weld(mesh, properties, {.keep = tf::weld_keep::last});
-    CHECK(welded.face_of_new == ids{1, 2, 4});
+    CHECK(welded.face_source == ids{1, 2, 4});
     const tf::attributes& now = welded.attributes;
     CHECK(same_values(values_of(now, "vertex", "q"), {10, 12, 13, 14}));
     CHECK(same_values(values_of(now, "face", "material"), {1, 2, 4}));
@@ -263,7 +263,7 @@ TEST_CASE(
         .material_files = {"a.mtl"},
         .texture_files = {"a.png"}};
     const auto welded = tf::weld(mesh, properties, {});
-    CHECK(welded.face_of_new == ids{1, 2});
+    CHECK(welded.face_source == ids{1, 2});
     tf::attributes expected = properties;
     expected.corners.texture_of_corner = {{0, 1, 2}, {2, none, 1}};
     expected.corners.normal_of_corner = {{none, 0, 0}, {0, 0, none}};

@@ -46,7 +46,7 @@ void check_faces(const tf::mesh& mesh, const tf::weld_result& welded) {
         old.push_back(i);
     }
     CHECK(welded.mesh.faces == faces);
-    CHECK(welded.face_of_new == old);
+    CHECK(welded.face_source == old);
     CHECK(welded.statistics.collapsed == collapsed);
     CHECK(welded.statistics.degenerate == degenerate);
 }
@@ -68,7 +68,7 @@ void check_result(const tf::mesh& mesh, const tf::weld_options& options) {
     const tf::point_groups groups = tf::group_points(mesh.points, options);
     CHECK(welded.groups.group_of_point == groups.group_of_point);
     CHECK(welded.groups.first_of_group == groups.first_of_group);
-    CHECK(welded.point_of_group == groups.first_of_group);
+    CHECK(welded.vertex_source == groups.first_of_group);
     for (std::size_t g = 0; g < groups.first_of_group.size(); ++g)
         CHECK(welded.mesh.points[g] == mesh.points[groups.first_of_group[g]]);
     check_faces(mesh, welded);
@@ -82,7 +82,7 @@ void check_result(const tf::mesh& mesh, const tf::weld_options& options) {
         const auto plane = [](const tf::mesh& m, const tf::face& f) {
             return tf::plane_points{m.points[f[0]], m.points[f[1]], m.points[f[2]]};
         };
-        const tf::face& old = mesh.faces[welded.face_of_new[i]];
+        const tf::face& old = mesh.faces[welded.face_source[i]];
         const tf::face& now = welded.mesh.faces[i];
         flipped += tf::normal_dot(plane(mesh, old), plane(welded.mesh, now)) < 0 ? 1 : 0;
     }
@@ -97,8 +97,8 @@ void check_same_weld(const tf::weld_result& a, const tf::weld_result& b) {
     CHECK(a.mesh == b.mesh);
     CHECK(a.attributes == b.attributes);
     CHECK(a.groups.group_of_point == b.groups.group_of_point);
-    CHECK(a.point_of_group == b.point_of_group);
-    CHECK(a.face_of_new == b.face_of_new);
+    CHECK(a.vertex_source == b.vertex_source);
+    CHECK(a.face_source == b.face_source);
     CHECK(a.statistics.collapsed == b.statistics.collapsed);
     CHECK(a.statistics.degenerate == b.statistics.degenerate);
     CHECK(a.statistics.max_displacement == b.statistics.max_displacement);
@@ -171,13 +171,13 @@ TEST_CASE("weld: faces that repeat a corner are dropped, or kept when asked for"
     const auto welded = tf::weld(mesh, {}, {});
     CHECK(welded.statistics.collapsed == 1);
     CHECK(welded.statistics.degenerate == 1);
-    CHECK(welded.face_of_new == ids{2, 3});
+    CHECK(welded.face_source == ids{2, 3});
     CHECK(welded.mesh.faces == std::vector<tf::face>{{0, 1, 2}, {0, 1, 2}});
 
     const auto kept = tf::weld(mesh, {}, {.keep_degenerate = true});
     CHECK(kept.statistics.collapsed == 1);
     CHECK(kept.statistics.degenerate == 1);
-    CHECK(kept.face_of_new == ids{0, 1, 2, 3});
+    CHECK(kept.face_source == ids{0, 1, 2, 3});
     CHECK(kept.mesh.faces == std::vector<tf::face>{{0, 0, 1}, {1, 1, 2}, {0, 1, 2}, {0, 1, 2}});
 }
 

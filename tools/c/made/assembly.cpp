@@ -34,7 +34,7 @@ void treeform_clash_options_init(treeform_clash_options* options, size_t size) {
     to.effort = from.effort;
     to.limit = from.limit;
     to.first_only = from.first_only;
-    to.vertices = static_cast<treeform_vertices>(from.vertices);
+    to.vertices = static_cast<treeform_vertex_identity>(from.vertices);
     glue::init(options, size, to);
 }
 
@@ -89,14 +89,15 @@ treeform_code treeform_bodies_of(const treeform_file* const* files, const char* 
     });
 }
 
-treeform_code treeform_put_back(treeform_bodies* bodies, size_t body, const double* points,
-                                size_t count, const double* matrix, treeform_precision written_as,
-                                treeform_file** file) {
+treeform_code treeform_move_in_file(treeform_bodies* bodies, size_t body, const double* points,
+                                    size_t count, const double* matrix,
+                                    treeform_precision written_as, treeform_file** file) {
     return glue::guard([&] {
         glue::start(file);
-        return glue::give(glue::put_back(bodies, body, points, count, matrix,
-                                         glue::choice<tf::precision>(written_as, 2, "written_as")),
-                          file);
+        return glue::give(
+            glue::move_in_file(bodies, body, points, count, matrix,
+                               glue::choice<tf::precision>(written_as, 2, "written_as")),
+            file);
     });
 }
 

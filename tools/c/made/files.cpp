@@ -147,13 +147,13 @@ tf::part_options glue::read(const treeform_part_options& o) {
 void treeform_part_options_init(treeform_part_options* options, size_t size) {
     treeform_part_options to{};
     const tf::part_options from;
-    to.vertices = static_cast<treeform_vertices>(from.vertices);
+    to.vertices = static_cast<treeform_vertex_identity>(from.vertices);
     to.tolerance = from.tolerance;
     to.details = from.details;
     glue::init(options, size, to);
 }
 
-void glue::fill(keeper& kept, const tf::usable_mesh& from, treeform_part& to) {
+void glue::fill(keeper& kept, const tf::usable_mesh& from, treeform_usable_mesh& to) {
     to.mesh = arrays(from.mesh);
     to.triangle_of_face = or_null(from.triangle_of_face);
     to.non_finite = from.non_finite;
@@ -240,10 +240,10 @@ treeform_code treeform_file_copy(const treeform_file* file, treeform_file** made
     });
 }
 
-treeform_code treeform_file_look(const treeform_file* file, treeform_file_view** view) {
+treeform_code treeform_file_content(const treeform_file* file, treeform_file_view** view) {
     return glue::guard([&] {
         glue::start(view);
-        return glue::give(glue::file_look(glue::content(file, "file")), view);
+        return glue::give(glue::file_content(glue::content(file, "file")), view);
     });
 }
 
@@ -277,7 +277,8 @@ treeform_code treeform_file_add_part(treeform_file* file, const char* object, co
     });
 }
 
-treeform_code treeform_file_add_text(treeform_file* file, treeform_text kind, const char* text) {
+treeform_code treeform_file_add_text(treeform_file* file, treeform_text_kind kind,
+                                     const char* text) {
     return glue::guard([&] {
         glue::file_add_text(glue::content(file, "file"), kind,
                             std::string(&glue::need(text, "text")));
@@ -306,8 +307,8 @@ treeform_code treeform_file_transform(treeform_file* file, const double* matrix)
     return glue::guard([&] { glue::file_transform(glue::content(file, "file"), matrix); });
 }
 
-treeform_code treeform_file_turn_normals(treeform_file* file, const double* matrix) {
-    return glue::guard([&] { glue::file_turn_normals(glue::content(file, "file"), matrix); });
+treeform_code treeform_file_transform_normals(treeform_file* file, const double* matrix) {
+    return glue::guard([&] { glue::file_transform_normals(glue::content(file, "file"), matrix); });
 }
 
 treeform_code treeform_write(const char* path, const treeform_file* file,
@@ -359,18 +360,18 @@ treeform_code treeform_write_memory(const treeform_file* file,
 }
 
 treeform_code treeform_usable_part(const treeform_file* file, const treeform_part_options* options,
-                                   treeform_part** part) {
+                                   treeform_usable_mesh** mesh) {
     return glue::guard([&] {
-        glue::start(part);
+        glue::start(mesh);
         return glue::give(glue::usable_part(glue::content(file, "file"), glue::read(options)),
-                          part);
+                          mesh);
     });
 }
 
-treeform_code treeform_as_mesh(const treeform_file* file, treeform_part** part) {
+treeform_code treeform_as_mesh(const treeform_file* file, treeform_usable_mesh** mesh) {
     return glue::guard([&] {
-        glue::start(part);
-        return glue::give(glue::as_mesh(glue::content(file, "file")), part);
+        glue::start(mesh);
+        return glue::give(glue::as_mesh(glue::content(file, "file")), mesh);
     });
 }
 
@@ -408,10 +409,10 @@ treeform_code treeform_read_urdf(const char* path, const char* const* package_fo
     });
 }
 
-treeform_code treeform_robot_look(const treeform_robot* robot, treeform_robot_view** view) {
+treeform_code treeform_robot_content(const treeform_robot* robot, treeform_robot_view** view) {
     return glue::guard([&] {
         glue::start(view);
-        return glue::give(glue::robot_look(glue::content(robot, "robot")), view);
+        return glue::give(glue::robot_content(glue::content(robot, "robot")), view);
     });
 }
 

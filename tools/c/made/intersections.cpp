@@ -52,7 +52,7 @@ tf::intersection_options glue::read(const treeform_intersection_options& o) {
 void treeform_intersection_options_init(treeform_intersection_options* options, size_t size) {
     treeform_intersection_options to{};
     const tf::intersection_options from;
-    to.vertices = static_cast<treeform_vertices>(from.vertices);
+    to.vertices = static_cast<treeform_vertex_identity>(from.vertices);
     to.first_only = from.first_only;
     to.kinds = TREEFORM_ALL_KINDS;
     to.between = from.between;
@@ -214,7 +214,7 @@ treeform_code treeform_write_curves(const char* path, const treeform_mesh* mesh,
     });
 }
 
-treeform_code treeform_color_pairs(treeform_file* file, const treeform_part* part,
+treeform_code treeform_color_pairs(treeform_file* file, const treeform_usable_mesh* part,
                                    const treeform_face_pair* pairs, size_t count) {
     return glue::guard([&] { glue::color_pairs(glue::content(file, "file"), part, pairs, count); });
 }

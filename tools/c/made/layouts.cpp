@@ -11,13 +11,13 @@ static_assert(TREEFORM_POINT_TO_PLANE == static_cast<int>(tf::align_method::poin
 static_assert(TREEFORM_POINT_TO_POINT == static_cast<int>(tf::align_method::point_to_point));
 static_assert(TREEFORM_ALIGN_AUTOMATIC == static_cast<int>(tf::align_method::automatic));
 static_assert(TREEFORM_PLANE_TO_PLANE == static_cast<int>(tf::align_method::plane_to_plane));
-static_assert(TREEFORM_ALIGN_CONVERGED == static_cast<int>(tf::align_end::converged));
+static_assert(TREEFORM_ALIGN_CONVERGED == static_cast<int>(tf::align_outcome::converged));
 static_assert(TREEFORM_ALIGN_OUT_OF_ITERATIONS ==
-              static_cast<int>(tf::align_end::out_of_iterations));
-static_assert(TREEFORM_ALIGN_DOUBTFUL == static_cast<int>(tf::align_end::doubtful));
-static_assert(TREEFORM_ALIGN_NOTHING == static_cast<int>(tf::align_end::nothing_to_align));
-const char* treeform_align_end_name(treeform_align_end value) {
-    return glue::name_of<tf::align_end>(value);
+              static_cast<int>(tf::align_outcome::out_of_iterations));
+static_assert(TREEFORM_ALIGN_DOUBTFUL == static_cast<int>(tf::align_outcome::doubtful));
+static_assert(TREEFORM_ALIGN_NOTHING == static_cast<int>(tf::align_outcome::nothing_to_align));
+const char* treeform_align_outcome_name(treeform_align_outcome value) {
+    return glue::name_of<tf::align_outcome>(value);
 }
 
 tf::lay_flat_options glue::read(const treeform_lay_flat_options* options) {
@@ -198,7 +198,7 @@ void glue::fill(keeper& kept, const tf::align_result& from, treeform_align_resul
     to.uncertainty = from.uncertainty;
     to.freedoms = same<treeform_freedom>(from.freedoms);
     to.freedom_count = from.freedoms.size();
-    to.end = static_cast<treeform_align_end>(from.end);
+    to.outcome = static_cast<treeform_align_outcome>(from.outcome);
     to.iterations = from.iterations;
     to.start = from.start;
     to.message = kept.keep(from.message()).c_str();

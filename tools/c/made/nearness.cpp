@@ -55,7 +55,7 @@ void treeform_measure_options_init(treeform_measure_options* options, size_t siz
     treeform_measure_options to{};
     const tf::measure_options from;
     to.radius = from.radius;
-    to.vertices = static_cast<treeform_vertices>(from.vertices);
+    to.vertices = static_cast<treeform_vertex_identity>(from.vertices);
     to.directions = from.directions;
     to.effort = from.effort;
     glue::init(options, size, to);
@@ -120,8 +120,8 @@ void glue::fill(keeper&, const tf::deviation_result& from, treeform_deviation_re
     to.lowest = from.lowest;
     to.highest = from.highest;
     to.max_bound = from.max_bound;
-    to.back_max = from.back_max.value_or(not_known);
-    to.back_max_bound = from.back_max_bound.value_or(not_known);
+    to.reverse_max = from.reverse_max.value_or(not_known);
+    to.reverse_max_bound = from.reverse_max_bound.value_or(not_known);
     to.histogram = or_null(from.histogram);
     to.bins = from.histogram.size();
     if (from.band_counts)
@@ -135,13 +135,13 @@ treeform_code treeform_closest_point(const treeform_mesh* mesh, const double* qu
         [&] { glue::closest_point(mesh, queries, count, radius, faces, distances, points); });
 }
 
-treeform_code treeform_closest_points(const treeform_mesh* a, const treeform_mesh* b,
-                                      const double* move_a, const double* move_b, double radius,
-                                      treeform_closest* result) {
+treeform_code treeform_closest_pair(const treeform_mesh* a, const treeform_mesh* b,
+                                    const double* move_a, const double* move_b, double radius,
+                                    treeform_closest* result) {
     return glue::guard([&] {
         (void)glue::need(result, "result");
-        *result = glue::closest_points(glue::ref(a, "a"), glue::ref(b, "b"), glue::matrix(move_a),
-                                       glue::matrix(move_b), radius);
+        *result = glue::closest_pair(glue::ref(a, "a"), glue::ref(b, "b"), glue::matrix(move_a),
+                                     glue::matrix(move_b), radius);
     });
 }
 
@@ -215,7 +215,7 @@ treeform_code treeform_measure(const treeform_mesh* a, const treeform_mesh* b,
 }
 
 treeform_code treeform_relate(const treeform_mesh* a, const treeform_mesh* b,
-                              treeform_vertices vertices, treeform_mesh_relation* result) {
+                              treeform_vertex_identity vertices, treeform_mesh_relation* result) {
     return glue::guard([&] {
         (void)glue::need(result, "result");
         *result = static_cast<treeform_mesh_relation>(

@@ -7,31 +7,35 @@
 
 namespace tf = treeform;
 
-static_assert(TREEFORM_END_CONTACT == static_cast<int>(tf::placement_end::contact));
-static_assert(TREEFORM_END_BED == static_cast<int>(tf::placement_end::bed));
-static_assert(TREEFORM_END_UNCHANGED == static_cast<int>(tf::placement_end::unchanged));
-static_assert(TREEFORM_END_MOVED_APART == static_cast<int>(tf::placement_end::moved_apart));
-static_assert(TREEFORM_END_NOTHING_MET == static_cast<int>(tf::placement_end::nothing_met));
-static_assert(TREEFORM_END_TOO_FAR == static_cast<int>(tf::placement_end::too_far));
-static_assert(TREEFORM_END_STARTS_PENETRATING ==
-              static_cast<int>(tf::placement_end::starts_penetrating));
-static_assert(TREEFORM_END_STARTS_TOO_NEAR == static_cast<int>(tf::placement_end::starts_too_near));
-static_assert(TREEFORM_END_STARTS_TOUCHING == static_cast<int>(tf::placement_end::starts_touching));
-static_assert(TREEFORM_END_STARTS_BELOW_BED ==
-              static_cast<int>(tf::placement_end::starts_below_bed));
-static_assert(TREEFORM_END_NOT_REPRESENTABLE ==
-              static_cast<int>(tf::placement_end::not_representable));
-static_assert(TREEFORM_END_TOO_MANY_STEPS == static_cast<int>(tf::placement_end::too_many_steps));
-static_assert(TREEFORM_END_OUT_OF_RANGE == static_cast<int>(tf::placement_end::out_of_range));
-static_assert(TREEFORM_END_CANCELLED == static_cast<int>(tf::placement_end::cancelled));
-const char* treeform_placement_end_name(treeform_placement_end value) {
-    return glue::name_of<tf::placement_end>(value);
+static_assert(TREEFORM_OUTCOME_CONTACT == static_cast<int>(tf::placement_outcome::contact));
+static_assert(TREEFORM_OUTCOME_BED == static_cast<int>(tf::placement_outcome::bed));
+static_assert(TREEFORM_OUTCOME_UNCHANGED == static_cast<int>(tf::placement_outcome::unchanged));
+static_assert(TREEFORM_OUTCOME_MOVED_APART == static_cast<int>(tf::placement_outcome::moved_apart));
+static_assert(TREEFORM_OUTCOME_NOTHING_MET == static_cast<int>(tf::placement_outcome::nothing_met));
+static_assert(TREEFORM_OUTCOME_TOO_FAR == static_cast<int>(tf::placement_outcome::too_far));
+static_assert(TREEFORM_OUTCOME_STARTS_PENETRATING ==
+              static_cast<int>(tf::placement_outcome::starts_penetrating));
+static_assert(TREEFORM_OUTCOME_STARTS_TOO_NEAR ==
+              static_cast<int>(tf::placement_outcome::starts_too_near));
+static_assert(TREEFORM_OUTCOME_STARTS_TOUCHING ==
+              static_cast<int>(tf::placement_outcome::starts_touching));
+static_assert(TREEFORM_OUTCOME_STARTS_BELOW_BED ==
+              static_cast<int>(tf::placement_outcome::starts_below_bed));
+static_assert(TREEFORM_OUTCOME_NOT_REPRESENTABLE ==
+              static_cast<int>(tf::placement_outcome::not_representable));
+static_assert(TREEFORM_OUTCOME_TOO_MANY_STEPS ==
+              static_cast<int>(tf::placement_outcome::too_many_steps));
+static_assert(TREEFORM_OUTCOME_OUT_OF_RANGE ==
+              static_cast<int>(tf::placement_outcome::out_of_range));
+static_assert(TREEFORM_OUTCOME_CANCELLED == static_cast<int>(tf::placement_outcome::cancelled));
+const char* treeform_placement_outcome_name(treeform_placement_outcome value) {
+    return glue::name_of<tf::placement_outcome>(value);
 }
 
-tf::placement_options glue::read(const treeform_place_options* options) {
-    return read(chosen(options, treeform_place_options_init));
+tf::placement_options glue::read(const treeform_placement_options* options) {
+    return read(chosen(options, treeform_placement_options_init));
 }
-tf::placement_options glue::read(const treeform_place_options& o) {
+tf::placement_options glue::read(const treeform_placement_options& o) {
     tf::placement_options how;
     how.clearance = o.clearance;
     how.max_travel = given(o.max_travel);
@@ -52,8 +56,8 @@ tf::placement_options glue::read(const treeform_place_options& o) {
     return how;
 }
 
-void treeform_place_options_init(treeform_place_options* options, size_t size) {
-    treeform_place_options to{};
+void treeform_placement_options_init(treeform_placement_options* options, size_t size) {
+    treeform_placement_options to{};
     const tf::placement_options from;
     using namespace glue;
     to.clearance = from.clearance;
@@ -69,7 +73,7 @@ void treeform_place_options_init(treeform_place_options* options, size_t size) {
     to.face_pairs = from.face_pairs;
     to.effort = from.effort;
     to.limit = from.limit;
-    to.vertices = static_cast<treeform_vertices>(from.vertices);
+    to.vertices = static_cast<treeform_vertex_identity>(from.vertices);
     glue::init(options, size, to);
 }
 
@@ -83,7 +87,7 @@ void glue::fill(keeper&, const tf::placement_contact& from, treeform_contact& to
 
 void glue::fill(keeper& kept, const tf::placement& from, treeform_placement& to) {
     to.certificate = &filled<treeform_certificate>(kept, from.certificate);
-    to.end = static_cast<treeform_placement_end>(from.end);
+    to.outcome = static_cast<treeform_placement_outcome>(from.outcome);
     to.points = flat(from.points);
     to.point_count = from.points.size();
     copy(from.matrix, to.matrix);
@@ -111,7 +115,7 @@ void glue::fill(keeper& kept, const tf::placement& from, treeform_placement& to)
 }
 
 void glue::fill(keeper&, const tf::impact& from, treeform_impact& to) {
-    to.end = static_cast<treeform_placement_end>(from.end);
+    to.outcome = static_cast<treeform_placement_outcome>(from.outcome);
     to.time = from.time;
     to.contacts = same<treeform_impact_contact>(from.contacts);
     to.contact_listed = from.contacts.size();
@@ -148,7 +152,7 @@ void treeform_impact_options_init(treeform_impact_options* options, size_t size)
 
 treeform_code treeform_slide(const treeform_mesh* moving, const treeform_mesh* const* fixed,
                              size_t count, const double direction[3],
-                             const treeform_place_options* options,
+                             const treeform_placement_options* options,
                              treeform_placement** placement) {
     return glue::guard([&] {
         glue::start(placement);
@@ -160,7 +164,8 @@ treeform_code treeform_slide(const treeform_mesh* moving, const treeform_mesh* c
 
 treeform_code treeform_drop(const treeform_mesh* moving, const treeform_mesh* const* fixed,
                             size_t count, const double* direction,
-                            const treeform_place_options* options, treeform_placement** placement) {
+                            const treeform_placement_options* options,
+                            treeform_placement** placement) {
     return glue::guard([&] {
         glue::start(placement);
         return glue::give(glue::drop(glue::ref(moving, "moving"), glue::refs(fixed, count, "fixed"),
@@ -170,7 +175,7 @@ treeform_code treeform_drop(const treeform_mesh* moving, const treeform_mesh* co
 }
 
 treeform_code treeform_mate(const treeform_mesh* moving, const treeform_mesh* const* fixed,
-                            size_t count, const treeform_place_options* options,
+                            size_t count, const treeform_placement_options* options,
                             treeform_placement** placement) {
     return glue::guard([&] {
         glue::start(placement);
@@ -181,7 +186,7 @@ treeform_code treeform_mate(const treeform_mesh* moving, const treeform_mesh* co
 }
 
 treeform_code treeform_separate(const treeform_mesh* moving, const treeform_mesh* const* fixed,
-                                size_t count, const treeform_place_options* options,
+                                size_t count, const treeform_placement_options* options,
                                 treeform_placement** placement) {
     return glue::guard([&] {
         glue::start(placement);
@@ -193,7 +198,8 @@ treeform_code treeform_separate(const treeform_mesh* moving, const treeform_mesh
 
 treeform_code treeform_turn(const treeform_mesh* moving, const treeform_mesh* const* fixed,
                             size_t count, const double origin[3], const double direction[3],
-                            const treeform_place_options* options, treeform_placement** placement) {
+                            const treeform_placement_options* options,
+                            treeform_placement** placement) {
     return glue::guard([&] {
         glue::start(placement);
         return glue::give(tf::turn(glue::ref(moving, "moving"), glue::refs(fixed, count, "fixed"),
@@ -206,7 +212,7 @@ treeform_code treeform_turn(const treeform_mesh* moving, const treeform_mesh* co
 treeform_code treeform_mate_features(const treeform_mesh* moving, const treeform_mesh* const* fixed,
                                      size_t count, const treeform_feature* of_moving,
                                      const treeform_feature* of_fixed,
-                                     const treeform_place_options* options,
+                                     const treeform_placement_options* options,
                                      treeform_placement** placement) {
     return glue::guard([&] {
         glue::start(placement);
@@ -218,7 +224,7 @@ treeform_code treeform_mate_features(const treeform_mesh* moving, const treeform
 }
 
 treeform_code treeform_measure_among(const treeform_mesh* moving, const treeform_mesh* const* fixed,
-                                     size_t count, const treeform_place_options* options,
+                                     size_t count, const treeform_placement_options* options,
                                      treeform_placement** placement) {
     return glue::guard([&] {
         glue::start(placement);

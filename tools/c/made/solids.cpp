@@ -198,14 +198,14 @@ void glue::fill(keeper& kept, const tf::repair_result& from, treeform_repair_res
     to.mesh = arrays(from.mesh);
     to.face_source = or_null(from.face_source);
     to.vertex_source = or_null(from.vertex_source);
-    to.is_left = or_null(from.is_left);
+    to.is_kept = or_null(from.is_kept);
     to.certificate = &filled<treeform_certificate>(kept, from.certificate);
     to.statistics = &filled<treeform_repair_statistics>(kept, from.statistics);
 }
 
 void glue::fill(keeper& kept, const tf::repaired_file& from, treeform_repair_result& to) {
     to.face_source = or_null(from.face_source);
-    to.is_left = or_null(from.is_left);
+    to.is_kept = or_null(from.is_kept);
     to.certificate = &filled<treeform_certificate>(kept, from.certificate);
     to.statistics = &filled<treeform_repair_statistics>(kept, from.statistics);
 }

@@ -67,8 +67,8 @@ void glue::fill(keeper&, const tf::weld_result& from, treeform_weld_result& to) 
     to.point_count = from.groups.group_of_point.size();
     to.first_of_group = or_null(from.groups.first_of_group);
     to.group_count = from.groups.first_of_group.size();
-    to.point_of_group = or_null(from.point_of_group);
-    to.face_of_new = or_null(from.face_of_new);
+    to.vertex_source = or_null(from.vertex_source);
+    to.face_source = or_null(from.face_source);
     to.merged_groups = from.statistics.groups;
     to.non_finite = from.statistics.non_finite;
     to.collapsed = from.statistics.collapsed;
@@ -85,8 +85,8 @@ void glue::fill(keeper&, const tf::file_weld_result& from, treeform_weld_result&
     to.point_count = from.groups.group_of_point.size();
     to.first_of_group = or_null(from.groups.first_of_group);
     to.group_count = from.groups.first_of_group.size();
-    to.point_of_group = or_null(from.point_of_group);
-    to.face_of_new = or_null(from.face_of_new);
+    to.vertex_source = or_null(from.vertex_source);
+    to.face_source = or_null(from.face_source);
     to.merged_groups = from.statistics.groups;
     to.non_finite = from.statistics.non_finite;
     to.collapsed = from.statistics.collapsed;

@@ -95,8 +95,8 @@ tf::weld_result weld_file(tf::mesh_file& file, const tf::weld_options& options) 
     tf::file_weld_result made = tf::weld(file, options);
     file = std::move(made.file);
     return {std::exchange(file.mesh, {}), file.attributes,
-            std::move(made.groups),       std::move(made.point_of_group),
-            std::move(made.face_of_new),  made.statistics};
+            std::move(made.groups),       std::move(made.vertex_source),
+            std::move(made.face_source),  made.statistics};
 }
 
 py::object weld(const held_mesh& mesh, tf::weld_options options, const ids_array& label) {

@@ -15,8 +15,8 @@ from . import _core, _exit
 # made of names:
 from ._core import Attributes
 from ._arrays import NONE
-from ._assembly import (ClashResult, NearestPoints, PartClash, PoseClashes, RELATIONS, check_poses,
-                        clash, closest_points, distance, intersects)
+from ._assembly import (ClashResult, ClosestPair, PartClash, PoseClashes, RELATIONS, check_poses,
+                        clash, closest_pair, distance, intersects)
 from ._booleans import (BooleanResult, boolean, check_operand, clip, difference, intersection,
                         split, symmetric_difference, union)
 from ._cuts import (CutPiece, CutPieces, MassProperties, MeshPart, Section, SectionLoop, components,
@@ -51,17 +51,17 @@ from ._trees import BoxTree, Neighbors, PointTree
 from ._weld import SharedWeld, WeldResult, WeldStreamResult, count_nearly_equal, weld, weld_stream
 
 __all__ = ["Alignment", "AllRayHits", "Attributes", "BooleanResult", "BoxTree", "Cancelled",
-           "Certificate", "CertificateError", "ClashResult", "ClosestPoints", "Contacts",
-           "ConvexHull", "CutPiece", "CutPieces", "Depth", "Deviation", "Error", "FacePairs",
-           "Feature", "FileError", "FilePairs", "Impact", "InvalidFaces", "Isoline", "Isolines",
-           "Joint", "KINDS", "LaidFlat", "MadeMesh", "MassProperties", "Measure", "Mesh",
-           "MeshLike", "MeshPart", "NONE", "NearestPoints", "Neighbors", "NotCertifiedError",
+           "Certificate", "CertificateError", "ClashResult", "ClosestPair", "ClosestPoints",
+           "Contacts", "ConvexHull", "CutPiece", "CutPieces", "Depth", "Deviation", "Error",
+           "FacePairs", "Feature", "FileError", "FilePairs", "Impact", "InvalidFaces", "Isoline",
+           "Isolines", "Joint", "KINDS", "LaidFlat", "MadeMesh", "MassProperties", "Measure",
+           "Mesh", "MeshLike", "MeshPart", "NONE", "Neighbors", "NotCertifiedError",
            "NotSolidError", "OffsetResult", "OrientedBox", "PackedPart", "Packing", "PartClash",
            "Picture", "Placement", "PointTree", "PoseClashes", "RELATIONS", "RayHits", "Region",
            "RepairResult", "Robot", "SearchEffort", "Section", "SectionLoop", "SharedSearch",
            "SharedWeld", "SimplifyResult", "SolidDefects", "Thickness", "Topology", "View",
            "WeldResult", "WeldStreamResult", "Written", "__version__", "align", "boolean",
-           "check_operand", "check_poses", "clash", "clip", "closest_point", "closest_points",
+           "check_operand", "check_poses", "clash", "clip", "closest_pair", "closest_point",
            "components", "concatenate", "contains", "convex_hull", "count_inside_out",
            "count_nearly_equal", "count_topology", "cut", "cut_along", "cut_to_fit", "deviation",
            "difference", "distance", "drop", "face_components", "faces_in_box", "find_features",

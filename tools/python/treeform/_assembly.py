@@ -17,8 +17,8 @@ from ._placement import SearchEffort
 from ._progress import Progress
 from ._results import Result, tuple_repr
 
-__all__ = ["ClashResult", "NearestPoints", "PartClash", "PoseClashes", "RELATIONS", "check_poses",
-           "clash", "closest_points", "distance", "intersects"]
+__all__ = ["ClashResult", "ClosestPair", "PartClash", "PoseClashes", "RELATIONS", "check_poses",
+           "clash", "closest_pair", "distance", "intersects"]
 # end
 
 #: The relations of two parts; numbers in `PoseClashes.relation` are indexes of this list.
@@ -91,7 +91,7 @@ def clashes_in_poses(parts: Iterable[Body], poses: ArrayLike, how: _core.ClashOp
 
 
 # made of headers:
-#   intersects distance NearestPoints closest_points PartClash ClashResult clash
+#   intersects distance ClosestPair closest_pair PartClash ClashResult clash
 #   PoseClashes check_poses
 def intersects(a: Body, b: Body, *, move_a: ArrayLike | None = None,
                move_b: ArrayLike | None = None, progress: Progress = None) -> Any:
@@ -122,7 +122,7 @@ def intersects(a: Body, b: Body, *, move_a: ArrayLike | None = None,
 
 def distance(a: Body, b: Body, *, move_a: ArrayLike | None = None, move_b: ArrayLike | None = None,
              radius: float = np.inf, progress: Progress = None) -> Any:
-    """The distance between the surfaces `a` and `b`; infinite if `closest_points` returns None.
+    """The distance between the surfaces `a` and `b`; infinite if `closest_pair` returns None.
 
     `a` and `b` are each a mesh or a cloud (n, 3). Points of a cloud count as faces.
 
@@ -142,7 +142,7 @@ def distance(a: Body, b: Body, *, move_a: ArrayLike | None = None, move_b: Array
                                      progress=progress), move_a, move_b)
 
 
-class NearestPoints(NamedTuple):
+class ClosestPair(NamedTuple):
     """The nearest points of two meshes.
 
     on_a: (3,) the point on the surface of `a`, rounded, as is `on_b`.
@@ -162,9 +162,9 @@ class NearestPoints(NamedTuple):
         return tuple_repr(self)
 
 
-def closest_points(a: Body, b: Body, *, move_a: ArrayLike | None = None,
-                   move_b: ArrayLike | None = None, radius: float = np.inf,
-                   progress: Progress = None) -> NearestPoints | None:
+def closest_pair(a: Body, b: Body, *, move_a: ArrayLike | None = None,
+                 move_b: ArrayLike | None = None, radius: float = np.inf,
+                 progress: Progress = None) -> ClosestPair | None:
     """The nearest points of the surfaces `a` and `b`; none if one is empty, or if they are further
     apart than the radius. Surfaces count, not solids: inside a closed mesh, the distance is that to
     its surface.
@@ -190,12 +190,12 @@ def closest_points(a: Body, b: Body, *, move_a: ArrayLike | None = None,
 
     >>> import treeform
     >>> cube = treeform.read("data/cube.stl")
-    >>> treeform.closest_points(cube, (cube.vertices + [0, 0, 3], cube.faces)).distance
+    >>> treeform.closest_pair(cube, (cube.vertices + [0, 0, 3], cube.faces)).distance
     2.0
     """
-    return _core.closest_points(held_body(a), held_body(b), _arrays.matrix(move_a, "move_a"),
-                                _arrays.matrix(move_b, "move_b"), _arrays.number(radius, "radius"),
-                                progress=progress)
+    return _core.closest_pair(held_body(a), held_body(b), _arrays.matrix(move_a, "move_a"),
+                              _arrays.matrix(move_b, "move_b"), _arrays.number(radius, "radius"),
+                              progress=progress)
 
 
 @dataclass(frozen=True, repr=False)
@@ -237,7 +237,7 @@ class PartClash(Result):
 class ClashResult(Result):
     """The clashes of all parts of an assembly.
 
-    pairs: Those not clear of each other, ascending.
+    pairs: Pairs that are not clear, ascending.
     counts: Number of tested pairs, by relation.
     clashes: Number of pairs that penetrate or are closer than the clearance; with a clearance, also
         pairs that touch.

@@ -294,10 +294,10 @@ class Deviation(Result):
     max_bound: Bound of the distance from any point of the surface `a` to `b`: the maximum, over its
         faces, of the largest corner distance plus the longest edge / sqrt(3). For a cloud it is
         `max`, rounded up.
-    back_max: With `both_ways`, the largest distance of a vertex of `b` from `a`. The larger of this
-        and `max` is the Hausdorff distance of the points.
-    back_max_bound: With `both_ways`, a bound of the distance from any point of the surface `b` to
-        `a`. The larger of this and `max_bound` bounds the Hausdorff distance of the surfaces.
+    reverse_max: With `both_ways`, the largest distance of a vertex of `b` from `a`. The larger of
+        this and `max` is the Hausdorff distance of the points.
+    reverse_max_bound: With `both_ways`, a bound of the distance from any point of the surface `b`
+        to `a`. The larger of this and `max_bound` bounds the Hausdorff distance of the surfaces.
     """
 
     distances: Floats
@@ -317,8 +317,8 @@ class Deviation(Result):
     histogram: NDArray[np.uint64]
     band_counts: tuple[int, int, int] | None
     max_bound: float
-    back_max: float | None
-    back_max_bound: float | None
+    reverse_max: float | None
+    reverse_max_bound: float | None
 
 
 def deviation(a: Body, b: Body, *, band: tuple[float, float] | None = None, bins: int = 40,

@@ -69,9 +69,6 @@ class Placement(MeshResult):
     mesh: The moved mesh, in the checked coordinates; the unmoved mesh if there is no place.
     matrix: (4, 4) new = M * old: a translation; for `turn` and `mate_features` also a rotation.
         Vertices are moved by it and rounded once, except for points that are set on the bed.
-    end: Why the placement ended where it did: 'contact', 'bed', 'unchanged', 'moved_apart',
-        'nothing_met', 'too_far', 'starts_penetrating', 'starts_too_near', 'starts_touching',
-        'starts_below_bed', 'not_representable', 'too_many_steps', 'out_of_range'.
     message: Why there is no place, as a clause; empty if there is a place.
     direction: (3,) unit direction of the travel; 0 if there is none.
     travel: Distance moved; for `too_far` the distance needed.
@@ -91,12 +88,14 @@ class Placement(MeshResult):
     offset: For `mate_features`: the distance of the moving feature's center from the fixed
         feature's center at the place, along the direction of the fixed feature. For planes, their
         distance.
-    nearest_fixed: Number of that fixed mesh; the lowest if several qualify.
+    nearest_fixed: Fixed mesh of `nearest`; the lowest if several qualify.
+    outcome: Why the placement ended where it did: 'contact', 'bed', 'unchanged', 'moved_apart',
+        'nothing_met', 'too_far', 'starts_penetrating', 'starts_too_near', 'starts_touching',
+        'starts_below_bed', 'not_representable', 'too_many_steps', 'out_of_range'.
     """
 
     mesh: Mesh
     matrix: Floats
-    end: str
     message: str
     direction: Floats
     travel: float
@@ -111,6 +110,7 @@ class Placement(MeshResult):
     tolerance: float
     offset: float
     nearest_fixed: int
+    outcome: str
 
     def __bool__(self) -> bool:
         return bool(self.certificate)
@@ -161,11 +161,11 @@ class Measure(Result):
     b_inside_a: bool
 
 
-def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0, *,
+def slide(moving: Body, fixed: Any, direction: ArrayLike, clearance: float = 0.0, *,
           max_travel: float | None = None, precision: str = "float64", bed: float | None = None,
           progress: Progress = None) -> Placement:
-    """Moves `moving` along `direction` (of any length) until it first meets one of `onto`, or is at
-    the clearance from one.
+    """Moves `moving` along `direction` (of any length) until it first meets one of `fixed`, or is
+    at the clearance from one.
 
     The returned coordinates are checked again: if rounding made the mesh penetrate, or come nearer
     than the clearance, it is moved back by units in the last place. A mesh that touches at the
@@ -174,7 +174,7 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
 
     Only fixed meshes on the way are tested and indexed. For many calls, pass a `Mesh`.
 
-    onto: a fixed body, or a list of them.
+    fixed: a fixed body, or a list of them.
     direction: (3,) the direction of motion, of any length.
     clearance: Gap to leave, a distance; 0: contact.
     max_travel: Largest distance to move; obstacles beyond are ignored.
@@ -196,17 +196,17 @@ def slide(moving: Body, onto: Any, direction: ArrayLike, clearance: float = 0.0,
     (True, 4.0, 'touching')
     """
     how = options(_core.PlacementOptions, locals())
-    return _core.slide(held_body(moving), bodies(onto), _arrays.vector(direction, "direction"), how,
-                       progress=progress)
+    return _core.slide(held_body(moving), bodies(fixed), _arrays.vector(direction, "direction"),
+                       how, progress=progress)
 
 
-def drop(moving: Body, onto: Any = None, *, direction: ArrayLike = (0, 0, -1),
+def drop(moving: Body, fixed: Any = None, *, direction: ArrayLike = (0, 0, -1),
          clearance: float = 0.0, max_travel: float | None = None, precision: str = "float64",
          bed: float | None = None, progress: Progress = None) -> Placement:
-    """Moves `moving` down until it rests on the bed or on one of `onto`. A mesh below the bed moves
-    up to it, against the direction; but with `onto`, it has no place.
+    """Moves `moving` down until it rests on the bed or on one of `fixed`. A mesh below the bed
+    moves up to it, against the direction; but with `fixed`, it has no place.
 
-    onto: a fixed body, or a list of them.
+    fixed: a fixed body, or a list of them.
     direction: (3,) the downward direction, of any length.
     clearance: as for `slide`.
     max_travel: as for `slide`.
@@ -224,17 +224,17 @@ def drop(moving: Body, onto: Any = None, *, direction: ArrayLike = (0, 0, -1),
     (3.25, [0.0, 1.0])
     """
     how = options(_core.PlacementOptions, locals())
-    return _core.drop(held_body(moving), bodies(onto), _arrays.vector(direction, "direction"), how,
+    return _core.drop(held_body(moving), bodies(fixed), _arrays.vector(direction, "direction"), how,
                       progress=progress)
 
 
-def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float | None = None,
+def mate(moving: Body, fixed: Any, *, clearance: float = 0.0, max_travel: float | None = None,
          precision: str = "float64", progress: Progress = None) -> Placement:
-    """Translates `moving` so that the nearest points of `moving` and `onto` meet, or are at the
+    """Translates `moving` so that the nearest points of `moving` and `fixed` meet, or are at the
     clearance. Coordinates are checked as in `slide`. A mesh that touches stays; a mesh that
     penetrates has no place.
 
-    onto: a fixed body, or a list of them.
+    fixed: a fixed body, or a list of them.
     clearance: Gap to leave, a distance; 0: contact.
     max_travel: Largest distance to move; obstacles beyond are ignored.
     precision: 'float32' or 'float64'. Precision of the returned points.
@@ -249,7 +249,7 @@ def mate(moving: Body, onto: Any, *, clearance: float = 0.0, max_travel: float |
     2.0
     """
     how = options(_core.PlacementOptions, locals())
-    return _core.mate(held_body(moving), bodies(onto), how, progress=progress)
+    return _core.mate(held_body(moving), bodies(fixed), how, progress=progress)
 
 
 def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: float | None = None,
@@ -257,8 +257,8 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
     """Translates `moving` to a place where it penetrates none of `fixed` and keeps the clearance.
     If it already does, it stays.
 
-    About fifty directions are tried: the axes, away from the nearest points, normals of faces that
-    meet, and others around the best. The nearest of the places found is returned, if its
+    About fifty directions are tried: along the axes, away from the nearest points, along normals of
+    faces that meet, and others around the best. The nearest of the places found is returned, if its
     coordinates pass the check of `slide`. It need not be the globally nearest place, which is on
     the boundary of a set with O(n^2 m^2) faces. The search is limited by `effort`, and skips
     candidates that would take much of it, as in `penetration_depth`; `Placement.effort` counts
@@ -288,15 +288,14 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
 
 
 def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.0, 0.0), *,
-         clearance: float = 0.0, max_travel: float | None = None, max_angle: float = 360.0,
-         tolerance: float | None = None, precision: str = "float64",
-         progress: Progress = None) -> Placement:
-    """Turns `moving` until it first comes within the tolerance of one of `fixed`, or of the
-    clearance from one. The axis is the line through `origin` along `axis`, of any length but 0.
-    Turns are right-handed: counter-clockwise seen against the direction.
+         clearance: float = 0.0, max_angle: float = 360.0, tolerance: float | None = None,
+         precision: str = "float64", progress: Progress = None) -> Placement:
+    """Turns `moving` until its distance from one of `fixed` is at most the clearance plus the
+    tolerance; The axis is the line through `origin` along `axis`, of any length but 0. Turns are
+    right-handed: counter-clockwise seen against the direction.
 
-    Conservative advancement: in no step can a pair of faces meet, by bounds on the speed of their
-    corners, up to the rounding of distances. The returned coordinates are checked exactly: they
+    Conservative advancement: bounds on the speed of corners guarantee that no faces meet within a
+    step, up to the rounding of distances. The returned coordinates are checked exactly: they
     penetrate nothing, and keep the clearance as computed by `distance`. If rounding violates that,
     the rotation is reduced by units in the last place. A mesh that touches at the start stays; one
     that penetrates has no place. With `nothing_met`, all of `max_angle` is free. `too_many_steps`
@@ -315,7 +314,6 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
     axis: (3,) the direction of the axis, of any length.
     origin: (3,) a point on the axis.
     clearance: Gap to leave, a distance; 0: contact.
-    max_travel: Largest distance to move; obstacles beyond are ignored.
     max_angle: the largest rotation, in degrees; greater than 0 and at most 360.
     tolerance: the largest gap, beyond the clearance, that counts as contact; greater than 0. None:
         2^-32 of the largest distance of a point from the axis.
@@ -338,12 +336,12 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
                       _arrays.vector(origin, "origin"), how, progress=progress)
 
 
-def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature, *,
+def mate_features(moving: Body, fixed: Any, of_moving: Feature, of_fixed: Feature, *,
                   clearance: float = 0.0, max_travel: float | None = None, flip: bool = False,
                   precision: str = "float64", progress: Progress = None) -> Placement:
     """Rotates `moving` by the least angle that makes the features' directions opposite (planes) or
     parallel (axes), aligns their centers, and slides `moving` from outside along the direction of
-    the fixed feature until first contact with any of `onto`, or the clearance, exactly like
+    the fixed feature until first contact with any of `fixed`, or the clearance, exactly like
     `slide`. Planes approach from the front of the fixed plane; axes from the side where `moving`
     is.
 
@@ -351,7 +349,7 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
     bore, if that penetrates nothing and keeps the clearance. The place is checked exactly, on the
     returned coordinates. `travel` is 0.
 
-    onto: a fixed body, or a list of them.
+    fixed: a fixed body, or a list of them.
     of_moving: a plane or an axis found by `find_features`.
     of_fixed: one of the same kind.
     clearance: Gap to leave, a distance; 0: contact.
@@ -373,7 +371,7 @@ def mate_features(moving: Body, onto: Any, of_moving: Feature, of_fixed: Feature
     'touching'
     """
     how = options(_core.PlacementOptions, locals())
-    return _core.mate_features(held_body(moving), bodies(onto),
+    return _core.mate_features(held_body(moving), bodies(fixed),
                                need(of_moving, "of_moving", Feature),
                                need(of_fixed, "of_fixed", Feature), how, progress=progress)
 
@@ -480,16 +478,16 @@ class Alignment(MeshResult):
     correlation: Correlation of the signed distances of neighbors, in [-1, 1]: near 0 for noise,
         near 1 if whole regions deviate to one side.
     uncertainty: Estimated standard deviation of the position, as a root mean square over the
-        points. It follows from the residuals and the stiffness of the motions, without those that
-        `undetermined` counts.
+        points, from the residuals and the stiffness of the motions. Motions that `undetermined`
+        counts are left out.
     scale: The scale found, in addition to that of `start`.
-    end: 'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'.
     converged: Whether `end` is 'converged'.
     iterations: Steps from the best start.
     start: Number of the best start; 0 is the present position.
     undetermined: Number of independent motions that the data do not determine, such as a plane
         sliding on a plane.
     message: The outcome as a clause for people, without a full stop.
+    outcome: 'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'.
     """
 
     matrix: Floats
@@ -501,18 +499,18 @@ class Alignment(MeshResult):
     correlation: float
     uncertainty: float
     scale: float
-    end: str
     converged: bool
     iterations: int
     start: int
     undetermined: int
     message: str
+    outcome: str
 
     def __bool__(self) -> bool:
         return self.converged
 
 
-def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False,
+def align(moving: Body, fixed: Body, *, scale: bool | tuple[float, float] = False,
           method: str = "automatic", overlap: float = 1.0, robust: bool = True,
           max_distance: float = np.inf, max_iterations: int = 100, tolerance: float = 1e-6,
           starts: int = 1, samples: int = 100_000, start: ArrayLike | None = None,
@@ -523,11 +521,11 @@ def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False
     From each start this is a local optimum: the right one if the motion is small compared with the
     features of the shape. The result is never worse than the present position; if nothing better is
     found, it is `start`, scaled about its center to the bounds of the scale. Results are compared
-    by the mean, over the nearest `overlap` share, of the squared distances to the nearest fixed
-    points, each at most `max_distance` squared. If `robust`, or with an overlap below 1, they are
-    compared by the mean of Welsch's function with the final v instead, so that an overlap somewhat
-    too large does no harm. Motions in which points slide freely (a plane on a plane) are not made.
-    Equal points of a cloud count once.
+    by a mean of squared distances to the nearest fixed points, each at most `max_distance` squared,
+    over the nearest `overlap` share of the points. If `robust`, or with an overlap below 1, they
+    are compared by the mean of Welsch's function with the final v instead, so that an overlap
+    somewhat too large does no harm. Motions in which points slide freely (a plane on a plane) are
+    not made. Equal points of a cloud count once.
 
     Along motions with a stiffness below 0.02, such as the rotation of a gear about its axis,
     positions up to 6% of the diagonal away are also tried.
@@ -580,7 +578,7 @@ def align(moving: Body, onto: Body, *, scale: bool | tuple[float, float] = False
     (True, True)
     """
     how = options(_core.AlignOptions, locals(), **scale_of(scale))
-    return _core.align(held_body(moving), held_body(onto), how, progress=progress)
+    return _core.align(held_body(moving), held_body(fixed), how, progress=progress)
 
 
 class PackedPart(NamedTuple):
@@ -718,8 +716,8 @@ class Depth(NamedTuple):
     """The separating translation found.
 
     depth: The length of `move`, rounded.
-    move: (3,) After adding this to every point of `a`, with each coordinate rounded, `measure` is
-        not `penetrating`.
+    move: (3,) Translation that separates them: added to every point of `a`, with each coordinate
+        rounded, it ends the penetration.
     effort: The effort of the search. If `skipped_candidates` is not 0, a shorter translation is
         more likely to exist.
     """
@@ -768,17 +766,17 @@ def penetration_depth(a: Body, b: Body, *, directions: int = 256, effort: int = 
 class Impact(NamedTuple):
     """The first contact of a moving mesh with another.
 
-    end: 'nothing_met', 'contact' or 'starts_touching'.
     time: The greatest double that is not beyond the exact time t of the contact: `a` moved by
         `time` times the motion has not passed it. 0 when they meet at the start.
     faces: (n, 2) the faces of `a` and `b` that touch at that time.
     points: (n, 3) a common point of each pair, rounded.
+    outcome: 'nothing_met', 'contact' or 'starts_touching'.
     """
 
-    end: str
     time: float
     faces: Ids
     points: Floats
+    outcome: str
 
     def __repr__(self) -> str:
         return tuple_repr(self)

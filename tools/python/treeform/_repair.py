@@ -74,9 +74,9 @@ class RepairResult(MadeMesh):
 
     face_source: (F',) input face of each face, lowest of those merged; or `NONE`.
     vertex_source: (V',) input vertex of each vertex, or `NONE`.
-    is_left: (faces of the input,) whether a part of each face is left, also if it was merged with
+    is_kept: (faces of the input,) whether a part of each face is left, also if it was merged with
         others.
-    steps: Counts of each step's changes. The volume of the input is its `Mesh.volume`. Keys:
+    statistics: Counts of each step's changes. The volume of the input is its `Mesh.volume`. Keys:
         'tetrahedra' (Tetrahedra formed by faces; only their boundary was kept); 'degenerate'
         (Dropped faces without area; if there are any, slivers, too); 'repeated' (Faces that repeat
         another, dropped); 'closed_edges' (Pairs of border edges joined into one edge);
@@ -105,8 +105,8 @@ class RepairResult(MadeMesh):
 
     face_source: Ids
     vertex_source: Ids
-    is_left: NDArray[np.bool_]
-    steps: dict[str, Any]
+    is_kept: NDArray[np.bool_]
+    statistics: dict[str, Any]
 
 
 def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, fill_rule: str = "nonzero",
@@ -173,17 +173,17 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
     The steps are those of `steps`, in this order. Each changes only what is defective: a mesh that
     is a solid is returned bit for bit. Which faces meet and what is inside is decided exactly.
     Which cracks are closed, how faces are oriented, and how holes are filled is decided by
-    heuristics, and counted in `RepairResult.steps`. Points with equal coordinates are one. If faces
-    are the sides of tetrahedra, only the boundary of the tetrahedra is kept. If faces remain
+    heuristics, and counted in `RepairResult.statistics`. Points with equal coordinates are one. If
+    faces are the sides of tetrahedra, only the boundary of the tetrahedra is kept. If faces remain
     inconsistent, a minimum cut labels cells inside or outside, by the orientations of faces and
     generalized winding numbers; the result is used if it loses less.
 
     Holes are filled with triangles between their vertices; large holes in smooth surfaces also with
     new points, which continue the surface smoothly. Sheets are not filled, but reported as open,
     unless any loss is allowed. A sheet is a part with an area below 1 / 0.6 of the area that would
-    close it, unless its border is in a plane and it is on one side of the plane. No hole is filled
-    in a mesh of more than 1000 faces in which more than one edge for every 10 faces has three or
-    more inconsistent faces.
+    close it, unless its border is in a plane and it is on one side of the plane. In a mesh of more
+    than 1000 faces, no hole is filled if more than one edge for every 10 faces has three or more
+    inconsistent faces.
 
     steps: the steps to perform. 'join' removes degenerate and duplicate faces and closes cracks;
         'orient' orients faces consistently and outward; 'fill' fills holes; 'resolve' removes
@@ -216,7 +216,7 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
 
     >>> import treeform
     >>> mended = treeform.repair(treeform.read("data/dirty.stl"))
-    >>> mended.mesh.is_solid, mended.steps["flipped"], mended.steps["holes"]
+    >>> mended.mesh.is_solid, mended.statistics["flipped"], mended.statistics["holes"]
     (True, 40, 2)
     """
     how = options(_core.RepairOptions, locals(), **steps_of(steps))

@@ -53,8 +53,8 @@ class Certificate(Result):
     boundary_edges: Number of open edges with an odd number of faces.
     misoriented_edges: Number of open edges whose faces are inconsistently oriented.
     max_displacement: The largest change of a coordinate by rounding, from the exact position of the
-        vertex. For vertices added or removed by mending, from the nearest point of the exact
-        surface. Measured on the result; intermediate moves do not add up.
+        vertex; for vertices added or removed by mending, from the nearest point of the exact
+        surface. Measured on the result: intermediate moves do not add up.
     precision: Of the coordinates: 'float32' or 'float64'.
     vanished_faces: For status `vanished`: number of faces of the exact result, all too thin for the
         coordinates; 0 if it had no faces.

@@ -263,8 +263,8 @@ class SimplifyResult(MadeMesh):
     vertex_source: (V,) input vertex equal to each vertex; `NONE`: new.
     face_of_new_vertex: (V,) for a new vertex, the nearest input face on its side of seams; else
         `NONE`.
-    corner_source: (3 F,) the input corner (3 f + i for corner i of face f) at the vertex of each
-        corner, on its side of seams; none at new vertices.
+    corner_source: (3 F,) for each corner, an input corner (3 f + i for corner i of face f) at its
+        vertex, on the same side of seams; none at new vertices.
     """
 
     face_source: Ids
@@ -377,10 +377,10 @@ class OrientedBox(Result):
 
 
 def oriented_box(points: Body, *, progress: Progress = None) -> OrientedBox | None:
-    """A box of small volume around points: the smallest among boxes with one side in a side of the
-    convex hull and another along an edge of that side, and the axis-aligned box. For coplanar
-    points, of least area. None without points. For a hull of more than a few thousand sides, only
-    the largest sides are tried, up to 2^26 corners of sides.
+    """A box of small volume around points. It is the smallest of these: the axis-aligned box, and
+    all boxes with a side in a side of the convex hull and another along an edge of that side. For
+    coplanar points, the one of least area. None without points. For a hull of more than a few
+    thousand sides, only the largest sides are tried, up to 2^26 corners of sides.
 
     Axes, center and size are rounded: a point may be outside by 2^-48 of the largest coordinate.
 
@@ -402,7 +402,7 @@ class Isoline(Result):
     """A line on a mesh along which a value equals a level.
 
     level: The value along the line.
-    first_point: Its number; the points of the line are consecutive.
+    first_point: Number of its first point; its points are consecutive.
     point_count: Number of its points.
     closed: Whether the last point is joined to the first; otherwise the line ends at borders of the
         mesh.

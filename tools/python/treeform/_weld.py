@@ -30,7 +30,6 @@ class WeldResult(MeshResult):
 
     mesh: The welded mesh; without faces for a cloud.
     index: (n,) the new number of each point.
-    source: (m,) the input point whose properties each new point has.
     face_source: (F,) the input face of each face; empty for a cloud.
     statistics: Counts of what welding changed. Keys: 'groups' (Groups of two points or more);
         'non_finite' (Points with a NaN or infinite coordinate, left as they are); 'collapsed'
@@ -39,13 +38,14 @@ class WeldResult(MeshResult):
         double); 'nonmanifold_before' (Edges of more than two faces); 'nonmanifold_after'; 'flipped'
         (Kept faces whose normal turned by more than a right angle); 'kept_apart' (Groups that
         `keep_manifold` did not merge completely).
+    vertex_source: (m,) the input point whose properties each new point has.
     """
 
     mesh: Mesh
     index: Ids
-    source: Ids
     face_source: Ids
     statistics: dict[str, Any]
+    vertex_source: Ids
 # end
 
     @property

@@ -70,7 +70,7 @@ json fit_entry(const tf::align_result& from) {
             {"uncertainty", from.uncertainty},
             {"scale", from.scale},
             {"converged", from.converged},
-            {"end", tf::name_of(from.end)},
+            {"outcome", tf::name_of(from.outcome)},
             {"iterations", from.iterations},
             {"start", from.start},
             {"pivot", from.pivot},

@@ -57,8 +57,9 @@ json deviation_entry(const tf::deviation_result& r, const deviation_settings& se
     entry.update(
         {{"hausdorff",
           {{"forward", {{"sampled", r.max}, {"bound", r.max_bound}}},
-           {"backward", r.back_max ? json{{"sampled", *r.back_max}, {"bound", *r.back_max_bound}}
-                                   : json(nullptr)}}},
+           {"backward", r.reverse_max
+                            ? json{{"sampled", *r.reverse_max}, {"bound", *r.reverse_max_bound}}
+                            : json(nullptr)}}},
          {"histogram", {{"low", r.lowest}, {"high", r.highest}, {"counts", r.histogram}}},
          {"tolerance_band", band},
          {"distances_file", or_null(!settings.distances.empty(), settings.distances.string())},

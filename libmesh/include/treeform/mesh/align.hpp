@@ -79,7 +79,7 @@ struct align_options {
 };
 
 /// How the search ended.
-enum class align_end : std::uint8_t {
+enum class align_outcome : std::uint8_t {
     converged,          ///< converged, and no test of the result failed
     out_of_iterations,  ///< `max_iterations` steps were not enough
     /// Converged, but residuals are more than noise: neighboring points deviate to the same side by
@@ -92,7 +92,7 @@ enum class align_end : std::uint8_t {
     nothing_to_align,  ///< there are no points, or no point has a partner
 };
 template <>
-inline constexpr auto detail::names_of<align_end> =
+inline constexpr auto detail::names_of<align_outcome> =
     std::array{"converged", "out-of-iterations", "doubtful", "nothing-to-align"};
 
 /// A small motion of the moving points, and how well the distances determine it. It is a rotation
@@ -128,15 +128,15 @@ struct align_result {
     /// Correlation of the signed distances of neighbors, in [-1, 1]: near 0 for noise, near 1 if
     /// whole regions deviate to one side.
     double correlation = 0.0;
-    /// Estimated standard deviation of the position, as a root mean square over the points. It
-    /// follows from the residuals and the stiffness of the motions, without those that
-    /// `undetermined` counts.
+    /// Estimated standard deviation of the position, as a root mean square over the points, from
+    /// the residuals and the stiffness of the motions. Motions that `undetermined` counts are left
+    /// out.
     double uncertainty = 0.0;
     /// The independent motions, ascending by stiffness; none without partners.
     std::vector<align_freedom> freedoms{};
-    align_end end = align_end::nothing_to_align;  ///< how the search ended
-    bool converged = false;                       ///< `end` is `converged`
-    unsigned iterations = 0;                      ///< steps from the best start
+    align_outcome outcome = align_outcome::nothing_to_align;  ///< how the search ended
+    bool converged = false;                                   ///< `outcome` is `converged`
+    unsigned iterations = 0;                                  ///< steps from the best start
     unsigned start = 0;  ///< number of the best start; 0 is the present position
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is invalid
 
@@ -155,8 +155,8 @@ struct align_result {
 /// From each start this is a local optimum: the right one if the motion is small compared with the
 /// features of the shape. The result is never worse than the present position; if nothing better is
 /// found, it is `start`, scaled about its center to the bounds of the scale. Results are compared
-/// by the mean, over the nearest `overlap` share, of the squared distances to the nearest fixed
-/// points, each at most `max_distance` squared. If `robust`, or with an overlap below 1, they are
+/// by a mean of squared distances to the nearest fixed points, each at most `max_distance` squared,
+/// over the nearest `overlap` share of the points. If `robust`, or with an overlap below 1, they are
 /// compared by the mean of Welsch's function with the final v instead, so that an overlap somewhat
 /// too large does no harm. Motions in which points slide freely (a plane on a plane) are not made.
 /// Equal points of a cloud count once.

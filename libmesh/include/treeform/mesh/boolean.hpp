@@ -246,6 +246,6 @@ template <std::convertible_to<std::string_view> Text>
 /// \throws std::invalid_argument as `boolean`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API certificate check_operand(const mesh_ref& mesh,
-                                                   const progress_callback& progress = {});
+                                                     const progress_callback& progress = {});
 
 }  // namespace treeform

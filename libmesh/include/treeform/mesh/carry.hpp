@@ -160,7 +160,7 @@ struct repaired_file {
     mesh_file file{};  ///< in the format of the input, with its attributes (`carry_sources`)
     /// [F'] the number in the input file of the source of each face, or `repair_result::none`.
     std::vector<std::uint32_t> face_source{};
-    std::vector<std::uint8_t> is_left{};  ///< [F of the input's mesh] as in `repair_result`
+    std::vector<std::uint8_t> is_kept{};  ///< [F of the input's mesh] as in `repair_result`
     /// The certificate of the first part that failed; if none failed, of all parts together.
     /// Numbers in `open_faces` are those of the input file.
     treeform::certificate certificate{};

@@ -54,7 +54,7 @@ enum class status : std::uint8_t {
     /// cancel each other out
     vanished,
     out_of_range,  ///< a coordinate of the result overflows the requested precision
-    no_placement,  ///< a placement found no position; `placement::end` has the reason
+    no_placement,  ///< a placement found no position; `placement::outcome` has the reason
     cancelled      ///< stopped by `progress`; there is no result
 };
 template <>
@@ -103,9 +103,9 @@ struct TREEFORM_API certificate {
     /// may then match piece by piece.
     std::uint64_t boundary_edges = 0;
     std::uint64_t misoriented_edges = 0;
-    /// The largest change of a coordinate by rounding, from the exact position of the vertex. For
+    /// The largest change of a coordinate by rounding, from the exact position of the vertex; for
     /// vertices added or removed by mending, from the nearest point of the exact surface. Measured
-    /// on the result; intermediate moves do not add up.
+    /// on the result: intermediate moves do not add up.
     double max_displacement = 0.0;
     treeform::precision precision = treeform::precision::float64;  ///< of the coordinates
     /// For status `vanished`: number of faces of the exact result, all too thin for the

@@ -74,7 +74,7 @@ struct part_clash {
 
 /// All pairs that are not clear of each other.
 struct clash_result {
-    std::vector<part_clash> pairs{};       ///< those not clear of each other, ascending
+    std::vector<part_clash> pairs{};       ///< pairs that are not clear, ascending
     counts_by<mesh_relation, 5> counts{};  ///< number of tested pairs, by `mesh_relation`
     std::uint64_t boxes_apart = 0;         ///< pairs excluded by their boxes
     std::uint64_t ignored = 0;             ///< ignored pairs that boxes do not exclude

@@ -57,10 +57,10 @@ struct deviation_result {
     double max_bound = 0.0;
     /// With `both_ways`, the largest distance of a vertex of `b` from `a`. The larger of this and
     /// `max` is the Hausdorff distance of the points.
-    std::optional<double> back_max{};
+    std::optional<double> reverse_max{};
     /// With `both_ways`, a bound of the distance from any point of the surface `b` to `a`. The
     /// larger of this and `max_bound` bounds the Hausdorff distance of the surfaces.
-    std::optional<double> back_max_bound{};
+    std::optional<double> reverse_max_bound{};
     /// [bins] points by signed distance, in intervals of equal length from `lowest` to `highest`;
     /// the last one includes `highest`.
     std::vector<std::uint64_t> histogram{};

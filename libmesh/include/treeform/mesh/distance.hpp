@@ -27,13 +27,13 @@ struct mesh_positions {
 };
 
 /// The nearest points of two meshes.
-struct closest_points_result {
+struct closest_pair_result {
     std::uint32_t face_a = 0;  ///< the face of `a` that contains `on_a`
     std::uint32_t face_b = 0;  ///< the face of `b` that contains `on_b`
     double distance = 0.0;     ///< exactly 0 if and only if the meshes meet
     point3 on_a;               ///< the point on the surface of `a`, rounded, as is `on_b`
     point3 on_b;               ///< the point on the surface of `b`
-    friend bool operator==(const closest_points_result&, const closest_points_result&) = default;
+    friend bool operator==(const closest_pair_result&, const closest_pair_result&) = default;
 };
 
 /// The nearest points of the surfaces `a` and `b`; none if one is empty, or if they are further
@@ -56,10 +56,10 @@ struct closest_points_result {
 ///         faces are skipped because they are too far apart along the line between the points of
 ///         the last pair tested
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API std::optional<closest_points_result> closest_points(
+[[nodiscard]] TREEFORM_API std::optional<closest_pair_result> closest_pair(
     const mesh_ref& a, const mesh_ref& b, const mesh_positions& positions = {});
 
-/// The distance between the surfaces `a` and `b`; infinite if `closest_points` returns none.
+/// The distance between the surfaces `a` and `b`; infinite if `closest_pair` returns none.
 [[nodiscard]] TREEFORM_API double distance(const mesh_ref& a, const mesh_ref& b,
                                            const mesh_positions& positions = {});
 

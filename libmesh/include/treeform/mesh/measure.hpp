@@ -134,8 +134,8 @@ struct mesh_measure {
 /// The separating translation found.
 struct penetration_depth_result {
     double depth = 0.0;  ///< the length of `move`, rounded
-    /// After adding this to every point of `a`, with each coordinate rounded, `relation` is not
-    /// `penetrating`.
+    /// Translation that separates them: added to every point of `a`, with each coordinate rounded,
+    /// it ends the penetration.
     point3 move{};
     /// The effort of the search. If `skipped_candidates` is not 0, a shorter translation is more
     /// likely to exist.

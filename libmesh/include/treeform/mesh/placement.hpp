@@ -23,7 +23,7 @@
 namespace treeform {
 
 /// The reason why a placement ended.
-enum class placement_end : std::uint8_t {
+enum class placement_outcome : std::uint8_t {
     contact,             ///< stopped by a fixed mesh, or at the clearance from it
     bed,                 ///< stopped by the bed, or at the clearance above it
     unchanged,           ///< no motion is needed
@@ -40,20 +40,20 @@ enum class placement_end : std::uint8_t {
     cancelled            ///< stopped by `progress`; the rest is invalid
 };
 template <>
-inline constexpr auto detail::names_of<placement_end> = std::array{"contact",
-                                                                   "bed",
-                                                                   "unchanged",
-                                                                   "moved-apart",
-                                                                   "nothing-met",
-                                                                   "too-far",
-                                                                   "starts-penetrating",
-                                                                   "starts-too-near",
-                                                                   "starts-touching",
-                                                                   "starts-below-bed",
-                                                                   "not-representable",
-                                                                   "too-many-steps",
-                                                                   "out-of-range",
-                                                                   "cancelled"};
+inline constexpr auto detail::names_of<placement_outcome> = std::array{"contact",
+                                                                       "bed",
+                                                                       "unchanged",
+                                                                       "moved-apart",
+                                                                       "nothing-met",
+                                                                       "too-far",
+                                                                       "starts-penetrating",
+                                                                       "starts-too-near",
+                                                                       "starts-touching",
+                                                                       "starts-below-bed",
+                                                                       "not-representable",
+                                                                       "too-many-steps",
+                                                                       "out-of-range",
+                                                                       "cancelled"};
 
 /// A pair of faces that meet, or are at the clearance, at the place.
 struct placement_contact {
@@ -88,10 +88,10 @@ struct placed_mesh {
 /// one if it does not move.
 struct placement {
     /// ok: the mesh has a place, and `points` were checked exactly. Otherwise `no_placement`,
-    /// `not_certified` (`placement_end::not_representable`), `out_of_range` or `cancelled`. It
+    /// `not_certified` (`placement_outcome::not_representable`), `out_of_range` or `cancelled`. It
     /// lists no faces.
     treeform::certificate certificate{};
-    placement_end end = placement_end::unchanged;
+    placement_outcome outcome = placement_outcome::unchanged;
     std::vector<point3> points{};  ///< [V] at the place, as they are to be written
     /// new = M * old: a translation; for `turn` and `mate_features` also a rotation. `points` are
     /// moved by it and rounded once, except for points that are set on the bed.
@@ -106,7 +106,7 @@ struct placement {
     /// The relation, at the place, of the moving mesh (`a`) to the fixed mesh that it penetrates,
     /// else to one that it touches, else to the nearest. None if all are too far away.
     std::optional<mesh_measure> nearest{};
-    std::size_t nearest_fixed = 0;  ///< number of that fixed mesh; the lowest if several qualify
+    std::size_t nearest_fixed = 0;  ///< fixed mesh of `nearest`; the lowest if several qualify
     std::vector<placement_contact> contacts{};
     std::uint64_t contact_count = 0;     ///< number of all contacts, listed or not
     std::optional<double> max_travel{};  ///< the given limit
@@ -207,8 +207,8 @@ struct TREEFORM_API body_set {
 
     /// Moves the points of a body's file: points of the body to `placed` [V of its shape], all
     /// others by `matrix`, rounded to `written_as`.
-    void put_back(std::size_t body, points_view placed, const transform<3>& matrix,
-                  precision written_as);
+    void move_in_file(std::size_t body, points_view placed, const transform<3>& matrix,
+                      precision written_as);
 
     /// The relations of all triangles of the files (for clouds, of all their points), for
     /// `placement::color`. `relations` [B] has, for each body, the relations of its faces, or an

@@ -89,7 +89,8 @@ namespace treeform {
 
 enum class urdf_joint_kind : std::uint8_t { fixed, revolute, continuous, prismatic };
 
-/// A joint: the child's frame is that of the parent, times `origin`, times the motion of the joint.
+/// A joint: the frame of the child is that of the parent, times the fixed transform of the joint,
+/// times its motion.
 struct urdf_joint {
     std::string name{};
     urdf_joint_kind kind = urdf_joint_kind::fixed;

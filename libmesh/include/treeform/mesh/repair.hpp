@@ -132,7 +132,7 @@ struct TREEFORM_API repair_result {
     /// [F'] input face of each face, lowest of those merged; or none
     std::vector<std::uint32_t> face_source;
     std::vector<std::uint32_t> vertex_source;  ///< [V'] input vertex of each vertex, or none
-    std::vector<std::uint8_t> is_left{};  ///< [F] 1 if a part of the input face is left, else 0
+    std::vector<std::uint8_t> is_kept{};  ///< [F] 1 if a part of the input face is left, else 0
     /// Status ok means, verified on the coordinates of `mesh`: a closed manifold, the inside behind
     /// every face, and any two faces share a corner, an edge or nothing. Status sheet means the
     /// same for a surface with a border. For `resolve_self_intersections` with `split` and
@@ -186,8 +186,8 @@ resolve_self_intersections(const mesh_ref& mesh, resolve_mode mode = resolve_mod
 /// Holes are filled with triangles between their vertices; large holes in smooth surfaces also with
 /// new points, which continue the surface smoothly. Sheets are not filled, but reported as open,
 /// unless any loss is allowed. A sheet is a part with an area below 1 / 0.6 of the area that would
-/// close it, unless its border is in a plane and it is on one side of the plane. No hole is filled
-/// in a mesh of more than 1000 faces in which more than one edge for every 10 faces has three or
+/// close it, unless its border is in a plane and it is on one side of the plane. In a mesh of
+/// more than 1000 faces, no hole is filled if more than one edge for every 10 faces has three or
 /// more inconsistent faces.
 ///
 /// \throws std::invalid_argument as `boolean`; if a gap or share is negative or not finite

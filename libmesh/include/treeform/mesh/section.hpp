@@ -133,7 +133,7 @@ struct section_result {
 /// A line on a mesh along which a value equals a level.
 struct isoline {
     double level = 0.0;           ///< the value along the line
-    std::size_t first_point = 0;  ///< its number; the points of the line are consecutive
+    std::size_t first_point = 0;  ///< number of its first point; its points are consecutive
     std::size_t point_count = 0;  ///< number of its points
     /// Whether the last point is joined to the first; otherwise the line ends at borders of the
     /// mesh.

@@ -74,7 +74,7 @@ inline constexpr pair_kinds pair_kinds::all = pair_kinds::of((1U << pair_kind_co
 struct face_pair {
     std::uint32_t a = 0;  ///< the lower face number
     std::uint32_t b = 0;
-    pair_kind kind = pair_kind::crossing;
+    pair_kind kind = pair_kind::crossing;  ///< how they meet
     friend auto operator<=>(const face_pair&, const face_pair&) = default;
 };
 

@@ -98,8 +98,8 @@ struct placement_options {
 /// Translates `moving` to a place where it penetrates none of `fixed` and keeps the clearance. If
 /// it already does, it stays.
 ///
-/// About fifty directions are tried: the axes, away from the nearest points, normals of faces that
-/// meet, and others around the best. The nearest of the places found is returned, if its
+/// About fifty directions are tried: along the axes, away from the nearest points, along normals of
+/// faces that meet, and others around the best. The nearest of the places found is returned, if its
 /// coordinates pass the check of `slide`. It need not be the globally nearest place, which is on
 /// the boundary of a set with O(n^2 m^2) faces. The search is limited by `effort`, and skips
 /// candidates that would take much of it, as in `penetration_depth`; `placement::effort` counts

@@ -46,7 +46,7 @@ struct face_contact {
 struct impact {
     /// `contact`: the meshes meet at a time greater than 0; `starts_touching`: they have a common
     /// point at the start; `nothing_met`.
-    placement_end end = placement_end::nothing_met;
+    placement_outcome outcome = placement_outcome::nothing_met;
     /// The greatest double that is not beyond the exact time t of the contact: `a` moved by
     /// `time` times the motion has not passed it. 0 when they meet at the start.
     double time = 0.0;
@@ -81,7 +81,7 @@ struct impact {
 /// errors of that size along the motion, and larger ones if the motion nearly grazes. `slide`
 /// checks its result. For the distance 0, use `time_of_impact`, which is exact.
 ///
-/// `end` is `contact` if the meshes are nearer than the distance right after `time`, and
+/// `outcome` is `contact` if the meshes are nearer than the distance right after `time`, and
 /// `starts_touching` if they are nearer at the start. `contacts` are the pairs of faces at the
 /// distance, as computed; their points are on `b`, their features have no meaning.
 ///
@@ -99,12 +99,12 @@ struct impact {
                                                    const point3& motion, double distance,
                                                    const impact_options& options = {});
 
-/// Turns `moving` until it first comes within the tolerance of one of `fixed`, or of the clearance
-/// from one. The axis is the line through `origin` along `direction`, of any length but 0. Turns
+/// Turns `moving` until its distance from one of `fixed` is at most the clearance plus the
+/// tolerance; `max_travel` has no effect. The axis is the line through `origin` along `direction`, of any length but 0. Turns
 /// are right-handed: counter-clockwise seen against the direction.
 ///
-/// Conservative advancement: in no step can a pair of faces meet, by bounds on the speed of their
-/// corners, up to the rounding of distances. The returned coordinates are checked exactly: they
+/// Conservative advancement: bounds on the speed of corners guarantee that no faces meet within a
+/// step, up to the rounding of distances. The returned coordinates are checked exactly: they
 /// penetrate nothing, and keep the clearance as computed by `distance`. If rounding violates that,
 /// the rotation is reduced by units in the last place. A mesh that touches at the start stays; one
 /// that penetrates has no place. With `nothing_met`, all of `max_angle` is free. `too_many_steps`

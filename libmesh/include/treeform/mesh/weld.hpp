@@ -76,8 +76,8 @@ struct weld_result {
         attributes{};       ///< rows of "vertex", "face" and corners match points and faces
     point_groups groups{};  ///< of the input points; group numbers are points of `mesh`
     /// [G] input point whose properties each point has
-    std::vector<std::uint32_t> point_of_group{};
-    std::vector<std::uint32_t> face_of_new{};  ///< [F'] input face of each face
+    std::vector<std::uint32_t> vertex_source{};
+    std::vector<std::uint32_t> face_source{};  ///< [F'] input face of each face
     weld_statistics statistics{};
     treeform::status status = status::ok;  ///< or cancelled; then the rest is empty
 };
@@ -87,8 +87,8 @@ struct file_weld_result {
     mesh_file file{};       ///< like the input, with the kept points and faces
     point_groups groups{};  ///< of the input points; group numbers are points of `file`
     /// [G] input point whose properties each point has
-    std::vector<std::uint32_t> point_of_group{};
-    std::vector<std::uint32_t> face_of_new{};  ///< [F'] input triangle of each triangle
+    std::vector<std::uint32_t> vertex_source{};
+    std::vector<std::uint32_t> face_source{};  ///< [F'] input triangle of each triangle
     weld_statistics statistics{};              ///< of triangles
     treeform::status status = status::ok;      ///< or cancelled; then the rest is empty
 

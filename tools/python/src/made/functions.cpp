@@ -250,11 +250,11 @@ py::object time_of_impact(const held_mesh& a, const held_mesh& b, const array_of
     }));
 }
 
-py::object closest_points(const held_mesh& a, const held_mesh& b, const array_of<double>& move_a,
-                          const array_of<double>& move_b, double radius) {
+py::object closest_pair(const held_mesh& a, const held_mesh& b, const array_of<double>& move_a,
+                        const array_of<double>& move_b, double radius) {
     return as_python(run([&](const tf::progress_callback&) {
-        return tf::closest_points(a.prepared(), b.prepared(),
-                                  {transform_of(move_a), transform_of(move_b), radius});
+        return tf::closest_pair(a.prepared(), b.prepared(),
+                                {transform_of(move_a), transform_of(move_b), radius});
     }));
 }
 
@@ -315,7 +315,7 @@ void add_functions(py::module_& module) {
     add_job(module, "measure", &measure);
     add_job(module, "penetration_depth", &penetration_depth);
     add_job(module, "time_of_impact", &time_of_impact);
-    add_job(module, "closest_points", &closest_points);
+    add_job(module, "closest_pair", &closest_pair);
     add_job(module, "clash_parts", &clash_parts);
     add_job(module, "clash_in_poses", &clash_in_poses);
 }

@@ -33,7 +33,7 @@ py::object object(of_result, tf::urdf_robot&& from, std::vector<tf::urdf_mesh>& 
 py::object object(of_result, tf::weld_result&& from, const file_data* data);
 py::object object(of_result, tf::weld_stream_result&& from);
 py::object object(of_result, tf::deviation_result&& from);
-py::object object(of_result, tf::closest_points_result&& from);
+py::object object(of_result, tf::closest_pair_result&& from);
 py::object object(of_result, std::vector<std::optional<tf::closest_point_result>>&& from);
 py::object object(of_result, std::vector<std::optional<tf::mesh_hit>>&& from);
 py::object object(of_result, std::vector<tf::placement_contact>&& from);

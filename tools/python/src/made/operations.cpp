@@ -136,31 +136,31 @@ py::object convex_hull(const points_array& points) {
                      points_of(points));
 }
 
-py::object slide(const held_mesh& moving, const held_meshes& onto,
+py::object slide(const held_mesh& moving, const held_meshes& fixed,
                  const array_of<double>& direction, tf::placement_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
-                         return tf::slide(moving.ref(), refs_of(onto), point_of(direction),
+                         return tf::slide(moving.ref(), refs_of(fixed), point_of(direction),
                                           options);
                      }),
                      moving);
 }
 
-py::object drop(const held_mesh& moving, const held_meshes& onto, const array_of<double>& direction,
-                tf::placement_options options) {
+py::object drop(const held_mesh& moving, const held_meshes& fixed,
+                const array_of<double>& direction, tf::placement_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
-                         return onto.empty() ? tf::drop(moving.ref(), options, point_of(direction))
-                                             : tf::drop(moving.ref(), refs_of(onto), options,
-                                                        point_of(direction));
+                         return fixed.empty() ? tf::drop(moving.ref(), options, point_of(direction))
+                                              : tf::drop(moving.ref(), refs_of(fixed), options,
+                                                         point_of(direction));
                      }),
                      moving);
 }
 
-py::object mate(const held_mesh& moving, const held_meshes& onto, tf::placement_options options) {
+py::object mate(const held_mesh& moving, const held_meshes& fixed, tf::placement_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
-                         return tf::mate(moving.ref(), refs_of(onto), options);
+                         return tf::mate(moving.ref(), refs_of(fixed), options);
                      }),
                      moving);
 }
@@ -192,20 +192,20 @@ py::object lay_flat(const held_mesh& mesh, tf::lay_flat_options options) {
                      mesh);
 }
 
-py::object align(const held_mesh& moving, const held_mesh& onto, tf::align_options options) {
+py::object align(const held_mesh& moving, const held_mesh& fixed, tf::align_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
-                         return tf::align(moving.prepared(), onto.prepared(), options);
+                         return tf::align(moving.prepared(), fixed.prepared(), options);
                      }),
                      moving);
 }
 
-py::object mate_features(const held_mesh& moving, const held_meshes& onto,
+py::object mate_features(const held_mesh& moving, const held_meshes& fixed,
                          const tf::mesh_feature& of_moving, const tf::mesh_feature& of_fixed,
                          tf::placement_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
                          options.progress = report;
-                         return tf::mate_features(moving.ref(), refs_of(onto), of_moving, of_fixed,
+                         return tf::mate_features(moving.ref(), refs_of(fixed), of_moving, of_fixed,
                                                   options);
                      }),
                      moving);

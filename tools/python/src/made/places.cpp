@@ -20,21 +20,21 @@ py::object object(of_result, tf::deviation_result&& from) {
     made["lowest"] = as_python(std::move(from.lowest));
     made["highest"] = as_python(std::move(from.highest));
     made["max_bound"] = as_python(std::move(from.max_bound));
-    made["back_max"] = as_python(std::move(from.back_max));
-    made["back_max_bound"] = as_python(std::move(from.back_max_bound));
+    made["reverse_max"] = as_python(std::move(from.reverse_max));
+    made["reverse_max_bound"] = as_python(std::move(from.reverse_max_bound));
     made["histogram"] = as_python(std::move(from.histogram));
     made["band_counts"] = as_python(std::move(from.band_counts));
     return object_of("treeform._nearness", "Deviation", made);
 }
 
-py::object object(of_result, tf::closest_points_result&& from) {
+py::object object(of_result, tf::closest_pair_result&& from) {
     py::dict made;
     made["face_a"] = as_python(std::move(from.face_a));
     made["face_b"] = as_python(std::move(from.face_b));
     made["distance"] = as_python(std::move(from.distance));
     made["on_a"] = as_python(std::move(from.on_a));
     made["on_b"] = as_python(std::move(from.on_b));
-    return object_of("treeform._assembly", "NearestPoints", made);
+    return object_of("treeform._assembly", "ClosestPair", made);
 }
 
 py::object object(of_result, std::vector<std::optional<tf::closest_point_result>>&& from) {
@@ -92,7 +92,7 @@ py::object object(of_result, tf::placement&& from, const held_mesh& moving) {
     py::dict made;
     made["message"] = py::cast(from.message());
     made["certificate"] = certificate;
-    made["end"] = as_python(std::move(from.end));
+    made["outcome"] = as_python(std::move(from.outcome));
     made["mesh"] = moved_mesh(std::move(from.points), moving, from.matrix,
                               from.certificate ? certificate : py::none());
     made["matrix"] = as_python(std::move(from.matrix));
@@ -113,7 +113,7 @@ py::object object(of_result, tf::placement&& from, const held_mesh& moving) {
 
 py::object object(of_result, tf::impact&& from) {
     py::dict made;
-    made["end"] = as_python(std::move(from.end));
+    made["outcome"] = as_python(std::move(from.outcome));
     made["time"] = as_python(std::move(from.time));
     made["faces"] = column(from.contacts, [](const auto& one) {
         return std::array{one.face_a, one.face_b};
@@ -162,7 +162,7 @@ py::object object(of_result, tf::align_result&& from, const held_mesh& moving) {
     made["inliers"] = as_python(std::move(from.inliers));
     made["correlation"] = as_python(std::move(from.correlation));
     made["uncertainty"] = as_python(std::move(from.uncertainty));
-    made["end"] = as_python(std::move(from.end));
+    made["outcome"] = as_python(std::move(from.outcome));
     made["converged"] = as_python(std::move(from.converged));
     made["iterations"] = as_python(std::move(from.iterations));
     made["start"] = as_python(std::move(from.start));

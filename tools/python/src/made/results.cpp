@@ -180,9 +180,9 @@ py::object object(of_result, tf::repair_result&& from, const carrying& attribute
     made["mesh"] = mesh_object(std::move(from.mesh), certificate, data);
     made["face_source"] = as_python(std::move(from.face_source));
     made["vertex_source"] = as_python(std::move(from.vertex_source));
-    made["is_left"] = as_python(std::move(from.is_left)).attr("view")("bool");
+    made["is_kept"] = as_python(std::move(from.is_kept)).attr("view")("bool");
     made["certificate"] = certificate;
-    made["steps"] = counters(from.statistics);
+    made["statistics"] = counters(from.statistics);
     return object_of("treeform._repair", "RepairResult", made);
 }
 
@@ -324,8 +324,8 @@ py::object object(of_result, tf::weld_result&& from, const file_data* data) {
     made["mesh"] = mesh_object(std::move(from.mesh), py::none(),
                                with_attributes(data, std::move(from.attributes)));
     made["index"] = as_python(std::move(from.groups.group_of_point));
-    made["source"] = as_python(std::move(from.point_of_group));
-    made["face_source"] = as_python(std::move(from.face_of_new));
+    made["vertex_source"] = as_python(std::move(from.vertex_source));
+    made["face_source"] = as_python(std::move(from.face_source));
     made["statistics"] = counters(from.statistics);
     return object_of("treeform._weld", "WeldResult", made);
 }

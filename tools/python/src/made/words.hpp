@@ -6,13 +6,13 @@
 namespace binding {
 
 template <>
-struct words_of<tf::align_end> {
-    static constexpr words<4> all{"converged", "out_of_iterations", "doubtful", "nothing_to_align"};
-};
-template <>
 struct words_of<tf::align_method> {
     static constexpr words<4> all{"point_to_plane", "point_to_point", "automatic",
                                   "plane_to_plane"};
+};
+template <>
+struct words_of<tf::align_outcome> {
+    static constexpr words<4> all{"converged", "out_of_iterations", "doubtful", "nothing_to_align"};
 };
 template <>
 struct words_of<tf::column_role> {
@@ -49,7 +49,7 @@ struct words_of<tf::pair_kind> {
                                   "pierce",   "touching", "degenerate"};
 };
 template <>
-struct words_of<tf::placement_end> {
+struct words_of<tf::placement_outcome> {
     static constexpr words<14> all{"contact",
                                    "bed",
                                    "unchanged",

@@ -34,7 +34,7 @@ typedef struct treeform_bodies {
 } treeform_bodies;
 
 // made of the headers of C++:
-//   bodies_of() put_back() clash_options contact_region part_clash clash_result clash()
+//   bodies_of() move_in_file() clash_options contact_region part_clash clash_result clash()
 //   pairs_named() pose_clash
 /// The bodies of `files` [count], for `treeform_clash` and all placements. `labels` [count] are
 /// the names of the files in messages. Files are copied.
@@ -45,10 +45,11 @@ TREEFORM_C_API treeform_code treeform_bodies_of(const treeform_file* const* file
 /// Replaces the body's points in its file by `points` [count][3], the points of a placement,
 /// transforms all other points of the file by `matrix` [12], and returns the file. The meshes of
 /// the bodies do not change.
-TREEFORM_C_API treeform_code treeform_put_back(treeform_bodies* bodies, size_t body,
-                                               const double* points, size_t count,
-                                               const double* matrix, treeform_precision written_as,
-                                               treeform_file** file);
+TREEFORM_C_API treeform_code treeform_move_in_file(treeform_bodies* bodies, size_t body,
+                                                   const double* points, size_t count,
+                                                   const double* matrix,
+                                                   treeform_precision written_as,
+                                                   treeform_file** file);
 
 /// Options of `treeform_clash` and `treeform_check_poses`. Only `treeform_clash` uses `volumes`,
 /// `depths`, `effort` and `limit`; only `treeform_check_poses` uses `first_only`.
@@ -59,7 +60,7 @@ typedef struct treeform_clash_options {
     /// [ignored_count][2] pairs of parts to skip; any order; or null
     const uint32_t* ignored;
     size_t ignored_count;
-    treeform_vertices vertices;  ///< as in `treeform_relate`
+    treeform_vertex_identity vertices;  ///< as in `treeform_relate`
     treeform_progress progress;
     void* progress_data;
     /// Compute the volume of the intersection of closed parts; default 1
@@ -109,8 +110,7 @@ typedef struct treeform_part_clash {
 /// All pairs that are not clear of each other.
 typedef struct treeform_clashes {
     void* owner;
-    /// [count] those not clear of each other, ascending
-    const treeform_part_clash* pairs;
+    const treeform_part_clash* pairs;  ///< [count] pairs that are not clear, ascending
     size_t count;
     uint64_t counts[5];    ///< number of tested pairs, by `treeform_mesh_relation`
     uint64_t boxes_apart;  ///< pairs excluded by their boxes

@@ -146,7 +146,7 @@ enum {
 
 /// Which corners of faces are the same vertex. This decides whether a mesh is closed, and which of
 /// its faces are neighbors.
-typedef int32_t treeform_vertices;
+typedef int32_t treeform_vertex_identity;
 enum {
     /// corners with equal coordinates; suits files that repeat points (STL)
     TREEFORM_BY_COORDINATES = 0,
@@ -212,7 +212,7 @@ enum {
     TREEFORM_STATUS_VANISHED = 6,
     /// a coordinate of the result overflows the requested precision
     TREEFORM_STATUS_OUT_OF_RANGE = 7,
-    /// a placement found no position; `treeform_placement::end` has the reason
+    /// a placement found no position; `treeform_placement::outcome` has the reason
     TREEFORM_STATUS_NO_PLACEMENT = 8,
     /// stopped by `progress`; there is no result
     TREEFORM_STATUS_CANCELLED = 9
@@ -244,9 +244,9 @@ typedef struct treeform_certificate {
     /// may then match piece by piece.
     uint64_t boundary_edges;
     uint64_t misoriented_edges;
-    /// The largest change of a coordinate by rounding, from the exact position of the vertex. For
+    /// The largest change of a coordinate by rounding, from the exact position of the vertex; for
     /// vertices added or removed by mending, from the nearest point of the exact surface. Measured
-    /// on the result; intermediate moves do not add up.
+    /// on the result: intermediate moves do not add up.
     double max_displacement;
     treeform_precision precision;  ///< of the coordinates
     /// For status `TREEFORM_STATUS_VANISHED`: number of faces of the exact result, all too thin

@@ -15,7 +15,7 @@ typedef struct treeform_named_column {
 
 // made of the headers of C++:
 //   read() read_mesh() read_options read_as() read_memory() file_create() file_copy()
-//   scalar_type column element part io_warning mesh_file file_look() file_set_points()
+//   scalar_type column element part io_warning mesh_file file_content() file_set_points()
 //   file_set_column() file_set_texture() file_add_part()
 /// Reads the file at `path`, UTF-8; "-" is standard input. `format` is an extension without its
 /// dot ("stl", "ply", ...), or null: detected by content, then by extension. Coordinates are as
@@ -156,8 +156,8 @@ typedef struct treeform_file_view {
 } treeform_file_view;
 
 /// The content of a file, as arrays that the file owns.
-TREEFORM_C_API treeform_code treeform_file_look(const treeform_file* file,
-                                                treeform_file_view** view);
+TREEFORM_C_API treeform_code treeform_file_content(const treeform_file* file,
+                                                   treeform_file_view** view);
 
 /// Replaces the points [count][3], for example by the points of a placement; `count` must be the
 /// number of points. Place with `TREEFORM_FLOAT32` for a file of floats, such as STL: points of a
@@ -185,7 +185,7 @@ TREEFORM_C_API treeform_code treeform_file_add_part(treeform_file* file, const c
 // end
 
 /// The kind of a line of text in a file.
-typedef int32_t treeform_text;
+typedef int32_t treeform_text_kind;
 enum {
     TREEFORM_COMMENT = 0,
     TREEFORM_OBJ_INFO = 1,
@@ -194,10 +194,10 @@ enum {
 };
 // made of the headers of C++:
 //   file_add_text() file_split_polygons() file_round_to_las() file_round_to_float32()
-//   file_transform() file_turn_normals() write_options write_result write() write_mesh()
+//   file_transform() file_transform_normals() write_options write_result write() write_mesh()
 //   write_result()
 /// Adds a line of text: a comment, a remark, or the name of a material or texture file, by `kind`.
-TREEFORM_C_API treeform_code treeform_file_add_text(treeform_file* file, treeform_text kind,
+TREEFORM_C_API treeform_code treeform_file_add_text(treeform_file* file, treeform_text_kind kind,
                                                     const char* text);
 
 /// Makes each triangle a face of its own.
@@ -215,7 +215,8 @@ TREEFORM_C_API treeform_code treeform_file_transform(treeform_file* file, const 
 
 /// Transforms the normals of the file by a matrix. If it mirrors, outward normals stay outward, as
 /// for flipped faces.
-TREEFORM_C_API treeform_code treeform_file_turn_normals(treeform_file* file, const double* matrix);
+TREEFORM_C_API treeform_code treeform_file_transform_normals(treeform_file* file,
+                                                             const double* matrix);
 
 /// How to write.
 typedef struct treeform_write_options {
@@ -295,28 +296,28 @@ TREEFORM_C_API treeform_code treeform_write_memory(const treeform_file* file,
                                                    treeform_bytes** bytes);
 
 /// A mesh without NaN or infinite coordinates, and the file's number of each face.
-typedef struct treeform_part {
+typedef struct treeform_usable_mesh {
     void* owner;
     treeform_arrays mesh;
     /// [F] number of each face's triangle in the file; null: the same numbers
     const uint32_t* triangle_of_face;
-    /// [F] number of each face in the file, counting polygons
-    const uint32_t* face_in_file;
+    /// Number of triangles with a coordinate that is not finite; for a cloud, number of such
+    /// points.
+    uint64_t non_finite;
     /// [F] with `details`: component of each face; else null
     const uint32_t* component;
     /// from `treeform_usable_part`: triangles that are a segment or a point
     uint64_t degenerate;
     uint64_t joined;  ///< from `treeform_usable_part`: points merged by tolerance
-    /// Number of triangles with a coordinate that is not finite; for a cloud, number of such
-    /// points.
-    uint64_t non_finite;
-} treeform_part;
+    /// [F] number of each face in the file, counting polygons
+    const uint32_t* face_in_file;
+} treeform_usable_mesh;
 
 /// Options of `treeform_usable_part`.
 typedef struct treeform_part_options {
     size_t struct_size;
     /// Whether points with equal coordinates are one vertex.
-    treeform_vertices vertices;
+    treeform_vertex_identity vertices;
     /// If greater than 0, points within this distance are joined, as by `treeform_weld`, after
     /// equal points.
     double tolerance;
@@ -329,11 +330,12 @@ TREEFORM_C_API void treeform_part_options_init(treeform_part_options* options, s
 /// The usable part of a file's mesh. Points that only dropped faces use are dropped as well.
 TREEFORM_C_API treeform_code treeform_usable_part(const treeform_file* file,
                                                   const treeform_part_options* options,
-                                                  treeform_part** part);
+                                                  treeform_usable_mesh** mesh);
 
 /// The whole mesh of a file: corners with equal coordinates become one vertex, triangles that are
 /// not finite are dropped. Points keep their numbers, so that attributes can be transferred.
-TREEFORM_C_API treeform_code treeform_as_mesh(const treeform_file* file, treeform_part** part);
+TREEFORM_C_API treeform_code treeform_as_mesh(const treeform_file* file,
+                                              treeform_usable_mesh** mesh);
 
 /// Concatenates files: one file with all points and faces. `names` [count], or null, are for
 /// warnings.
@@ -378,7 +380,7 @@ TREEFORM_C_API int32_t treeform_reads_scenes(void);
 typedef struct treeform_robot treeform_robot;
 
 // made of the headers of C++:
-//   read_urdf() urdf_mesh urdf_joint urdf_robot robot_look()
+//   read_urdf() urdf_mesh urdf_joint urdf_robot robot_content()
 /// Reads the robot at `path`. Joints are fixed, revolute, continuous or prismatic. Boxes,
 /// cylinders and spheres become meshes. Mesh files are not read, but must exist.
 /// `package://name/rest` resolves to FOLDER/name/rest or FOLDER/rest, where FOLDER is one of
@@ -400,8 +402,8 @@ typedef struct treeform_robot_mesh {
     size_t face_count;
 } treeform_robot_mesh;
 
-/// A joint: the child's frame is that of the parent, times `origin`, times the motion of the
-/// joint.
+/// A joint: the frame of the child is that of the parent, times the fixed transform of the joint,
+/// times its motion.
 typedef struct treeform_robot_joint {
     const char* name;
     int32_t kind;     ///< 0 fixed, 1 revolute, 2 continuous, 3 prismatic
@@ -428,8 +430,8 @@ typedef struct treeform_robot_view {
 } treeform_robot_view;
 
 /// The content of a robot, as arrays that the robot owns.
-TREEFORM_C_API treeform_code treeform_robot_look(const treeform_robot* robot,
-                                                 treeform_robot_view** view);
+TREEFORM_C_API treeform_code treeform_robot_content(const treeform_robot* robot,
+                                                    treeform_robot_view** view);
 // end
 
 /// A robot as parts of an assembly, for `treeform_check_poses`: its links that have faces.

@@ -16,7 +16,8 @@ typedef struct treeform_segments {
 
 // made of the headers of C++:
 //   pair_kind
-/// How two faces meet, one kind a pair. A shared corner is a corner of both (`treeform_vertices`).
+/// How two faces meet, one kind a pair. A shared corner is a corner of both
+/// (`treeform_vertex_identity`).
 typedef int32_t treeform_pair_kind;
 enum {
     /// no shared corner; the interiors pass through each other
@@ -51,7 +52,7 @@ TREEFORM_C_API const char* treeform_pair_kind_name(treeform_pair_kind value);
 typedef struct treeform_face_pair {
     uint32_t a;  ///< the lower face number
     uint32_t b;
-    uint8_t kind;  ///<  (a `treeform_pair_kind`)
+    uint8_t kind;  ///< how they meet (a `treeform_pair_kind`)
 } treeform_face_pair;
 
 /// Pairs of faces that meet.
@@ -79,7 +80,7 @@ typedef struct treeform_intersection_options {
     treeform_progress progress;
     void* progress_data;
     /// For `treeform_self_intersections`: which corners count as shared.
-    treeform_vertices vertices;
+    treeform_vertex_identity vertices;
     const uint32_t* component_of_face;  ///< [F] for `between` and `within`; or null
     int32_t between;                    ///< only pairs of faces of different components
     int32_t within;                     ///< only pairs of faces of one component
@@ -181,8 +182,8 @@ typedef struct treeform_paths {
 /// The segments of `treeform_intersection_curves`, joined into paths where their ends are equal as
 /// exact points.
 ///
-/// A segment common to several pairs is listed once. Paths are ordered by the number of their
-/// first point, points by their name.
+/// A segment common to several pairs is listed once. Points are ordered by `edge`, then `by`;
+/// paths by the number of their first point.
 TREEFORM_C_API treeform_code treeform_intersection_paths(const treeform_mesh* mesh,
                                                          const treeform_face_pair* pairs,
                                                          size_t count, treeform_paths** paths);
@@ -195,13 +196,14 @@ TREEFORM_C_API treeform_code treeform_write_curves(const char* path, const treef
 
 /// Colors the faces of `file` that meet, and gives faces the properties tf_class and tf_region.
 /// `part` is the part of this file that was searched, and `pairs` are pairs of faces of its mesh.
-TREEFORM_C_API treeform_code treeform_color_pairs(treeform_file* file, const treeform_part* part,
+TREEFORM_C_API treeform_code treeform_color_pairs(treeform_file* file,
+                                                  const treeform_usable_mesh* part,
                                                   const treeform_face_pair* pairs, size_t count);
 
 /// Options of `treeform_self_intersections_of_file` and `treeform_shared_search`.
 typedef struct treeform_stream_search_options {
     size_t struct_size;
-    /// a `treeform_vertices`; -1: by coordinates for STL, else by index
+    /// a `treeform_vertex_identity`; -1: by coordinates for STL, else by index
     int32_t vertices;
     uint32_t kinds;
     const treeform_box* box;  ///< only faces that have a point in the box; or null

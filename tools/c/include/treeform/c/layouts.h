@@ -6,7 +6,7 @@
 
 // made of the headers of C++:
 //   lay_flat_options laid_flat lay_flat() pack_options packed_part packing pack() align_method
-//   align_options align_freedom align_end align_result align()
+//   align_options align_freedom align_outcome align_result align()
 /// How to lay a mesh flat. At most one of `normal`, `point` and `most_stable` chooses the side of
 /// the convex hull that goes down; otherwise the side of the largest area does.
 typedef struct treeform_lay_flat_options {
@@ -269,7 +269,7 @@ typedef struct treeform_freedom {
 } treeform_freedom;
 
 /// How the search ended.
-typedef int32_t treeform_align_end;
+typedef int32_t treeform_align_outcome;
 enum {
     /// converged, and no test of the result failed
     TREEFORM_ALIGN_CONVERGED = 0,
@@ -286,7 +286,7 @@ enum {
     TREEFORM_ALIGN_NOTHING = 3
 };
 /// The name of a value, as in reports: "converged"; "unknown" for others.
-TREEFORM_C_API const char* treeform_align_end_name(treeform_align_end value);
+TREEFORM_C_API const char* treeform_align_outcome_name(treeform_align_outcome value);
 
 /// The motion found.
 typedef struct treeform_align_result {
@@ -315,14 +315,14 @@ typedef struct treeform_align_result {
     /// [freedom_count] The independent motions, ascending by stiffness; none without partners.
     const treeform_freedom* freedoms;
     size_t freedom_count;
-    size_t undetermined;     ///< number of `freedoms` that the data do not determine
-    treeform_align_end end;  ///< how the search ended
-    uint32_t iterations;     ///< steps from the best start
-    uint32_t start;          ///< number of the best start; 0 is the present position
-    const char* message;     ///< the outcome as a clause for people, without a full stop
-    /// Estimated standard deviation of the position, as a root mean square over the points. It
-    /// follows from the residuals and the stiffness of the motions, without those that
-    /// `undetermined` counts.
+    size_t undetermined;             ///< number of `freedoms` that the data do not determine
+    treeform_align_outcome outcome;  ///< how the search ended
+    uint32_t iterations;             ///< steps from the best start
+    uint32_t start;                  ///< number of the best start; 0 is the present position
+    const char* message;             ///< the outcome as a clause for people, without a full stop
+    /// Estimated standard deviation of the position, as a root mean square over the points, from
+    /// the residuals and the stiffness of the motions. Motions that `undetermined` counts are left
+    /// out.
     double uncertainty;
 } treeform_align_result;
 
@@ -332,11 +332,11 @@ typedef struct treeform_align_result {
 /// From each start this is a local optimum: the right one if the motion is small compared with the
 /// features of the shape. The result is never worse than the present position; if nothing better
 /// is found, it is `start`, scaled about its center to the bounds of the scale. Results are
-/// compared by the mean, over the nearest `overlap` share, of the squared distances to the nearest
-/// fixed points, each at most `max_distance` squared. If `robust`, or with an overlap below 1,
-/// they are compared by the mean of Welsch's function with the final v instead, so that an overlap
-/// somewhat too large does no harm. Motions in which points slide freely (a plane on a plane) are
-/// not made. Equal points of a cloud count once.
+/// compared by a mean of squared distances to the nearest fixed points, each at most
+/// `max_distance` squared, over the nearest `overlap` share of the points. If `robust`, or with an
+/// overlap below 1, they are compared by the mean of Welsch's function with the final v instead,
+/// so that an overlap somewhat too large does no harm. Motions in which points slide freely (a
+/// plane on a plane) are not made. Equal points of a cloud count once.
 ///
 /// Along motions with a stiffness below 0.02, such as the rotation of a gear about its axis,
 /// positions up to 6% of the diagonal away are also tried.

@@ -29,13 +29,13 @@ typedef struct treeform_closest {
 } treeform_closest;
 
 // made of the headers of C++:
-//   closest_points() distance() distance_poses() location locate() contains() winding_number()
+//   closest_pair() distance() distance_poses() location locate() contains() winding_number()
 //   locate_in_curves()
 /// The nearest points of the surfaces `a` and `b`, each moved by a matrix (null: not moved), at
 /// most `radius` apart.
-TREEFORM_C_API treeform_code treeform_closest_points(const treeform_mesh* a, const treeform_mesh* b,
-                                                     const double* move_a, const double* move_b,
-                                                     double radius, treeform_closest* result);
+TREEFORM_C_API treeform_code treeform_closest_pair(const treeform_mesh* a, const treeform_mesh* b,
+                                                   const double* move_a, const double* move_b,
+                                                   double radius, treeform_closest* result);
 
 /// The distance of the surfaces; infinite if one has no faces.
 TREEFORM_C_API treeform_code treeform_distance(const treeform_mesh* a, const treeform_mesh* b,
@@ -188,7 +188,7 @@ typedef struct treeform_measure_options {
     /// default infinite
     double radius;
     /// Only closed meshes have an inside; this decides whether a mesh is closed.
-    treeform_vertices vertices;
+    treeform_vertex_identity vertices;
     treeform_progress progress;
     void* progress_data;
     /// For `treeform_penetration_depth`: number of directions, spread over the sphere, to try
@@ -213,7 +213,7 @@ TREEFORM_C_API treeform_code treeform_measure(const treeform_mesh* a, const tree
 
 /// Only the relation, exactly: separate, touching or penetrating.
 TREEFORM_C_API treeform_code treeform_relate(const treeform_mesh* a, const treeform_mesh* b,
-                                             treeform_vertices vertices,
+                                             treeform_vertex_identity vertices,
                                              treeform_mesh_relation* result);
 
 /// `depth` is the length of a short translation `move` that separates `a` from `b`, verified
@@ -281,7 +281,7 @@ typedef struct treeform_deviation_result {
     double max_bound;
     /// With `both_ways`, a bound of the distance from any point of the surface `b` to `a`. The
     /// larger of this and `max_bound` bounds the Hausdorff distance of the surfaces; NaN: none
-    double back_max_bound;
+    double reverse_max_bound;
     /// [bins] points by signed distance, in intervals of equal length from `lowest` to `highest`;
     /// the last one includes `highest`.
     const uint64_t* histogram;
@@ -290,7 +290,7 @@ typedef struct treeform_deviation_result {
     uint64_t side_counts[3];
     /// With `both_ways`, the largest distance of a vertex of `b` from `a`. The larger of this and
     /// `max` is the Hausdorff distance of the points; NaN: none
-    double back_max;
+    double reverse_max;
     /// With a band: points below, within and above it. Both ends are within.
     uint64_t band_counts[3];
 } treeform_deviation_result;

@@ -13,42 +13,42 @@
 #include <treeform/c/properties.h>
 
 // made of the headers of C++:
-//   placement_end placement_contact placement placement_options slide() drop() mate()
+//   placement_outcome placement_contact placement placement_options slide() drop() mate()
 //   separate() turn() mate_features() measure_among()
 /// The reason why a placement ended.
-typedef int32_t treeform_placement_end;
+typedef int32_t treeform_placement_outcome;
 enum {
     /// stopped by a fixed mesh, or at the clearance from it
-    TREEFORM_END_CONTACT = 0,
+    TREEFORM_OUTCOME_CONTACT = 0,
     /// stopped by the bed, or at the clearance above it
-    TREEFORM_END_BED = 1,
+    TREEFORM_OUTCOME_BED = 1,
     /// no motion is needed
-    TREEFORM_END_UNCHANGED = 2,
+    TREEFORM_OUTCOME_UNCHANGED = 2,
     /// for `treeform_separate`: moved out of the fixed meshes
-    TREEFORM_END_MOVED_APART = 3,
+    TREEFORM_OUTCOME_MOVED_APART = 3,
     /// no place: nothing is in the way, at least not within `max_travel`
-    TREEFORM_END_NOTHING_MET = 4,
+    TREEFORM_OUTCOME_NOTHING_MET = 4,
     /// no place: `treeform_mate`, `treeform_separate` or a bed above exceed `max_travel`
-    TREEFORM_END_TOO_FAR = 5,
+    TREEFORM_OUTCOME_TOO_FAR = 5,
     /// no place: penetrates a fixed mesh at the start
-    TREEFORM_END_STARTS_PENETRATING = 6,
+    TREEFORM_OUTCOME_STARTS_PENETRATING = 6,
     /// no place: nearer than the clearance at the start
-    TREEFORM_END_STARTS_TOO_NEAR = 7,
+    TREEFORM_OUTCOME_STARTS_TOO_NEAR = 7,
     /// no place: touches a fixed mesh at the start, and a clearance is given
-    TREEFORM_END_STARTS_TOUCHING = 8,
+    TREEFORM_OUTCOME_STARTS_TOUCHING = 8,
     /// no place: below the bed at the start, and there are fixed meshes
-    TREEFORM_END_STARTS_BELOW_BED = 9,
+    TREEFORM_OUTCOME_STARTS_BELOW_BED = 9,
     /// no place in coordinates of the precision
-    TREEFORM_END_NOT_REPRESENTABLE = 10,
+    TREEFORM_OUTCOME_NOT_REPRESENTABLE = 10,
     /// for `treeform_turn`: undecided, since the mesh passes a fixed mesh too closely
-    TREEFORM_END_TOO_MANY_STEPS = 11,
+    TREEFORM_OUTCOME_TOO_MANY_STEPS = 11,
     /// no place: coordinates overflow the precision
-    TREEFORM_END_OUT_OF_RANGE = 12,
+    TREEFORM_OUTCOME_OUT_OF_RANGE = 12,
     /// stopped by `progress`; the rest is invalid
-    TREEFORM_END_CANCELLED = 13
+    TREEFORM_OUTCOME_CANCELLED = 13
 };
 /// The name of a value, as in reports: "contact"; "unknown" for others.
-TREEFORM_C_API const char* treeform_placement_end_name(treeform_placement_end value);
+TREEFORM_C_API const char* treeform_placement_outcome_name(treeform_placement_outcome value);
 
 /// A pair of faces that meet, or are at the clearance, at the place.
 typedef struct treeform_contact {
@@ -66,10 +66,10 @@ typedef struct treeform_placement {
     void* owner;
     /// ok: the mesh has a place, and `points` were checked exactly. Otherwise
     /// `TREEFORM_STATUS_NO_PLACEMENT`, `TREEFORM_STATUS_NOT_CERTIFIED`
-    /// (`TREEFORM_END_NOT_REPRESENTABLE`), `TREEFORM_STATUS_OUT_OF_RANGE` or
+    /// (`TREEFORM_OUTCOME_NOT_REPRESENTABLE`), `TREEFORM_STATUS_OUT_OF_RANGE` or
     /// `TREEFORM_STATUS_CANCELLED`. It lists no faces.
     const treeform_certificate* certificate;
-    treeform_placement_end end;
+    treeform_placement_outcome outcome;
     /// the outcome as a clause for people, without a full stop; empty if the placement succeeded
     const char* message;
     const double* points;  ///< [V][3] at the place, as they are to be written
@@ -79,13 +79,14 @@ typedef struct treeform_placement {
     /// bed.
     double matrix[12];
     double direction[3];  ///< unit direction of the travel; 0 if there is none
-    double travel;        ///< distance moved; for `TREEFORM_END_TOO_FAR` the distance needed
-    double clearance;     ///< the given clearance
-    double bed;           ///< least z allowed, rounded: the bed plus the clearance; NaN: none
-    double below_bed;     ///< how far the mesh was below `bed` at the start
+    /// distance moved; for `TREEFORM_OUTCOME_TOO_FAR` the distance needed
+    double travel;
+    double clearance;  ///< the given clearance
+    double bed;        ///< least z allowed, rounded: the bed plus the clearance; NaN: none
+    double below_bed;  ///< how far the mesh was below `bed` at the start
     treeform_mesh_relation relation_at_start;  ///< exact
     treeform_mesh_relation relation;           ///< relation at the place
-    size_t nearest_fixed;  ///< number of that fixed mesh; the lowest if several qualify
+    size_t nearest_fixed;  ///< fixed mesh of `nearest`; the lowest if several qualify
     /// The relation, at the place, of the moving mesh (`a`) to the fixed mesh that it penetrates,
     /// else to one that it touches, else to the nearest. Null if all are too far away.
     const treeform_relation* nearest;
@@ -111,11 +112,20 @@ typedef struct treeform_placement {
 } treeform_placement;
 
 /// Options of the placement functions. Each function ignores those that do not concern it.
-typedef struct treeform_place_options {
+typedef struct treeform_placement_options {
     size_t struct_size;
     double clearance;  ///< gap to leave, a distance; 0: contact
     /// largest distance to move; obstacles beyond are ignored; NaN: not given
     double max_travel;
+    /// `treeform_mate_features`: planes face the same way instead of each other; for axes, that of
+    /// `moving` is reversed.
+    int32_t flip;
+    /// `treeform_turn`: in degrees; greater than 0, up to 360; default 360.0
+    double max_angle;
+    /// `treeform_turn`: the gap, beyond the clearance, that counts as contact; greater than 0.
+    /// Default: 2^-32 of the largest distance of a point from the axis; NaN: not given
+    double tolerance;
+    uint64_t max_steps;  ///< `treeform_turn`; default 20000
     /// of the points returned; default `TREEFORM_FLOAT64`
     treeform_precision precision;
     /// `treeform_slide` and `treeform_drop`: z of a bed, which also stops the mesh. Points that
@@ -125,10 +135,6 @@ typedef struct treeform_place_options {
     /// `treeform_slide`: close a gap that rounding leaves at a contact, by units in the last
     /// place; default 1
     int32_t close_in;
-    /// largest number of contacts listed; for `treeform_separate`, for each fixed mesh; default
-    /// 1000
-    uint64_t limit;
-    treeform_vertices vertices;  ///< as in `treeform_relate`
     /// `treeform_separate`: try at most this many normals of faces; default 24
     uint64_t normals;
     /// `treeform_separate`: take the normals from at most this many pairs of faces for each fixed
@@ -137,20 +143,16 @@ typedef struct treeform_place_options {
     /// `treeform_separate`: largest number of pairs of faces to test; a pair in motion counts as
     /// two. 0: 20 million plus 200 for each face. Distances for a clearance do not count.
     uint64_t effort;
-    /// `treeform_turn`: in degrees; greater than 0, up to 360; default 360.0
-    double max_angle;
-    /// `treeform_turn`: the gap, beyond the clearance, that counts as contact; greater than 0.
-    /// Default: 2^-32 of the largest distance of a point from the axis; NaN: not given
-    double tolerance;
-    uint64_t max_steps;  ///< `treeform_turn`; default 20000
-    /// `treeform_mate_features`: planes face the same way instead of each other; for axes, that of
-    /// `moving` is reversed.
-    int32_t flip;
+    /// largest number of contacts listed; for `treeform_separate`, for each fixed mesh; default
+    /// 1000
+    uint64_t limit;
+    treeform_vertex_identity vertices;  ///< as in `treeform_relate`
     treeform_progress progress;
     void* progress_data;
-} treeform_place_options;
+} treeform_placement_options;
 /// Sets the defaults.
-TREEFORM_C_API void treeform_place_options_init(treeform_place_options* options, size_t size);
+TREEFORM_C_API void treeform_placement_options_init(treeform_placement_options* options,
+                                                    size_t size);
 
 /// Moves `moving` along `direction` (of any length) until it first meets one of `fixed`, or is at
 /// the clearance from one.
@@ -166,7 +168,7 @@ TREEFORM_C_API void treeform_place_options_init(treeform_place_options* options,
 TREEFORM_C_API treeform_code treeform_slide(const treeform_mesh* moving,
                                             const treeform_mesh* const* fixed, size_t count,
                                             const double direction[3],
-                                            const treeform_place_options* options,
+                                            const treeform_placement_options* options,
                                             treeform_placement** placement);
 
 /// Moves `moving` down, along `direction` (null: 0, 0, -1), onto the bed or one of `fixed`;
@@ -174,7 +176,7 @@ TREEFORM_C_API treeform_code treeform_slide(const treeform_mesh* moving,
 TREEFORM_C_API treeform_code treeform_drop(const treeform_mesh* moving,
                                            const treeform_mesh* const* fixed, size_t count,
                                            const double* direction,
-                                           const treeform_place_options* options,
+                                           const treeform_placement_options* options,
                                            treeform_placement** placement);
 
 /// Translates `moving` so that the nearest points of `moving` and `fixed` meet, or are at the
@@ -182,34 +184,34 @@ TREEFORM_C_API treeform_code treeform_drop(const treeform_mesh* moving,
 /// that penetrates has no place.
 TREEFORM_C_API treeform_code treeform_mate(const treeform_mesh* moving,
                                            const treeform_mesh* const* fixed, size_t count,
-                                           const treeform_place_options* options,
+                                           const treeform_placement_options* options,
                                            treeform_placement** placement);
 
 /// Translates `moving` to a place where it penetrates none of `fixed` and keeps the clearance. If
 /// it already does, it stays.
 ///
-/// About fifty directions are tried: the axes, away from the nearest points, normals of faces that
-/// meet, and others around the best. The nearest of the places found is returned, if its
-/// coordinates pass the check of `treeform_slide`. It need not be the globally nearest place,
+/// About fifty directions are tried: along the axes, away from the nearest points, along normals
+/// of faces that meet, and others around the best. The nearest of the places found is returned, if
+/// its coordinates pass the check of `treeform_slide`. It need not be the globally nearest place,
 /// which is on the boundary of a set with O(n^2 m^2) faces. The search is limited by `effort`, and
 /// skips candidates that would take much of it, as in `treeform_penetration_depth`;
 /// `treeform_placement::effort` counts them.
 TREEFORM_C_API treeform_code treeform_separate(const treeform_mesh* moving,
                                                const treeform_mesh* const* fixed, size_t count,
-                                               const treeform_place_options* options,
+                                               const treeform_placement_options* options,
                                                treeform_placement** placement);
 
-/// Turns `moving` until it first comes within the tolerance of one of `fixed`, or of the clearance
-/// from one. The axis is the line through `origin` along `direction`, of any length but 0. Turns
-/// are right-handed: counter-clockwise seen against the direction.
+/// Turns `moving` until its distance from one of `fixed` is at most the clearance plus the
+/// tolerance; `max_travel` has no effect. The axis is the line through `origin` along `direction`,
+/// of any length but 0. Turns are right-handed: counter-clockwise seen against the direction.
 ///
-/// Conservative advancement: in no step can a pair of faces meet, by bounds on the speed of their
-/// corners, up to the rounding of distances. The returned coordinates are checked exactly: they
+/// Conservative advancement: bounds on the speed of corners guarantee that no faces meet within a
+/// step, up to the rounding of distances. The returned coordinates are checked exactly: they
 /// penetrate nothing, and keep the clearance as computed by `treeform_distance`. If rounding
 /// violates that, the rotation is reduced by units in the last place. A mesh that touches at the
-/// start stays; one that penetrates has no place. With `TREEFORM_END_NOTHING_MET`, all of
-/// `max_angle` is free. `TREEFORM_END_TOO_MANY_STEPS` means undecided: the mesh passes another at
-/// a distance that is very small compared with its size, over a long way.
+/// start stays; one that penetrates has no place. With `TREEFORM_OUTCOME_NOTHING_MET`, all of
+/// `max_angle` is free. `TREEFORM_OUTCOME_TOO_MANY_STEPS` means undecided: the mesh passes another
+/// at a distance that is very small compared with its size, over a long way.
 ///
 /// `travel` is 0, and `points` differ from `matrix` by a few units in the last place of the
 /// largest coordinate. `contacts` are the pairs of faces within the tolerance, beyond the
@@ -221,7 +223,7 @@ TREEFORM_C_API treeform_code treeform_separate(const treeform_mesh* moving,
 TREEFORM_C_API treeform_code treeform_turn(const treeform_mesh* moving,
                                            const treeform_mesh* const* fixed, size_t count,
                                            const double origin[3], const double direction[3],
-                                           const treeform_place_options* options,
+                                           const treeform_placement_options* options,
                                            treeform_placement** placement);
 
 /// Aligns two planes, or two axes, and slides `moving` until it meets one of `fixed`.
@@ -229,14 +231,14 @@ TREEFORM_C_API treeform_code treeform_mate_features(const treeform_mesh* moving,
                                                     const treeform_mesh* const* fixed, size_t count,
                                                     const treeform_feature* of_moving,
                                                     const treeform_feature* of_fixed,
-                                                    const treeform_place_options* options,
+                                                    const treeform_placement_options* options,
                                                     treeform_placement** placement);
 
 /// The relation of `moving` to all of `fixed` at its present position. Moves nothing. Meshes
 /// nearer than the clearance are `TREEFORM_RELATION_CLOSER_THAN_CLEARANCE`.
 TREEFORM_C_API treeform_code treeform_measure_among(const treeform_mesh* moving,
                                                     const treeform_mesh* const* fixed, size_t count,
-                                                    const treeform_place_options* options,
+                                                    const treeform_placement_options* options,
                                                     treeform_placement** placement);
 // end
 
@@ -282,10 +284,10 @@ typedef struct treeform_impact_contact {
 /// The first contact of two meshes.
 typedef struct treeform_impact {
     void* owner;
-    /// `TREEFORM_END_CONTACT`: the meshes meet at a time greater than 0;
-    /// `TREEFORM_END_STARTS_TOUCHING`: they have a common point at the start;
-    /// `TREEFORM_END_NOTHING_MET`.
-    treeform_placement_end end;
+    /// `TREEFORM_OUTCOME_CONTACT`: the meshes meet at a time greater than 0;
+    /// `TREEFORM_OUTCOME_STARTS_TOUCHING`: they have a common point at the start;
+    /// `TREEFORM_OUTCOME_NOTHING_MET`.
+    treeform_placement_outcome outcome;
     /// The greatest double that is not beyond the exact time t of the contact: `a` moved by `time`
     /// times the motion has not passed it. 0 when they meet at the start.
     double time;
@@ -332,9 +334,10 @@ TREEFORM_C_API treeform_code treeform_time_of_impact(const treeform_mesh* a, con
 /// `treeform_slide` checks its result. For the distance 0, use `treeform_time_of_impact`, which is
 /// exact.
 ///
-/// `end` is `TREEFORM_END_CONTACT` if the meshes are nearer than the distance right after `time`,
-/// and `TREEFORM_END_STARTS_TOUCHING` if they are nearer at the start. `contacts` are the pairs of
-/// faces at the distance, as computed; their points are on `b`, their features have no meaning.
+/// `outcome` is `TREEFORM_OUTCOME_CONTACT` if the meshes are nearer than the distance right after
+/// `time`, and `TREEFORM_OUTCOME_STARTS_TOUCHING` if they are nearer at the start. `contacts` are
+/// the pairs of faces at the distance, as computed; their points are on `b`, their features have
+/// no meaning.
 ///
 /// The distance of two triangles is a convex function of t. So tangents from the left never pass
 /// the time at which it falls to a value, and Newton's method finds that time from below.

@@ -157,8 +157,8 @@ typedef struct treeform_simplify_result {
     const uint32_t* vertex_source;
     /// [V] for a new vertex, the nearest input face on its side of seams; else `TREEFORM_NONE`
     const uint32_t* face_of_new_vertex;
-    /// [3 F] the input corner (3 f + i for corner i of face f) at the vertex of each corner, on
-    /// its side of seams; none at new vertices
+    /// [3 F] for each corner, an input corner (3 f + i for corner i of face f) at its vertex, on
+    /// the same side of seams; none at new vertices
     const uint32_t* corner_source;
     /// Bound of the distance from any input point to the result.
     double input_to_result_bound;
@@ -222,10 +222,10 @@ typedef struct treeform_oriented_box {
     double size[3];  ///< lengths along these axes
 } treeform_oriented_box;
 
-/// A box of small volume around points: the smallest among boxes with one side in a side of the
-/// convex hull and another along an edge of that side, and the axis-aligned box. For coplanar
-/// points, of least area. Null, with `TREEFORM_OK`, without points. For a hull of more than a few
-/// thousand sides, only the largest sides are tried, up to 2^26 corners of sides.
+/// A box of small volume around points. It is the smallest of these: the axis-aligned box, and all
+/// boxes with a side in a side of the convex hull and another along an edge of that side. For
+/// coplanar points, the one of least area. Null, with `TREEFORM_OK`, without points. For a hull of
+/// more than a few thousand sides, only the largest sides are tried, up to 2^26 corners of sides.
 ///
 /// Axes, center and size are rounded: a point may be outside by 2^-48 of the largest coordinate.
 TREEFORM_C_API treeform_code treeform_find_oriented_box(const treeform_mesh* mesh,
@@ -234,7 +234,7 @@ TREEFORM_C_API treeform_code treeform_find_oriented_box(const treeform_mesh* mes
 /// A line on a mesh along which a value equals a level.
 typedef struct treeform_isoline {
     double level;        ///< the value along the line
-    size_t first_point;  ///< its number; the points of the line are consecutive
+    size_t first_point;  ///< number of its first point; its points are consecutive
     size_t point_count;  ///< number of its points
     /// Whether the last point is joined to the first; otherwise the line ends at borders of the
     /// mesh.

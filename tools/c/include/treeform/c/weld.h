@@ -87,10 +87,9 @@ typedef struct treeform_weld_result {
     size_t point_count;
     /// [G] the first point of each group, ascending: the lowest-numbered, unless `order_by` is set
     const uint32_t* first_of_group;
-    /// [G] input point whose properties each point has
-    const uint32_t* point_of_group;
+    const uint32_t* vertex_source;  ///< [G] input point whose properties each point has
     size_t group_count;
-    const uint32_t* face_of_new;  ///< [F'] input face of each face
+    const uint32_t* face_source;  ///< [F'] input face of each face
     uint64_t merged_groups;       ///< groups of two points or more
     /// points with a NaN or infinite coordinate, left as they are
     uint64_t non_finite;

@@ -3,7 +3,7 @@
 #include <libmesh/base/prepared_slots.hpp>
 #include <libmesh/geometry/triangle_distance.hpp>
 #include <libmesh/nearness/bounding_cylinders.hpp>
-#include <libmesh/nearness/closest_points.hpp>
+#include <libmesh/nearness/closest_pair.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/tree/detail/near_pair_walk.hpp>
 #include <treeform/tree/detail/squared_radius.hpp>
@@ -168,7 +168,7 @@ void visit(const placed_faces& a, const placed_faces& b, const detail::block_pai
         if (!take_nearest(blocks, bound, pairs, i, j)) return;
         best.offer(a.face_at(std::size_t{blocks.a} * 8 + i),
                    b.face_at(std::size_t{blocks.b} * 8 + j),
-                   closest_points(in_a.triangle(i), in_b.triangle(j)));
+                   closest_pair(in_a.triangle(i), in_b.triangle(j)));
         if (best.done()) return;
         limit = std::min(limit, best.squared);
         bound = blocks.bound_of(limit);
@@ -178,10 +178,10 @@ void visit(const placed_faces& a, const placed_faces& b, const detail::block_pai
 void check_tree(mesh_view mesh, const transformed<3>& tree) {
     if (mesh.faces.size() != tree.original().size())
         throw std::invalid_argument(
-            "treeform::closest_points: the tree is not over the faces of the mesh");
+            "treeform::closest_pair: the tree is not over the faces of the mesh");
 }
 
-std::optional<closest_points_result> search(const placed_faces& a, const placed_faces& b,
+std::optional<closest_pair_result> search(const placed_faces& a, const placed_faces& b,
                                             detail::pair_walk<3>& walk, double unit,
                                             double radius) {
     const nearest_so_far best = detail::walk_pairs(
@@ -202,20 +202,20 @@ std::optional<closest_points_result> search(const placed_faces& a, const placed_
     const auto back = [&](const point3& p) {
         return point3{p.x * per_unit, p.y * per_unit, p.z * per_unit};
     };
-    return closest_points_result{best.a, best.b, std::sqrt(best.squared) * per_unit,
+    return closest_pair_result{best.a, best.b, std::sqrt(best.squared) * per_unit,
                                  back(best.at.on_a), back(best.at.on_b)};
 }
 
 }  // namespace
 
-std::optional<closest_points_result> detail::nearness::closest_points(mesh_view a,
+std::optional<closest_pair_result> detail::nearness::closest_pair(mesh_view a,
                                                                       const transformed<3>& tree_a,
                                                                       mesh_view b,
                                                                       const transformed<3>& tree_b,
                                                                       double radius) {
     check_tree(a, tree_a);
     check_tree(b, tree_b);
-    check_radius("treeform::closest_points", radius);
+    check_radius("treeform::closest_pair", radius);
     if (a.faces.empty() || b.faces.empty()) return std::nullopt;
     const double unit = unit_for(tree_a, tree_b);
     pair_walk<3> walk(tree_a, tree_b, unit);
@@ -234,15 +234,15 @@ const detail::nearness::face_blocks& detail::nearness::face_blocks_of(const prep
 
 namespace {
 
-std::optional<closest_points_result> find(const std::string& function, mesh_view a, mesh_view b,
+std::optional<closest_pair_result> find(const std::string& function, mesh_view a, mesh_view b,
                                           const mesh_positions& options) {
     const tree<3> tree_a = build_face_tree(a, (function + ": a").c_str());
     const tree<3> tree_b = build_face_tree(b, (function + ": b").c_str());
-    return detail::nearness::closest_points(a, {tree_a, options.move_a}, b,
+    return detail::nearness::closest_pair(a, {tree_a, options.move_a}, b,
                                             {tree_b, options.move_b}, options.radius);
 }
 
-std::optional<closest_points_result> find(const std::string& function, const prepared_mesh& a,
+std::optional<closest_pair_result> find(const std::string& function, const prepared_mesh& a,
                                           const prepared_mesh& b, const mesh_positions& options) {
     detail::check_radius(("treeform::" + function).c_str(), options.radius);
     const transformed<3> tree_a(build_face_tree(a, (function + ": a").c_str()), options.move_a);
@@ -264,7 +264,7 @@ std::optional<closest_points_result> find(const std::string& function, const pre
                   options.radius);
 }
 
-std::optional<closest_points_result> find_between(const char* function, const mesh_ref& a,
+std::optional<closest_pair_result> find_between(const char* function, const mesh_ref& a,
                                                   const mesh_ref& b,
                                                   const mesh_positions& options) {
     if (!detail::base::is_prepared_or_cloud(a, b))
@@ -274,9 +274,9 @@ std::optional<closest_points_result> find_between(const char* function, const me
 
 }  // namespace
 
-std::optional<closest_points_result> closest_points(const mesh_ref& a, const mesh_ref& b,
+std::optional<closest_pair_result> closest_pair(const mesh_ref& a, const mesh_ref& b,
                                                     const mesh_positions& options) {
-    return find_between("closest_points", a, b, options);
+    return find_between("closest_pair", a, b, options);
 }
 
 double distance(const mesh_ref& a, const mesh_ref& b, const mesh_positions& options) {
