@@ -29,7 +29,8 @@ static void test_measures(void) {
     OK(treeform_mesh_create(points, 8, cube_faces, 12, 0, &bad));
     INVALID("face 0", treeform_volume(bad, &value));
     INVALID("face 0", treeform_area(bad, &value));
-    INVALID("1", treeform_is_solid(bad, &solid));
+    OK(treeform_is_solid(bad, &solid));
+    CHECK(!solid);
     INVALID("null", treeform_volume(mesh, NULL));
     treeform_free(mesh);
     treeform_free(empty);

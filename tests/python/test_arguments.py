@@ -28,7 +28,7 @@ TAKES = {
     "clip": {"sheet": CUBE}, "contains": AT, "convex_hull": {"points": POINTS},
     "components": ONE, "concatenate": {"meshes": [CUBE]}, "cut": {**ONE, "at": [0.5, 0.5, 0.5]},
     "cut_to_fit": {"mesh": CUBE, "size": [1, 1, 0.5]}, "mass_properties": ONE,
-    "submesh": {"mesh": CUBE, "faces": [0]},
+    "split_parts": ONE, "submesh": {"mesh": CUBE, "faces": [0]},
     "transformed": {"mesh": CUBE, "matrix": np.eye(4)}, "count_inside_out": ONE,
     "count_nearly_equal": {"points": POINTS, "distance": 0.1}, "count_topology": ONE,
     "deviation": TWO, "distance": TWO, "drop": PLACED, "face_components": ONE,

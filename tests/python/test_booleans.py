@@ -94,7 +94,7 @@ def test_volumes_are_those_of_cells(a, b, c):
                          ((a + b) * c, (x | y) & z), (tuple(a) * (b + c), x & (y | z))):
         if filled.any():
             assert made.volume == filled.sum()
-            assert made.is_solid and len(tf.self_intersections(made)) == 0
+            assert tf.check_operand(made) and len(tf.self_intersections(made)) == 0
         else:
             assert len(made.faces) == 0
 

@@ -311,7 +311,7 @@ class Language:
             text += f"const py::object data = {value};\n" if value else ""
         text += "py::dict made;\n"
         # What a function of the struct computes comes before its fields are moved away.
-        for one in sorted(attributes, key=lambda one: not re.search(r"\bfrom\.\w+\(\)", one.code)):
+        for one in sorted(attributes, key=lambda one: not re.search(r"\bfrom\.\w+\(", one.code)):
             text += f'made["{one.name}"] = {one.code};\n'
         return text + f'return object_of("treeform.{of.module}", "{of.name}", made);\n}}\n'
 

@@ -173,7 +173,7 @@ RESULTS = [
                                                "is left, "
                "also if it was merged with others.",
                'as_python(std::move(from.is_kept)).attr("view")("bool")')]}),
-    Result("convex_hull_result", "ConvexHull", "_repair", "MeshResult", context="cloud",
+    Result("convex_hull_result", "ConvexHull", "_repair", context="cloud",
            doc="The convex hull of points: triangles, grouped by flat sides.",
            docs={"faces": "(F, 3) triangles, by point numbers, outward."},
            custom={"+": [Attribute("mesh", "Mesh", "The hull as a closed mesh, with only the points "

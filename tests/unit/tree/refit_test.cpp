@@ -149,11 +149,11 @@ TEST_CASE("refit: refuses a box that is not finite, naming the element, and can 
     }
 }
 
-TEST_CASE("refit: refuses a place that the tree does not have") {
+TEST_CASE("refit: refuses a position that the tree does not have") {
     const boxes<2> of = box_family<2>("random", 20, 1);
     auto tree = tf::build(of, itself);
     CHECK_THROWS_WITH_AS(tf::refit(tree, of, itself, std::vector<std::uint32_t>{3, 20}),
-                         "treeform::refit: place 20 is not in the tree", std::invalid_argument);
+                         "treeform::refit: position 20 is not in the tree", std::invalid_argument);
 }
 
 TEST_CASE("refit: refuses a range that is not of the size of the tree") {

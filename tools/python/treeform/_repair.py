@@ -14,7 +14,7 @@ from ._arrays import Floats, Ids
 from ._errors import checked, options
 from ._mesh import Body, Mesh, MeshLike, MeshResult, held, points_of
 from ._progress import Progress
-from ._results import Certificate
+from ._results import Certificate, Result
 
 __all__ = ["ConvexHull", "MadeMesh", "RepairResult", "convex_hull", "find_rounding_defects",
            "join_equal_points", "repair", "resolve_self_intersections", "rounded"]
@@ -45,7 +45,7 @@ def steps_of(steps: Iterable[str]) -> dict[str, bool]:
 # made of headers:
 #   ConvexHull
 @dataclass(frozen=True, repr=False)
-class ConvexHull(MeshResult):
+class ConvexHull(Result):
     """The convex hull of points: triangles, grouped by flat sides.
 
     dimension: The dimension that the points span: 3, 2 in a plane, 1 on a line, 0 if all are equal,
@@ -240,7 +240,7 @@ def convex_hull(points: Body, *, progress: Progress = None) -> ConvexHull:
     >>> hull = treeform.convex_hull(treeform.read("data/cube.stl"))
     >>> hull.dimension, len(hull.faces), hull.areas.tolist()
     (3, 12, [1.0, 1.0, 1.0, 1.0, 1.0, 1.0])
-    >>> hull.mesh(treeform.read("data/cube.stl")).volume
+    >>> hull.mesh.volume
     1.0
     """
     return _core.convex_hull(points_of(points), progress=progress)

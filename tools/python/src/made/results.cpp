@@ -188,12 +188,12 @@ py::object object(of_result, tf::repair_result&& from, const carrying& attribute
 
 py::object object(of_result, tf::convex_hull_result&& from, tf::points_view cloud) {
     py::dict made;
+    made["mesh"] = mesh_object(from.mesh(cloud), py::none(), py::none());
     made["dimension"] = as_python(std::move(from.dimension));
     made["faces"] = as_python(std::move(from.faces));
     made["first_face"] = column(from.sides, [](const auto& one) { return one.first_face; });
     made["areas"] = column(from.sides, [](const auto& one) { return one.area; });
     made["normals"] = column(from.sides, [](const auto& one) { return one.normal; });
-    made["mesh"] = mesh_object(from.mesh(cloud), py::none(), py::none());
     return object_of("treeform._repair", "ConvexHull", made);
 }
 
@@ -307,12 +307,12 @@ py::object object(of_result, tf::urdf_joint&& from, const tf::urdf_robot& robot)
 
 py::object object(of_result, tf::urdf_robot&& from, std::vector<tf::urdf_mesh>& parts) {
     py::dict made;
+    made["adjacent"] = column(from.adjacent(parts), std::identity{});
     made["name"] = as_python(std::move(from.name));
     made["links"] = as_python(std::vector(from.links));
     made["joints"] = as_python(std::vector(from.joints), from);
     made["parts"] = meshes_of(std::move(parts));
     made["link_of_part"] = column(parts, &tf::urdf_mesh::link);
-    made["adjacent"] = column(from.adjacent(parts), std::identity{});
     made["approximated"] = as_python(std::move(from.approximated));
     made["skipped"] = as_python(std::move(from.skipped));
     made["_data"] = py::cast(robot_data(from, parts));
