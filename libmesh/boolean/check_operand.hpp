@@ -10,6 +10,6 @@ namespace treeform::detail::boolean {
 
 /// As `treeform::check_operand`; errors name the function `called`.
 [[nodiscard]] certificate check_operand(const char* called, mesh_view mesh,
-                                      const progress_callback& progress = {});
+                                        const progress_callback& progress = {});
 
 }  // namespace treeform::detail::boolean

@@ -79,7 +79,8 @@ constexpr bool in_both_frames = true;  // boxes are also compared in the frame o
 
 /// What the chunks of a search give, in a narrow phase each.
 template <class Source>
-intersection_result classified(const pair_search_chunks<3>& search, const typename Source::input& meshes,
+intersection_result classified(const pair_search_chunks<3>& search,
+                               const typename Source::input& meshes,
                                const intersection_options& options,
                                detail::base::effort* effort = nullptr) {
     const std::size_t chunks = search.chunks();
@@ -126,7 +127,7 @@ intersection_result classified_by_faces(mesh_view a, const tree<3>& tree_a, mesh
                                         const mesh_positions& moves,
                                         detail::base::effort* effort = nullptr) {
     const pair_search_chunks<3> search(transformed(tree_a, moves.move_a),
-                                transformed(tree_b, moves.move_b), in_both_frames);
+                                       transformed(tree_b, moves.move_b), in_both_frames);
     return classified<detail::intersect::face_candidates>(
         search, {{a, tree_a, options.move_a}, {b, tree_b, options.move_b}}, options, effort);
 }
@@ -177,7 +178,7 @@ intersection_result between_prepared(const prepared_mesh& a, const prepared_mesh
     const tree<3>& tree_a = build_face_tree(a, "mesh_intersections: a");
     const tree<3>& tree_b = build_face_tree(b, "mesh_intersections: b");
     const pair_search_chunks<3> search(transformed(tree_a, options.move_a),
-                                transformed(tree_b, options.move_b), in_both_frames);
+                                       transformed(tree_b, options.move_b), in_both_frames);
     return classified<detail::intersect::block_candidates>(
         search,
         {{detail::nearness::face_blocks_of(a).triangles, tree_a, options.move_a},

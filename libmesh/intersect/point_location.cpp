@@ -201,14 +201,12 @@ point_location located(mesh_view mesh, const tree<3>& faces, const point3& point
     if (!is_finite(point)) refuse("locate: the point is not finite");
     constexpr double infinite = std::numeric_limits<double>::infinity();
     tally found;
-    visit_ray(faces, ray<double, 3>{{point.x, point.y, point.z}, {1, 0, 0}},
-                [&](std::uint32_t id) {
-                    const face& f = mesh.faces[id];
-                    if (counts(id))
-                        count_face({mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]}, point,
-                                   id, found);
-                    return infinite;
-                });
+    visit_ray(faces, ray<double, 3>{{point.x, point.y, point.z}, {1, 0, 0}}, [&](std::uint32_t id) {
+        const face& f = mesh.faces[id];
+        if (counts(id))
+            count_face({mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]}, point, id, found);
+        return infinite;
+    });
     return found.result();
 }
 

@@ -182,8 +182,7 @@ void check_tree(mesh_view mesh, const transformed<3>& tree) {
 }
 
 std::optional<closest_pair_result> search(const placed_faces& a, const placed_faces& b,
-                                            detail::pair_walk<3>& walk, double unit,
-                                            double radius) {
+                                          detail::pair_walk<3>& walk, double unit, double radius) {
     const nearest_so_far best = detail::walk_pairs(
         walk, nearest_so_far{detail::squared_limit(radius * unit)},
         [&](const detail::block_pair& blocks, nearest_so_far& mine, double limit) {
@@ -203,16 +202,16 @@ std::optional<closest_pair_result> search(const placed_faces& a, const placed_fa
         return point3{p.x * per_unit, p.y * per_unit, p.z * per_unit};
     };
     return closest_pair_result{best.a, best.b, std::sqrt(best.squared) * per_unit,
-                                 back(best.at.on_a), back(best.at.on_b)};
+                               back(best.at.on_a), back(best.at.on_b)};
 }
 
 }  // namespace
 
 std::optional<closest_pair_result> detail::nearness::closest_pair(mesh_view a,
-                                                                      const transformed<3>& tree_a,
-                                                                      mesh_view b,
-                                                                      const transformed<3>& tree_b,
-                                                                      double radius) {
+                                                                  const transformed<3>& tree_a,
+                                                                  mesh_view b,
+                                                                  const transformed<3>& tree_b,
+                                                                  double radius) {
     check_tree(a, tree_a);
     check_tree(b, tree_b);
     check_radius("treeform::closest_pair", radius);
@@ -235,15 +234,15 @@ const detail::nearness::face_blocks& detail::nearness::face_blocks_of(const prep
 namespace {
 
 std::optional<closest_pair_result> find(const std::string& function, mesh_view a, mesh_view b,
-                                          const mesh_positions& options) {
+                                        const mesh_positions& options) {
     const tree<3> tree_a = build_face_tree(a, (function + ": a").c_str());
     const tree<3> tree_b = build_face_tree(b, (function + ": b").c_str());
-    return detail::nearness::closest_pair(a, {tree_a, options.move_a}, b,
-                                            {tree_b, options.move_b}, options.radius);
+    return detail::nearness::closest_pair(a, {tree_a, options.move_a}, b, {tree_b, options.move_b},
+                                          options.radius);
 }
 
 std::optional<closest_pair_result> find(const std::string& function, const prepared_mesh& a,
-                                          const prepared_mesh& b, const mesh_positions& options) {
+                                        const prepared_mesh& b, const mesh_positions& options) {
     detail::check_radius(("treeform::" + function).c_str(), options.radius);
     const transformed<3> tree_a(build_face_tree(a, (function + ": a").c_str()), options.move_a);
     const transformed<3> tree_b(build_face_tree(b, (function + ": b").c_str()), options.move_b);
@@ -265,8 +264,7 @@ std::optional<closest_pair_result> find(const std::string& function, const prepa
 }
 
 std::optional<closest_pair_result> find_between(const char* function, const mesh_ref& a,
-                                                  const mesh_ref& b,
-                                                  const mesh_positions& options) {
+                                                const mesh_ref& b, const mesh_positions& options) {
     if (!detail::base::is_prepared_or_cloud(a, b))
         return find(function, a.view(), b.view(), options);
     return find(function, *detail::base::prepared_ref(a), *detail::base::prepared_ref(b), options);
@@ -275,7 +273,7 @@ std::optional<closest_pair_result> find_between(const char* function, const mesh
 }  // namespace
 
 std::optional<closest_pair_result> closest_pair(const mesh_ref& a, const mesh_ref& b,
-                                                    const mesh_positions& options) {
+                                                const mesh_positions& options) {
     return find_between("closest_pair", a, b, options);
 }
 

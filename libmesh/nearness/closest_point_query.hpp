@@ -46,8 +46,8 @@ class TREEFORM_API closest_point_query {
     /// The nearest point; empty if the mesh has no faces or all are farther than the radius.
     /// \throws std::invalid_argument for a query that is not finite, or a radius that is negative
     ///         or NaN
-    [[nodiscard]] std::optional<closest_point_result> nearest(const point3& query,
-                                                              double radius = unlimited_radius) const;
+    [[nodiscard]] std::optional<closest_point_result> nearest(
+        const point3& query, double radius = unlimited_radius) const;
 
     /// [Q] The nearest point of each query, in the given order. Queries run in parallel, sorted
     /// along a space-filling curve.

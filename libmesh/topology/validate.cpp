@@ -56,7 +56,8 @@ invalid_faces find_invalid_faces(const mesh_ref& given) {
     const mesh_view mesh = given.view();
     constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
     if (mesh.points.size() > most || mesh.faces.size() > most)
-        throw std::invalid_argument("treeform::find_invalid_faces: more than 2^32 - 1 points or faces");
+        throw std::invalid_argument(
+            "treeform::find_invalid_faces: more than 2^32 - 1 points or faces");
     invalid_faces result;
     result.nonfinite_points = find_nonfinite_points(mesh.points);
     std::vector<invalid_faces> found(chunk_count(mesh.faces.size(), light_grain));

@@ -367,7 +367,8 @@ constexpr std::size_t small_block = 56;
 }  // namespace detail
 
 template <std::size_t D>
-pair_search_chunks<D>::pair_search_chunks(const transformed<D>& a, const transformed<D>& b, bool in_both_frames)
+pair_search_chunks<D>::pair_search_chunks(const transformed<D>& a, const transformed<D>& b,
+                                          bool in_both_frames)
     : trees_(detail::in_one_frame(a, b, in_both_frames)) {
     if (trees_.a->empty() || trees_.b->empty()) return;
     detail::frontier cut =

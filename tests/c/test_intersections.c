@@ -74,6 +74,10 @@ static void test_of_two(void) {
     OK(treeform_mesh_intersections(a, b, NULL, &pairs));
     CHECK(strcmp(treeform_pair_kind_name(TREEFORM_FOLD), "fold") == 0);
     CHECK(strcmp(treeform_pair_kind_name(7), "unknown") == 0);
+    CHECK(strcmp(treeform_align_outcome_name(TREEFORM_ALIGN_DOUBTFUL), "doubtful") == 0);
+    CHECK(strcmp(treeform_location_name(TREEFORM_OUTSIDE), "outside") == 0);
+    CHECK(strcmp(treeform_mesh_relation_name(TREEFORM_RELATION_TOUCHING), "touching") == 0);
+    CHECK(strcmp(treeform_placement_outcome_name(TREEFORM_OUTCOME_BED), "bed") == 0);
     CHECK(strcmp(treeform_status_name(-1), "unknown") == 0);
     CHECK(strcmp(treeform_status_name(TREEFORM_STATUS_OPEN_INPUT), "open-input") == 0);
     CHECK(pairs->count > 0 && pairs->count == pairs->counts[0] + pairs->counts[5]);

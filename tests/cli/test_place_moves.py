@@ -393,7 +393,8 @@ class Moves(PlaceTest):
         self.put("moved.xyz", "".join(f"{x!r} {y!r} {z!r}\n" for x, y, z in moved))
         entry = self.entry("align", "moved.xyz", "--fixed", "fixed.obj", "--weights", "equal", "-n",
                            status=1)
-        self.assertEqual((entry["align"]["outcome"], entry["align"]["converged"]), ("doubtful", False))
+        align = entry["align"]
+        self.assertEqual((align["outcome"], align["converged"]), ("doubtful", False))
         for options in ([], ["--trim", "0.26"], ["--overlap", "0.7", "--metric", "plane"],
                         ["--trim", "0.26", "--starts", "6"]):
             with self.subTest(options):

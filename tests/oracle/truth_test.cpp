@@ -166,7 +166,8 @@ TEST_CASE("truth: order, axes, scale and threads change no pair of a model") {
         CAPTURE(row.text("file"));
         const tf::mesh stored = tf::read(folder / row.text("file")).mesh;
         if (stored.faces.empty() || stored.faces.size() > most_faces) continue;
-        const tf::mesh mesh = tf::join_equal_points(finite_part(stored, tf::find_invalid_faces(stored)));
+        const tf::mesh mesh =
+            tf::join_equal_points(finite_part(stored, tf::find_invalid_faces(stored)));
         if (tf::self_intersections(mesh, {.vertices = tf::vertex_identity::by_index}).box_pairs >
             most_box_pairs)
             continue;

@@ -13,7 +13,8 @@ from support import CUBE, SHEET, SPHERES, box, moved, same_mesh, sphere
 
 def test_what_a_mesh_says_of_itself():
     assert CUBE.is_solid and not SHEET.is_solid
-    assert not SPHERES.is_solid and tf.check_operand(SPHERES) and not tf.Mesh(CUBE.vertices).is_solid
+    assert not SPHERES.is_solid and tf.check_operand(SPHERES)
+    assert not tf.Mesh(CUBE.vertices).is_solid
     assert CUBE.volume == 1 and CUBE.area == 6
     assert tf.Mesh(CUBE.vertices, CUBE.faces[:, ::-1]).volume == -1
     with pytest.raises(ValueError, match="face 0"):

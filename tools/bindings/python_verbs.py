@@ -284,7 +284,8 @@ FUNCTIONS = [
     Function("bounds(mesh: Mesh) -> Optional[Floats]", "tf::bounding_box(mesh.view().points)"),
     Function("signed_volume(mesh: Mesh) -> float", "tf::signed_volume(mesh.view())"),
     Function("surface_area(mesh: Mesh) -> float", "tf::surface_area(mesh.view())"),
-    Function("find_invalid_faces(mesh: Mesh) -> InvalidFaces", "tf::find_invalid_faces(mesh.view())"),
+    Function("find_invalid_faces(mesh: Mesh) -> InvalidFaces",
+             "tf::find_invalid_faces(mesh.view())"),
     Function("count_topology(mesh: Mesh) -> Topology",
              "tf::count_topology(mesh.view().points.size(), mesh.view().faces)"),
     Function("face_components(mesh: Mesh) -> Ids",
@@ -374,8 +375,8 @@ FUNCTIONS = [
     Function("split_parts(mesh: Mesh) -> dict[str, Mesh]",
              doc="The parts of a mesh that was read from a file, by name: the objects, groups or "
                  "nodes of the file. Each has its own vertices and faces, and their attributes. "
-                 "Parts whose open edges coincide are patches of one surface, and are combined into "
-                 "one part; solids that touch are not combined. Parts without a name are called "
+                 "Parts whose open edges coincide are patches of one surface, and are combined "
+                 "into one part; solids that touch are not combined. Parts without a name are "
                  "\"1\", \"2\", ... For the connected parts of any mesh, see `components`."),
     Function("write(path: Path | IO[bytes], mesh: PartsLike, options: write_options(format))"
              " -> Written", body="written(path, mesh, format, how, progress)",

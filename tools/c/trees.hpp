@@ -218,10 +218,10 @@ inline answer_of<treeform_id_lists> box_tree_rays(const box_tree& tree, const do
             return lists_of(count, [&](std::size_t i) {
                 std::vector<std::uint32_t> met;
                 tf::visit_ray(of.tree, tf::ray<double, D>{from[i], along[i]},
-                                [&](std::uint32_t id) {
-                                    met.push_back(id);
-                                    return infinity;
-                                });
+                              [&](std::uint32_t id) {
+                                  met.push_back(id);
+                                  return infinity;
+                              });
                 std::sort(met.begin(), met.end());
                 return met;
             });

@@ -195,7 +195,8 @@ std::vector<std::uint32_t> check_operands(job& work, const std::vector<solid>& s
     const auto timing = work.time("check");
     std::vector<std::uint32_t> open;
     for (std::uint32_t i = 0; i < solids.size(); ++i) {
-        const tf::certificate known = tf::check_operand(solids[i].file.mesh, work.progress("check"));
+        const tf::certificate known =
+            tf::check_operand(solids[i].file.mesh, work.progress("check"));
         work.call_ended(known.status == tf::status::cancelled);
         const auto stored_face = [&](std::uint32_t f) { return solids[i].stored_face(f); };
         json& about = work.entry["inputs"][i];

@@ -49,7 +49,8 @@ struct solid {
 [[nodiscard]] double diagonal_of(const std::vector<solid>& solids);
 
 /// Looks for open edges of each one, and enters in the report where they are; which are open.
-[[nodiscard]] std::vector<std::uint32_t> check_operands(job& work, const std::vector<solid>& solids);
+[[nodiscard]] std::vector<std::uint32_t> check_operands(job& work,
+                                                        const std::vector<solid>& solids);
 
 /// Says why these are no solids. \pre they have been checked
 void warn_of_open(job& work, const std::vector<solid>& solids,

@@ -155,7 +155,8 @@ TEST_CASE("point location: scale, offset, order and threads do not matter") {
             std::vector<tf::point3> there = lattice(6, 0.5, offset);
             for (tf::point3& p : there) p = {p.x * scale, p.y * scale, p.z * scale};
             const auto tree_or_transformed = tf::build_face_tree(placed);
-            CHECK(tf::detail::intersect::point_locator(placed, tree_or_transformed).locate(there) == found);
+            CHECK(tf::detail::intersect::point_locator(placed, tree_or_transformed).locate(there) ==
+                  found);
         }
     const tf::mesh tiny = test::scaled(mesh, 0x1p-1073);
     for (std::size_t i = 0; i < points.size(); ++i)

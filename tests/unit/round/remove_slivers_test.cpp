@@ -19,7 +19,8 @@ namespace {
 
 std::vector<tf::face_pair> all_meeting(tf::mesh_view mesh) {
     auto pairs = tf::self_intersections(mesh, {.vertices = tf::vertex_identity::by_index}).pairs;
-    for (const std::uint32_t f : tf::find_invalid_faces(mesh).degenerate_faces) pairs.push_back({f, f});
+    for (const std::uint32_t f : tf::find_invalid_faces(mesh).degenerate_faces)
+        pairs.push_back({f, f});
     return pairs;
 }
 

@@ -205,8 +205,8 @@ TEST_CASE("search of two trees: what is out of reach is not looked at") {
     const auto b = tf::build(away, itself);
     CHECK(tf::pair_search_chunks<3>(a, b).chunks() == 0);
     for (auto& box : away) box.min[0] -= 0.5, box.max[0] -= 0.5;  // 0.05 in common
-    const auto seen =
-        tf::pair_search_chunks<3>::visit_all(a, tf::build(away, itself), [](const auto&) { return true; });
+    const auto seen = tf::pair_search_chunks<3>::visit_all(a, tf::build(away, itself),
+                                                           [](const auto&) { return true; });
     CHECK(seen.candidates > 0);
     CHECK(seen.nodes < 20'000 / 8);
 }

@@ -54,8 +54,9 @@ py::object scene(const held_meshes& meshes, const std::vector<std::string>& name
 py::dict split_parts(const held_mesh& mesh) {
     const tf::mesh_file whole = file_of(mesh);
     require_rows(whole, 0);
-    std::vector<tf::file_part> parts =
-        run([&](const tf::progress_callback&) { return tf::split_parts({&whole, {}}); });
+    std::vector<tf::file_part> parts = run([&](const tf::progress_callback&) {
+        return tf::split_parts({&whole, {}});
+    });
     py::dict all;
     for (tf::file_part& one : parts) {
         const std::string name = one.name.empty() ? std::to_string(all.size() + 1) : one.name;

@@ -369,9 +369,8 @@ def split(*meshes: MeshesLike, precision: str = "float64", max_displacement: flo
 
 
 def check_operand(mesh: MeshLike, *, progress: Progress = None) -> Certificate:
-    """Whether a mesh can be an operand of `boolean`, that is, whether it is closed; else where it
-    is open. It may intersect itself: `find_solid_defects` is stricter. If edges do not match as
-    they are, the mesh is first cut along itself: they may still match in pieces.
+    """Whether a mesh can be an operand of `boolean`: whether it is closed as it is, or after it is
+    cut along itself; else where it is open. `find_solid_defects` is stricter.
 
     Raises ValueError as `boolean`.
 

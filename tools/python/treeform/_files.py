@@ -111,17 +111,16 @@ def split_parts(mesh: MeshLike, *, progress: Progress = None) -> dict[str, Mesh]
     """The parts of a mesh that was read from a file, by name: the objects, groups or nodes of the
     file. Each has its own vertices and faces, and their attributes. Parts whose open edges coincide
     are patches of one surface, and are combined into one part; solids that touch are not combined.
-    Parts without a name are called "1", "2", ... For the connected parts of any mesh, see
-    `components`.
+    Parts without a name are "1", "2", ... For the connected parts of any mesh, see `components`.
 
     Raises ValueError naming the lowest face with a corner out of range.
 
     Cost: O(V log V + F log F), and O(V + F) for each part and column.
 
-    >>> import treeform
-    >>> cube = treeform.read("data/cube.stl")
-    >>> written = treeform.write("two.3mf", {"lid": cube, "box": (cube.vertices - 3, cube.faces)})
-    >>> treeform.split_parts(treeform.read("two.3mf"))
+    >>> import io, treeform
+    >>> cube, file = treeform.read("data/cube.stl"), io.BytesIO()
+    >>> _ = treeform.write(file, {"lid": cube, "box": (cube.vertices - 3, cube.faces)}, "3mf")
+    >>> treeform.split_parts(treeform.read(io.BytesIO(file.getvalue())))
     {'lid': Mesh(8 vertices, 12 faces), 'box': Mesh(8 vertices, 12 faces)}
     """
     return _core.split_parts(held(mesh), progress=progress)

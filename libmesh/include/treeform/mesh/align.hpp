@@ -156,10 +156,10 @@ struct align_result {
 /// features of the shape. The result is never worse than the present position; if nothing better is
 /// found, it is `start`, scaled about its center to the bounds of the scale. Results are compared
 /// by a mean of squared distances to the nearest fixed points, each at most `max_distance` squared,
-/// over the nearest `overlap` share of the points. If `robust`, or with an overlap below 1, they are
-/// compared by the mean of Welsch's function with the final v instead, so that an overlap somewhat
-/// too large does no harm. Motions in which points slide freely (a plane on a plane) are not made.
-/// Equal points of a cloud count once.
+/// over the nearest `overlap` share of the points. If `robust`, or with an overlap below 1, they
+/// are compared by the mean of Welsch's function with the final v instead, so that an overlap
+/// somewhat too large does no harm. Motions in which points slide freely (a plane on a plane) are
+/// not made. Equal points of a cloud count once.
 ///
 /// Along motions with a stiffness below 0.02, such as the rotation of a gear about its axis,
 /// positions up to 6% of the diagonal away are also tried.

@@ -239,9 +239,8 @@ template <std::convertible_to<std::string_view> Text>
 [[nodiscard]] TREEFORM_API boolean_result split(const mesh_refs& operands,
                                                 const boolean_options& options = {});
 
-/// Whether a mesh can be an operand of `boolean`, that is, whether it is closed; else where it is
-/// open. It may intersect itself: `find_solid_defects` is stricter. If edges do not match as they
-/// are, the mesh is first cut along itself: they may still match in pieces.
+/// Whether a mesh can be an operand of `boolean`: whether it is closed as it is, or after it is cut
+/// along itself; else where it is open. `find_solid_defects` is stricter.
 ///
 /// \throws std::invalid_argument as `boolean`
 /// \same   on any number of threads

@@ -82,8 +82,8 @@ struct oriented_box {
 
 /// A box of small volume around points. It is the smallest of these: the axis-aligned box, and all
 /// boxes with a side in a side of the convex hull and another along an edge of that side. For
-/// coplanar points, the one of least area. None without points. For a hull of more than a few thousand sides, only
-/// the largest sides are tried, up to 2^26 corners of sides.
+/// coplanar points, the one of least area. None without points. For a hull of more than a few
+/// thousand sides, only the largest sides are tried, up to 2^26 corners of sides.
 ///
 /// Axes, center and size are rounded: a point may be outside by 2^-48 of the largest coordinate.
 ///

@@ -160,8 +160,8 @@ struct mesh_file {
     /// Rounds every point to float32. Returns the largest change of a coordinate.
     TREEFORM_API double round_to_float32();
 
-    /// Transforms the points, and the normals as `transform_normals` does. If `by` mirrors, faces are
-    /// flipped, with the values of their corners, so that they still point outward.
+    /// Transforms the points, and the normals as `transform_normals` does. If `by` mirrors, faces
+    /// are flipped, with the values of their corners, so that they still point outward.
     TREEFORM_API void move(const transform<3>& by);
 
     /// Transforms normals by `by`, and keeps their lengths: the columns nx, ny, nz of all elements,

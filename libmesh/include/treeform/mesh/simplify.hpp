@@ -43,8 +43,8 @@ struct simplify_result {
     std::vector<std::uint32_t> vertex_source;  ///< [V] input vertex equal to each vertex; none: new
     /// [V] for a new vertex, the nearest input face on its side of seams; else none
     std::vector<std::uint32_t> face_of_new_vertex;
-    /// [3 F] for each corner, an input corner (3 f + i for corner i of face f) at its vertex, on the
-    /// same side of seams; none at new vertices
+    /// [3 F] for each corner, an input corner (3 f + i for corner i of face f) at its vertex, on
+    /// the same side of seams; none at new vertices
     std::vector<std::uint32_t> corner_source;
     std::uint64_t collapses = 0;            ///< edges collapsed
     std::uint64_t refused_by_topology = 0;  ///< edges whose collapse would change the topology

@@ -100,8 +100,8 @@ struct impact {
                                                    const impact_options& options = {});
 
 /// Turns `moving` until its distance from one of `fixed` is at most the clearance plus the
-/// tolerance; `max_travel` has no effect. The axis is the line through `origin` along `direction`, of any length but 0. Turns
-/// are right-handed: counter-clockwise seen against the direction.
+/// tolerance; `max_travel` has no effect. The axis is the line through `origin` along `direction`,
+/// of any length but 0. Turns are right-handed: counter-clockwise seen against the direction.
 ///
 /// Conservative advancement: bounds on the speed of corners guarantee that no faces meet within a
 /// step, up to the rounding of distances. The returned coordinates are checked exactly: they

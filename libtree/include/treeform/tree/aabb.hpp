@@ -136,8 +136,8 @@ struct transform {
         return result;
     }
 
-    /// The rotation about an axis through the origin, anything with []; counterclockwise if the axis
-    /// points to the viewer. Quarter turns about a coordinate axis are exact.
+    /// The rotation about an axis through the origin, anything with []; counterclockwise if the
+    /// axis points to the viewer. Quarter turns about a coordinate axis are exact.
     ///
     /// \throws std::invalid_argument if the axis is zero, or it or the angle is not finite
     template <class Vector>

@@ -121,8 +121,8 @@ template <std::size_t D, class BoxOf>
     return bad;
 }
 
-/// Calls `visit(position)` for the positions of `slots` until it returns false; returns false in that
-/// case, else true.
+/// Calls `visit(position)` for the positions of `slots` until it returns false; returns false in
+/// that case, else true.
 template <class Visit>
 bool for_positions(const leaf_slots& slots, const Visit& visit) {
     for (unsigned rest = slots.slots; rest != 0; rest &= rest - 1)
@@ -189,11 +189,11 @@ void refit(tree<D>& tree, const Range& range, const MakeBox& make_aabb) {
 }
 
 /// The same only for the primitives at `positions` of the leaf order (`leaf_positions`); all
-/// others keep their boxes. Places may be in any order, and may repeat.
+/// others keep their boxes. Positions may be in any order, and may repeat.
 ///
 /// \throws std::invalid_argument also naming a position out of range; the tree is then unchanged
-/// \cost   O(P log N) for P positions and their ancestors; if P is above N / 128, also a pass over N /
-///         8 bytes
+/// \cost   O(P log N) for P positions and their ancestors; if P is above N / 128, also a pass over
+///         N / 8 bytes
 template <std::size_t D, std::ranges::random_access_range Range, class MakeBox>
 requires box_maker<MakeBox, std::ranges::range_reference_t<const Range>>
 void refit(tree<D>& tree, const Range& range, const MakeBox& make_aabb,

@@ -43,10 +43,10 @@ struct tree_frame {
 /// The shape follows from N alone and is not stored. `ids()` is a permutation of the primitives.
 /// Leaf block i has the boxes of the primitives at positions 8i ... 8i+7: slot s has the box of
 /// ids()[8i + s]. On the levels above, node i holds the boxes of its children, nodes 8i ... 8i+7 of
-/// the level below. Level 0 is the root. So node i of level l covers the positions [i * capacity(l),
-/// (i + 1) * capacity(l)), up to N, and every level has an eighth of the nodes of the level below
-/// it. Memory: 32 bytes a primitive with D = 3, 23 with D = 2, ids included, plus up to one partly
-/// filled node for each level. The tree owns its data; copies are deep.
+/// the level below. Level 0 is the root. So node i of level l covers the positions [i *
+/// capacity(l), (i + 1) * capacity(l)), up to N, and every level has an eighth of the nodes of the
+/// level below it. Memory: 32 bytes a primitive with D = 3, 23 with D = 2, ids included, plus up to
+/// one partly filled node for each level. The tree owns its data; copies are deep.
 ///
 /// \source the balanced n-ary layout of Sajovic, Knez and Korez, tf::tree, section III-A, with
 ///         boxes stored in their parent and no offsets; packed as by Kamel and Faloutsos, On

@@ -7,8 +7,8 @@
 /// An input of an operation.
 typedef struct treeform_carry_source {
     const treeform_file* file;
-    /// [F] the triangle in the file of each face of the input (`treeform_usable_mesh`); null: the same
-    /// numbers.
+    /// [F] the triangle in the file of each face of the input (`treeform_usable_mesh`); null: the
+    /// same numbers.
     const uint32_t* triangle_of_face;
     size_t face_count;  ///< of `triangle_of_face`
 } treeform_carry_source;

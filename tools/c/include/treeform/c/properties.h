@@ -39,9 +39,8 @@ TREEFORM_C_API treeform_code treeform_bounds(const treeform_mesh* mesh, treeform
 /// Whether the mesh is a solid: closed, oriented, manifold, free of self-intersections.
 TREEFORM_C_API treeform_code treeform_is_solid(const treeform_mesh* mesh, int32_t* result);
 
-/// Whether a mesh can be an operand of `treeform_boolean`, that is, whether it is closed; else
-/// where it is open. It may intersect itself: `treeform_find_solid_defects` is stricter. If edges
-/// do not match as they are, the mesh is first cut along itself: they may still match in pieces.
+/// Whether a mesh can be an operand of `treeform_boolean`: whether it is closed as it is, or after
+/// it is cut along itself; else where it is open. `treeform_find_solid_defects` is stricter.
 TREEFORM_C_API treeform_code treeform_check_operand(const treeform_mesh* mesh,
                                                     treeform_progress progress, void* progress_data,
                                                     treeform_certificate** certificate);
