@@ -119,7 +119,8 @@ class joiner {
         constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max() - 1;
         if (points > most || triangles > most || values > most)
             throw std::length_error(
-                "treeform::join: the inputs together have more points or triangles than 32-bit "
+                "treeform::concatenate_files: the inputs together have more points or triangles "
+                "than 32-bit "
                 "numbers can name");
     }
 
@@ -221,7 +222,7 @@ class joiner {
     static void widen(column& c, const column& other) {
         const auto type = wider(c.type, other.type);
         if (!type || c.list_length.has_value() != other.list_length.has_value())
-            throw std::invalid_argument("treeform::join: property " + c.name +
+            throw std::invalid_argument("treeform::concatenate_files: property " + c.name +
                                         " has different types in the inputs");
         c.type = *type;
         if (c.list_length) c.list_length = wider(*c.list_length, *other.list_length);
@@ -289,10 +290,11 @@ class joiner {
 
 }  // namespace
 
-mesh_file join(std::vector<mesh_file> files, std::span<const std::string> names, bool mixed) {
+mesh_file concatenate_files(std::vector<mesh_file> files, std::span<const std::string> names,
+                            bool mixed) {
     if (files.empty()) return {};
     if (files.size() != names.size())
-        throw std::invalid_argument("treeform::join: " + std::to_string(names.size()) +
+        throw std::invalid_argument("treeform::concatenate_files: " + std::to_string(names.size()) +
                                     " names for " + std::to_string(files.size()) + " files");
     return joiner(std::move(files), names, mixed).join();
 }

@@ -99,10 +99,11 @@ void refuse_mixed(const las_header& a, const std::string& name_of_a, const las_h
     const las_system y = system_of(b);
     const std::string both = name_of_a + " and " + name_of_b;
     if (!are_same(x, y))
-        throw std::invalid_argument("treeform::join: " + both +
+        throw std::invalid_argument("treeform::concatenate_files: " + both +
                                     " have different reference systems: " + x.name + ", " + y.name);
     if (has_time(a) && has_time(b) && counts_from_epoch(a) != counts_from_epoch(b))
-        throw std::invalid_argument("treeform::join: " + both + " have different GPS times: " +
+        throw std::invalid_argument("treeform::concatenate_files: " + both +
+                                    " have different GPS times: " +
                                     (counts_from_epoch(a) ? "since the epoch, within a week"
                                                           : "within a week, since the epoch"));
 }

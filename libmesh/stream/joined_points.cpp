@@ -76,7 +76,7 @@ joined_points::joined_points(const cloud_inputs& inputs, bool as_las, const comm
         firsts.push_back(file_of(reader_->header(), read_first(counts_.back())));
     }
     std::vector<std::string> names = inputs.names;
-    head_ = join(std::move(firsts), names, inputs.mixed);
+    head_ = concatenate_files(std::move(firsts), names, inputs.mixed);
     of_join_ = std::exchange(head_.warnings, {});
     clear_rows(head_);
     head_.ranges.clear();
@@ -156,7 +156,7 @@ void joined_points::fit(io::point_block& block) {
     if (!fits_) {
         std::vector<mesh_file> both{head_, file_of(reader_->header(), std::move(block))};
         const std::vector<std::string> names(2);
-        mesh_file file = join(std::move(both), names, true);
+        mesh_file file = concatenate_files(std::move(both), names, true);
         block.points = std::move(file.mesh.points);
         block.properties = std::move(file.attributes.find_or_add("vertex", 0));
     }

@@ -21,7 +21,7 @@
 
 namespace treeform::detail::stream {
 
-/// All blocks together equal the result of `join` for the files. One file is open at a time.
+/// All blocks together equal the result of `concatenate_files` for the files. One file is open at a time.
 class joined_points {
   public:
     /// Reads the headers. Text is read once, each rank its share of the bytes; with several ranks
@@ -29,7 +29,7 @@ class joined_points {
     /// are rounded to the scale and offset of the first file if it is LAS, else to those of
     /// `set_las_grid`.
     ///
-    /// \throws io_error, std::invalid_argument as `join`
+    /// \throws io_error, std::invalid_argument as `concatenate_files`
     joined_points(const cloud_inputs& inputs, bool as_las, const communicator& all);
 
     /// The joined header of all files, without points.

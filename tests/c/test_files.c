@@ -208,7 +208,7 @@ static void test_parts(void) {
     OK(treeform_read("data/sphere.ply", NULL, &sphere));
     both[0] = file;
     both[1] = sphere;
-    OK(treeform_join_files(both, names, 2, &joined));
+    OK(treeform_concatenate_files(both, names, 2, &joined));
     OK(treeform_file_content(joined, &view));
     CHECK(view->mesh.face_count == 640 + 1280);
     treeform_free(view);
@@ -226,7 +226,7 @@ static void test_parts(void) {
         treeform_free(view);
     }
     treeform_free(parts);
-    INVALID("no files", treeform_join_files(both, names, 0, &joined));
+    INVALID("no files", treeform_concatenate_files(both, names, 0, &joined));
     CHECK(joined == NULL);
     CHECK(treeform_reads_scenes() == 0 || treeform_reads_scenes() == 1);
     treeform_free(scene);

@@ -236,13 +236,13 @@ inline std::vector<std::string> names_of(const char* const* names, std::size_t c
 
 /// Concatenates files: one file with all points and faces. `names` [count], or null, are for
 /// warnings.
-inline tf::mesh_file join_files(const treeform_file* const* files, const char* const* names,
-                                std::size_t count) {
+inline tf::mesh_file concatenate_files(const treeform_file* const* files, const char* const* names,
+                                       std::size_t count) {
     std::vector<tf::mesh_file> all;
     for (const treeform_file* one : array(files, count, "files"))
         all.push_back(content(one, "files"));
     if (all.empty()) throw std::invalid_argument("no files to join");
-    return tf::join(std::move(all), names_of(names, count));
+    return tf::concatenate_files(std::move(all), names_of(names, count));
 }
 
 /// One scene of all files, each under its name, with materials and textures.

@@ -32,7 +32,7 @@ tf::mesh_file join(std::vector<tf::mesh_file> files, const std::vector<std::stri
                    bool mixed) {
     if (files.size() == 1) return std::move(files.front());
     try {
-        tf::mesh_file all = tf::join(std::move(files), names, mixed);
+        tf::mesh_file all = tf::concatenate_files(std::move(files), names, mixed);
         for (tf::io_warning& w : all.warnings)
             if (w.code == "data-dropped") w.text += " by --join";
         return all;

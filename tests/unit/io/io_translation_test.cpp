@@ -332,7 +332,7 @@ TEST_CASE("translation: files of LAS are joined by value, whatever their scales"
     const sentences two{"a", "b"};
     const tf::mesh_file a = read_translated(scaled_las({10, 20}, 0.1, 0), "las");
     const tf::mesh_file b = read_translated(scaled_las({10, 20}, 1.0, 0.5), "las");
-    const tf::mesh_file all = tf::join({a, b}, two);
+    const tf::mesh_file all = tf::concatenate_files({a, b}, two);
     CHECK(translated_numbers(passed_through(all, "las"), "hag") ==
           std::vector<double>{1, 2, 10.5, 20.5});
     // Grids that differ become one that holds all.
@@ -344,10 +344,10 @@ TEST_CASE("translation: files of LAS are joined by value, whatever their scales"
     far.las->offset = {8'000'000, 0, 0};
     near = passed_through(near, "las");
     far = passed_through(far, "las");
-    tf::mesh_file both = tf::join({near, far}, two);
+    tf::mesh_file both = tf::concatenate_files({near, far}, two);
     CHECK(tf::round_to_las(both) == 0.0);
     far.las->scale = {1e-7, 1e-7, 1e-7};
-    both = tf::join({near, far}, two);
+    both = tf::concatenate_files({near, far}, two);
     CHECK(tf::round_to_las(both) < 0.004);
 }
 
@@ -363,7 +363,7 @@ TEST_CASE("translation: LAS of other reference systems or time types is joined o
     const std::string zone43 = "PROJCS[\"zone 43\"]", zone44 = "PROJCS[\"zone 44\"]";
     const auto complaint = [&](const tf::mesh_file& a, const tf::mesh_file& b) -> std::string {
         try {
-            (void)tf::join({a, b}, two);
+            (void)tf::concatenate_files({a, b}, two);
         } catch (const std::invalid_argument& error) {
             return error.what();
         }
@@ -374,13 +374,15 @@ TEST_CASE("translation: LAS of other reference systems or time types is joined o
           std::string::npos);
     CHECK(complaint(with("", true), with(zone44, true)).find("none, zone 44") != std::string::npos);
     CHECK(complaint(with(zone43, true), with(zone43, false)).find("GPS time") != std::string::npos);
-    CHECK(tf::join({with(zone43, true), with(zone44, false)}, two, true).mesh.points.size() == 2);
+    CHECK(tf::concatenate_files({with(zone43, true), with(zone44, false)}, two, true)
+              .mesh.points.size() == 2);
 }
 
 TEST_CASE("translation: files of several formats are joined in the sentences of the first") {
     const sentences two{"a", "b"};
     const tf::mesh_file ply = passed_through(colored_cloud(), "ply");
-    const tf::mesh_file all = tf::join({ply, passed_through(colored_cloud(), "pcd")}, two);
+    const tf::mesh_file all =
+        tf::concatenate_files({ply, passed_through(colored_cloud(), "pcd")}, two);
     const std::vector<double> red = translated_numbers(all, "red");
     CHECK(red == std::vector<double>{255, 64, 1, 255, 64, 1});
     CHECK(translated_column(all, "rgb") == nullptr);

@@ -201,7 +201,7 @@ TEST_CASE(
         std::vector<tf::mesh_file> files;
         for (const fs::path& input : work.inputs.paths) files.push_back(tf::read(input));
         const std::vector<std::string> names(files.size(), "a");
-        const tf::mesh_file whole = tf::join(files, names);
+        const tf::mesh_file whole = tf::concatenate_files(files, names);
         REQUIRE(packed_as_team(work, 1));
         const auto expected = take();
         CHECK(expected[0].find("DATA binary_compressed") != std::string::npos);

@@ -166,7 +166,7 @@ TEST_CASE("join: points and faces follow each other, columns go together by name
     const tf::mesh_file a = cloud_of({{0, 0, 0}}, vertex_columns({{"q", {1}}}));
     const tf::mesh_file b = square_and_triangle();
     const std::vector<std::string> names{"a.ply", "b.ply"};
-    const tf::mesh_file all = tf::join({a, b}, names);
+    const tf::mesh_file all = tf::concatenate_files({a, b}, names);
     CHECK(all.mesh.points.size() == 8);
     CHECK(all.mesh.faces.front() == tf::face{1, 2, 3});
     CHECK(all.stored_faces == 2);
@@ -175,6 +175,6 @@ TEST_CASE("join: points and faces follow each other, columns go together by name
     CHECK(vertices->rows == 8);
     REQUIRE(all.warnings.size() == 1);
     CHECK(all.warnings[0].text == "b.ply: no vertex property q; filled with NaN");
-    CHECK(tf::join({}, {}).mesh == tf::mesh{});
-    CHECK_THROWS_AS(static_cast<void>(tf::join({a}, names)), std::invalid_argument);
+    CHECK(tf::concatenate_files({}, {}).mesh == tf::mesh{});
+    CHECK_THROWS_AS(static_cast<void>(tf::concatenate_files({a}, names)), std::invalid_argument);
 }

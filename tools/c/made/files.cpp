@@ -375,11 +375,12 @@ treeform_code treeform_as_mesh(const treeform_file* file, treeform_usable_mesh**
     });
 }
 
-treeform_code treeform_join_files(const treeform_file* const* files, const char* const* names,
-                                  size_t count, treeform_file** file) {
+treeform_code treeform_concatenate_files(const treeform_file* const* files,
+                                         const char* const* names, size_t count,
+                                         treeform_file** file) {
     return glue::guard([&] {
         glue::start(file);
-        return glue::give(glue::join_files(files, names, count), file);
+        return glue::give(glue::concatenate_files(files, names, count), file);
     });
 }
 

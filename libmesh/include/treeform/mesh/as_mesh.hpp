@@ -105,8 +105,9 @@ TREEFORM_API std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh);
 ///         name for each file; std::length_error for more points or triangles than 32 bits can
 ///         number
 /// \cost   O(size of all files)
-[[nodiscard]] TREEFORM_API mesh_file join(std::vector<mesh_file> files,
-                                          std::span<const std::string> names, bool mixed = false);
+[[nodiscard]] TREEFORM_API mesh_file concatenate_files(std::vector<mesh_file> files,
+                                                       std::span<const std::string> names,
+                                                       bool mixed = false);
 
 /// One file with all `files` as parts of a scene, with texture coordinates, normals, materials and
 /// textures. Other properties are omitted. `warnings` lists textures that could not be kept.

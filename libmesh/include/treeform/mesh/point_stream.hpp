@@ -184,7 +184,7 @@ struct cloud_inputs {
     /// As in `read_options`.
     std::vector<std::pair<std::string, std::string>> columns{};
     std::vector<std::string> names{};  ///< for warnings; empty: the paths
-    bool mixed = false;                ///< as in `join`
+    bool mixed = false;                ///< as in `concatenate_files`
 
     /// The joined header of the files, without reading points: as `point_reader::header`, with the
     /// number of rows of each element; the rows of "vertex" are the points. A single file may be a
@@ -192,7 +192,7 @@ struct cloud_inputs {
     /// every rank must call it.
     ///
     /// \throws io_error of `kind::blocks` as `point_reader`; io_error if a file cannot be read;
-    ///         std::invalid_argument for columns that `join` cannot unite
+    ///         std::invalid_argument for columns that `concatenate_files` cannot unite
     [[nodiscard]] TREEFORM_API mesh_file outline(const communicator& ranks = {}) const;
 };
 

@@ -10,7 +10,7 @@
 /// a mesh each need one more pass over the points; the faces of a mesh are read three times. Tiles
 /// are files in a folder. If the process is killed, the folder stays, and the same call resumes
 /// there. The output is byte for byte that of `weld` and `write` for the file, or for the result of
-/// `join` for several.
+/// `concatenate_files` for several.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh_file.hpp>
