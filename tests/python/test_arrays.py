@@ -261,13 +261,13 @@ def test_options_that_make_no_sense_are_named(verb, message):
 
 @pytest.mark.parametrize("verb", [tf.contains, tf.locate, tf.winding_number, tf.signed_distance])
 def test_an_open_mesh_has_no_inside(verb):
-    with pytest.raises(tf.NotSolidError) as caught:
+    with pytest.raises(tf.NotClosedError) as caught:
         verb(SHEET, [[0.1, 0.1, 2.0]])
     assert caught.value.edges.shape == (3, 2, 3)
     assert str(caught.value).endswith("at face 0")
     with pytest.raises(ValueError, match="finite") as caught:
         verb(CUBE, [[np.nan, 0, 0]])
-    assert not isinstance(caught.value, tf.NotSolidError)
+    assert not isinstance(caught.value, tf.NotClosedError)
 
 
 def test_meshes_may_come_in_anything_that_lists_them():

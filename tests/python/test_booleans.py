@@ -150,7 +150,7 @@ def test_small_parts_are_left_out_and_gaps_filled_where_asked_for():
 
 
 def test_open_operands_are_refused_or_told_of():
-    with pytest.raises(tf.NotSolidError) as caught:
+    with pytest.raises(tf.NotClosedError) as caught:
         tf.union(CUBE, SHEET)
     assert caught.value.edges.shape == (3, 2, 3)
     assert (caught.value.faces == [1, 0]).all()

@@ -62,7 +62,7 @@ def test_halves_are_solids_that_add_up():
 
 
 def test_what_is_open_is_cut_without_caps_or_not_at_all():
-    with pytest.raises(tf.NotSolidError):
+    with pytest.raises(tf.NotClosedError):
         tf.cut(SHEET, (1, 0, 0), (0.5, 0, 0))
     assert tf.cut(SHEET, (1, 0, 0), (0.5, 0, 0), check=False) == []
     left, right = tf.cut(SHEET, (1, 0, 0), (0.5, 0, 0), caps=False)

@@ -54,7 +54,7 @@ def test_the_other_side_may_be_arrays():
 
 
 def test_an_open_operand_is_named_by_the_operator():
-    with pytest.raises(tf.NotSolidError) as caught:
+    with pytest.raises(tf.NotClosedError) as caught:
         CUBE - SHEET
     assert caught.value.edges.shape == (3, 2, 3)
     assert isinstance(caught.value, ValueError)
@@ -118,11 +118,11 @@ def test_copies_keep_certificate_and_attributes(again, tmp_path):
 
 @pytest.mark.parametrize("again", COPIES)
 def test_results_errors_and_trees_can_be_copied(again):
-    with pytest.raises(tf.NotSolidError) as caught:
+    with pytest.raises(tf.NotClosedError) as caught:
         tf.union(SHEET)
     error = again(caught.value)
     assert np.array_equal(error.edges, caught.value.edges) and str(error) == str(caught.value)
-    assert isinstance(error, tf.NotSolidError) and error.certificate.open_count == 3
+    assert isinstance(error, tf.NotClosedError) and error.certificate.open_count == 3
     tree = again(tf.PointTree(CUBE.vertices))
     assert tree.query([0, 0, 0.1])[1] == tf.PointTree(CUBE.vertices).query([0, 0, 0.1])[1]
     boxes = again(tf.BoxTree([[0, 0], [2, 0], [1, 1]], [[1, 1], [3, 1], [2, 2]]))

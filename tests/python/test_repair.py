@@ -83,7 +83,7 @@ def test_self_intersections_resolved():
         assert made.certificate and len(tf.self_intersections(made)) == 0
     assert outer.mesh.volume == pytest.approx(tf.union(SPHERES).mesh.volume)
     assert split.mesh.area == pytest.approx(SPHERES.area)
-    with pytest.raises(tf.NotSolidError):
+    with pytest.raises(tf.NotClosedError):
         tf.resolve_self_intersections(SHEET)
 
 

@@ -162,7 +162,7 @@ def test_signed_distances():
     assert np.allclose(np.abs(distance), distances_from(CUBE, points))
     assert np.array_equal(distance > 0, tf.contains(CUBE, points))
     assert not tf.signed_distance(CUBE, CUBE.vertices).any()
-    with pytest.raises(tf.NotSolidError):
+    with pytest.raises(tf.NotClosedError):
         tf.signed_distance(SHEET, points)
 
 

@@ -18,7 +18,7 @@ def test_solids_are_grown_shrunk_and_hollowed():
     assert shell.sealed_cavities == 1
     assert shell.mesh.is_solid and drained.mesh.is_solid
     assert drained.mesh.volume < shell.mesh.volume < 0.5
-    with pytest.raises(tf.NotSolidError):
+    with pytest.raises(tf.NotClosedError):
         tf.offset(SHEET, 0.1)
     with pytest.raises(ValueError, match="rows|shape|4"):
         tf.hollow(CUBE, 0.1, drains=[[0.5, 0.5, 0]])

@@ -22,9 +22,9 @@ _OPTIONAL = {"vector<pair<string,string>>": "Columns | None",
              "vector<weld_condition>": "Mapping[str, float] | None"}
 _EMPTY = {"string": ("str", '""'), "filesystem::path": ("Path", '""'),
           "vector<string>": ("Iterable[str]", "()")}
-_OPEN = {"solid": "NotSolidError if the mesh is open, ",
-         "repaired": "NotSolidError if the mesh stays open, ",
-         "solids": "NotSolidError if an operand is open, "}
+_OPEN = {"solid": "NotClosedError if the mesh is open, ",
+         "repaired": "NotClosedError if the mesh stays open, ",
+         "solids": "NotClosedError if an operand is open, "}
 _NOT_CERTIFIED = "NotCertifiedError if the result could not be certified"
 _CHECK = "if False, also return results that could not be certified; see their `certificate`."
 

@@ -80,7 +80,7 @@ class Function:
     # of the package
     pieces: str = ""  #: the number of elements, of which a call handles those from `begin` to `end`
     #: Raises NotCertifiedError if the certificate is not ok; for a "solid" or "solids", also
-    #: NotSolidError if a mesh is open. For several operands: "solids", "meshes".
+    #: NotClosedError if a mesh is open. For several operands: "solids", "meshes".
     check: str = ""
     missing: str = ""  #: the message of ValueError instead of None
     made: str = ""  #: what the package returns, if not the result of the call

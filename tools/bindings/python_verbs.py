@@ -488,23 +488,23 @@ FUNCTIONS = [
              body="np.asarray(located(mesh, points, progress)[0] != OUTSIDE)",
              doc="(n,) bool: whether each of `points` (n, 3) is inside a closed mesh or on its "
                  "surface. A point is inside if its winding number is not 0. Exact for every "
-                 "point. Raises NotSolidError if the mesh is open. For other errors and the cost,"
+                 "point. Raises NotClosedError if the mesh is open. For other errors and the cost,"
                  " see `locate`."),
     Function("locate(mesh: MeshLike, points: ArrayLike) -> NDArray[np.int8]",
              body="np.array([-1, 1, 0], np.int8)[located(mesh, points, progress)[0]]",
              also="Returns (n,) int8: 1 for points strictly inside, 0 for points on the surface, "
-                  "-1 for points outside. The error for an open mesh is a NotSolidError.",
+                  "-1 for points outside. The error for an open mesh is a NotClosedError.",
              docs={"points": "(n, 3) the points to locate."}),
     Function("winding_number(mesh: MeshLike, points: ArrayLike) -> NDArray[np.int32]",
              body="np.asarray(located(mesh, points, progress)[1])",
              doc="(n,) int32: the winding number of a closed mesh around each of `points` (n, 3);"
-                 " 0 for points on the surface. Exact. Raises NotSolidError if the mesh is open."),
+                 " 0 for points on the surface. Exact. Raises NotClosedError if the mesh is open."),
     Function("signed_distance(mesh: MeshLike, points: ArrayLike) -> Floats",
              body="distances(mesh, points, progress)",
              doc="(n,) the signed distance of each of `points` (n, 3) from the surface of a "
                  "closed mesh: positive inside, as in trimesh, negative outside, and exactly 0 on"
                  " the surface. The sign is exact. `deviation` uses the opposite sign, as "
-                 "metrology does. Raises NotSolidError if the mesh is open. For other errors and "
+                 "metrology does. Raises NotClosedError if the mesh is open. For other errors and "
                  "the cost, see `closest_point` and `locate`."),
     Function("raycast_all(mesh: Mesh, origins: Points, directions: Points, *, t_min: float = 0.0, "
              "t_max: float = np.inf) -> AllRayHits",

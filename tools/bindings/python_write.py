@@ -26,9 +26,10 @@ USES = {"html": "", "os": "", "re": "", "shutil": "", "tempfile": "",
         "typing": "IO Any Iterable List Mapping NamedTuple Sequence Union", "warnings": "warn",
         "numpy": "np", "numpy.typing": "ArrayLike NDArray", ".": "_arrays _core",
         "._arrays": "NONE Floats Ids path_of",
-        "._errors": "FileError NotSolidError checked file_error need options require",
+        "._errors": "FileError NotClosedError checked file_error need options require",
         "._files": "Columns Path",
-        "._mesh": "Body HasCells HasFaces HasPolys HasTensors HasTriangles Mesh MeshLike MeshResult as_mesh bodies each held held_body listed points_of",
+        "._mesh": "Body HasCells HasFaces HasPolys HasTensors HasTriangles Mesh MeshLike "
+                  "MeshResult as_mesh bodies each held held_body listed points_of",
         "._placement": "SearchEffort", "._progress": "Progress part", "._properties": "Feature",
         "._repair": "MadeMesh", "._results": "Certificate Result tuple_repr",
         "._steps": "Communicator InSteps in_communicator"}

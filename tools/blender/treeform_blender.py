@@ -322,7 +322,7 @@ def combine(context, operation, active, others, progress=None):
         made = getattr(treeform, operation)(*(one.arrays() for one in operands),
                                             precision="float32", progress=progress,
                                             keep_cuts=have_values(operands, objects))
-    except treeform.NotSolidError as error:
+    except treeform.NotClosedError as error:
         names = " and ".join(objects[k].name for k in np.unique(error.faces[:, 0]))
         raise Refused(f"Not closed, {error.certificate.open_count} open edges: {names}. "
                       "Close the surface, or use Repair first") from None
@@ -509,7 +509,7 @@ class TREEFORM_OT_repair(Operator):
 
     @staticmethod
     def why(object, error):
-        if isinstance(error, treeform.NotSolidError):
+        if isinstance(error, treeform.NotClosedError):
             return f"{object.name}: {error.certificate.open_count} edges stay open"
         text = "not enough memory" if isinstance(error, MemoryError) else str(error)
         return text if text.startswith(object.name) else f"{object.name}: {text}"

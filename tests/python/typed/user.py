@@ -56,7 +56,7 @@ def mended(mesh: Mesh) -> Mesh:
         return mesh
     try:
         return tf.repair(mesh, steps=["join", "fill"], gap=0.1).mesh
-    except tf.NotSolidError as error:
+    except tf.NotClosedError as error:
         print(error.edges.shape, error.certificate.message)
     return tf.wrap(mesh, 0.5).mesh
 

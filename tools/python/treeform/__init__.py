@@ -22,7 +22,8 @@ from ._booleans import (BooleanResult, boolean, check_operand, clip, difference,
 from ._cuts import (CutPiece, CutPieces, MassProperties, MeshPart, Section, SectionLoop, components,
                     concatenate, cut, cut_along, cut_to_fit, layer_heights, mass_properties,
                     section, submesh, transformed)
-from ._errors import Cancelled, CertificateError, Error, FileError, NotCertifiedError, NotSolidError
+from ._errors import (Cancelled, CertificateError, Error, FileError, NotCertifiedError,
+                      NotClosedError)
 from ._files import Written, read, split_parts, write
 from ._from_others import from_meshio, from_open3d, from_pyvista, from_trimesh, from_vtk
 from ._intersections import (FacePairs, FilePairs, KINDS, Region, SharedSearch, faces_in_box,
@@ -56,7 +57,7 @@ __all__ = ["Alignment", "AllRayHits", "Attributes", "BooleanResult", "BoxTree", 
            "FacePairs", "Feature", "FileError", "FilePairs", "Impact", "InvalidFaces", "Isoline",
            "Isolines", "Joint", "KINDS", "LaidFlat", "MadeMesh", "MassProperties", "Measure",
            "Mesh", "MeshLike", "MeshPart", "NONE", "Neighbors", "NotCertifiedError",
-           "NotSolidError", "OffsetResult", "OrientedBox", "PackedPart", "Packing", "PartClash",
+           "NotClosedError", "OffsetResult", "OrientedBox", "PackedPart", "Packing", "PartClash",
            "Picture", "Placement", "PointTree", "PoseClashes", "RELATIONS", "RayHits", "Region",
            "RepairResult", "Robot", "SearchEffort", "Section", "SectionLoop", "SharedSearch",
            "SharedWeld", "SimplifyResult", "SolidDefects", "Thickness", "Topology", "View",

@@ -110,7 +110,7 @@ def union(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str = "flo
         Not together with `volumes`.
     check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
+    Raises NotClosedError if an operand is open, NotCertifiedError if the result could not be
     certified; ValueError naming a face with a corner out of range, or a corner with a coordinate
     that is not finite or beyond 2^1000; for a `gap` if the expression is not a union of all
     operands.
@@ -152,7 +152,7 @@ def intersection(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str
         edges; its volume is the volume that it encloses. For solids only. Finite and not negative.
     check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
+    Raises NotClosedError if an operand is open, NotCertifiedError if the result could not be
     certified; ValueError naming a face with a corner out of range, or a corner with a coordinate
     that is not finite or beyond 2^1000.
 
@@ -194,7 +194,7 @@ def difference(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str =
         edges; its volume is the volume that it encloses. For solids only. Finite and not negative.
     check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
+    Raises NotClosedError if an operand is open, NotCertifiedError if the result could not be
     certified; ValueError naming a face with a corner out of range, or a corner with a coordinate
     that is not finite or beyond 2^1000.
 
@@ -236,7 +236,7 @@ def symmetric_difference(*meshes: MeshesLike, fill_rule: str = "nonzero",
         edges; its volume is the volume that it encloses. For solids only. Finite and not negative.
     check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
+    Raises NotClosedError if an operand is open, NotCertifiedError if the result could not be
     certified; ValueError naming a face with a corner out of range, or a corner with a coordinate
     that is not finite or beyond 2^1000.
 
@@ -292,7 +292,7 @@ def boolean(expression: str, *operands: MeshesLike, fill_rule: str = "nonzero",
         edges; its volume is the volume that it encloses. For solids only. Finite and not negative.
     check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
+    Raises NotClosedError if an operand is open, NotCertifiedError if the result could not be
     certified; ValueError naming a face with a corner out of range, or a corner with a coordinate
     that is not finite or beyond 2^1000.
 
@@ -328,7 +328,7 @@ def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", fill_rule:
         between two regions. Uncut faces are not changed. `split` keeps all cuts.
     check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError if an operand is open, NotCertifiedError if the result could not be
+    Raises NotClosedError if an operand is open, NotCertifiedError if the result could not be
     certified; ValueError as `boolean`; if there is no operand number `sheet`.
 
     Cost: as `boolean`; faces of solids whose boxes overlap no face of the sheet are skipped.

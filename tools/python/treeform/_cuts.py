@@ -253,7 +253,7 @@ def cut(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0, 0)
         pieces are open at the planes.
     check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError if the mesh is open, NotCertifiedError if the result could not be
+    Raises NotClosedError if the mesh is open, NotCertifiedError if the result could not be
     certified; ValueError as `section` and `boolean`.
 
     Cost: as `boolean` of the mesh with itself, and O(n log n) for the n faces that are cut; caps of
@@ -285,7 +285,7 @@ def cut_to_fit(mesh: MeshLike, size: ArrayLike, *, precision: str = "float64",
         pieces are open at the planes.
     check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError if the mesh is open, NotCertifiedError if the result could not be
+    Raises NotClosedError if the mesh is open, NotCertifiedError if the result could not be
     certified; ValueError as `cut`; for a size that is not positive; for more than 2^16 planes for
     an axis, or possibly more than 2^20 pieces.
 

@@ -10,7 +10,7 @@ from ._arrays import Floats, Ids, expect
 from ._results import Certificate
 
 __all__ = ["Cancelled", "CertificateError", "Error", "FileError", "NotCertifiedError",
-           "NotSolidError"]
+           "NotClosedError"]
 
 _Made = TypeVar("_Made")
 
@@ -74,8 +74,8 @@ class CertificateError(Error, ValueError):
         return type(self), (self.certificate, self._of)
 
 
-class NotSolidError(CertificateError):
-    """A mesh does not bound a solid, since it is open."""
+class NotClosedError(CertificateError):
+    """A mesh that must be closed is open."""
 
     @property
     def edges(self) -> Floats:
@@ -103,7 +103,7 @@ def require(certificate: Certificate, *also: str, of: str = " of operand a") -> 
     if certificate or certificate.status in also:
         return
     if certificate.status == "open_input":
-        raise NotSolidError(certificate, of)
+        raise NotClosedError(certificate, of)
     raise NotCertifiedError(certificate, of)
 
 

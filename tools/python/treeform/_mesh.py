@@ -88,7 +88,7 @@ class Mesh:
     `a | b`, `a - b`, `a & b` and `a ^ b` are exact set operations on solids (see `boolean`);
     `a + b` is `a | b`, and `a * b` is `a & b`. They are evaluated together when the result is first
     used: `(a | b) - c` is cut and rounded only once. An operand that does not bound a solid raises
-    NotSolidError. For a file of floats, such as STL: `boolean("a-b", a, b, precision="float32")`.
+    NotClosedError. For a file of floats, such as STL: `boolean("a-b", a, b, precision="float32")`.
 
     >>> import numpy as np
     >>> import treeform

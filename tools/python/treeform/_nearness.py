@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core
 from ._arrays import Floats, Ids
-from ._errors import NotSolidError, options, require
+from ._errors import NotClosedError, options, require
 from ._mesh import Body, MeshLike, as_mesh, held, held_body
 from ._progress import Progress
 from ._results import Result, tuple_repr
@@ -27,7 +27,7 @@ OUTSIDE = 0
 
 def located(mesh: MeshLike, points: ArrayLike,
             progress: Progress) -> tuple[NDArray[np.uint8], NDArray[np.int32]]:
-    """Where points are, and their winding numbers. Raises NotSolidError if the mesh is open."""
+    """Where points are, and their winding numbers. Raises NotClosedError if the mesh is open."""
     try:
         return _core.locate_points(held(mesh), _arrays.points(points, "points"), progress=progress)
     except ValueError:
@@ -46,7 +46,7 @@ def distances(mesh: MeshLike, points: ArrayLike, progress: Progress) -> Floats:
     if made is None:
         return np.full(len(cloud), -np.inf)
     if not made.is_signed:
-        raise NotSolidError(as_mesh(mesh)._as_operand(), "")
+        raise NotClosedError(as_mesh(mesh)._as_operand(), "")
     return np.asarray(-made.distances + 0.0)
 
 
@@ -124,7 +124,7 @@ def closest_point(mesh: Body, points: ArrayLike, *, radius: float = np.inf,
 
 def contains(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> NDArray[np.bool_]:
     """(n,) bool: whether each of `points` (n, 3) is inside a closed mesh or on its surface. A point
-    is inside if its winding number is not 0. Exact for every point. Raises NotSolidError if the
+    is inside if its winding number is not 0. Exact for every point. Raises NotClosedError if the
     mesh is open. For other errors and the cost, see `locate`.
 
     >>> import treeform
@@ -142,7 +142,7 @@ def locate(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> N
     share, so no second ray is needed. Points with equal coordinates are one vertex.
 
     Returns (n,) int8: 1 for points strictly inside, 0 for points on the surface, -1 for points
-    outside. The error for an open mesh is a NotSolidError.
+    outside. The error for an open mesh is a NotClosedError.
 
     points: (n, 3) the points to locate.
 
@@ -162,7 +162,7 @@ def locate(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> N
 def winding_number(mesh: MeshLike, points: ArrayLike, *,
                    progress: Progress = None) -> NDArray[np.int32]:
     """(n,) int32: the winding number of a closed mesh around each of `points` (n, 3); 0 for points
-    on the surface. Exact. Raises NotSolidError if the mesh is open.
+    on the surface. Exact. Raises NotClosedError if the mesh is open.
 
     >>> import treeform
     >>> treeform.winding_number(treeform.read("data/cube.stl"), [[0.5, 0.5, 0.5], [2, 0, 0]])
@@ -174,7 +174,7 @@ def winding_number(mesh: MeshLike, points: ArrayLike, *,
 def signed_distance(mesh: MeshLike, points: ArrayLike, *, progress: Progress = None) -> Floats:
     """(n,) the signed distance of each of `points` (n, 3) from the surface of a closed mesh:
     positive inside, as in trimesh, negative outside, and exactly 0 on the surface. The sign is
-    exact. `deviation` uses the opposite sign, as metrology does. Raises NotSolidError if the mesh
+    exact. `deviation` uses the opposite sign, as metrology does. Raises NotClosedError if the mesh
     is open. For other errors and the cost, see `closest_point` and `locate`.
 
     >>> import treeform

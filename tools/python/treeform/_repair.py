@@ -144,7 +144,7 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, fill_rule
         filling holes.
     check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError if the mesh is open, NotCertifiedError if the result could not be
+    Raises NotClosedError if the mesh is open, NotCertifiedError if the result could not be
     certified; ValueError as `boolean`; for `remove`, a coordinate may be beyond 2^1000.
 
     Cost: as `boolean`; plus `repair` to measure the loss, for `remove`, and for `outer` if a
@@ -208,7 +208,7 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
     keep_cuts: as in `boolean`; faces that fill holes are only merged with each other.
     check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError if the mesh stays open, NotCertifiedError if the result could not be
+    Raises NotClosedError if the mesh stays open, NotCertifiedError if the result could not be
     certified; ValueError as `boolean`; if a gap or share is negative or not finite.
 
     Cost: O(V log V + F log F), plus `resolve_self_intersections` if faces meet; for a hole of n

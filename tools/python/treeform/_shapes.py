@@ -117,7 +117,7 @@ def offset(mesh: MeshLike, distance: float, *, resolution: float | None = None,
         and GLB.
     check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError if the mesh is open, NotCertifiedError if the result could not be
+    Raises NotClosedError if the mesh is open, NotCertifiedError if the result could not be
     certified; ValueError as `boolean`; for a distance that is 0 or not finite; for a resolution
     that is not positive, more than half of the distance, below the spacing of the coordinates, or
     so fine that there would be more than 2^22 cells: the message names a sufficient one.
@@ -157,7 +157,7 @@ def hollow(mesh: MeshLike, wall: float, *, drains: ArrayLike = (), resolution: f
         and GLB.
     check: if False, also return results that could not be certified; see their `certificate`.
 
-    Raises NotSolidError if the mesh is open, NotCertifiedError if the result could not be
+    Raises NotClosedError if the mesh is open, NotCertifiedError if the result could not be
     certified; ValueError as `offset`; for a wall that is not positive; for a drain that is not
     finite, or with a diameter that is not positive.
 
