@@ -35,7 +35,7 @@ std::string open_message(const certificate& c) {
     text += ", the first from " + place_of(from) + " to " + place_of(to) + " at face " +
             std::to_string(face.index);
     if (face.operand != operand_element::none)
-        text += " of operand " + detail::base::operand_name(face.operand);
+        text += " of " + detail::base::operand_in_words(face.operand);
     return text;
 }
 

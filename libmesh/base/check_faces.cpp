@@ -26,8 +26,11 @@ void check_faces(const char* function, std::size_t point_count, std::span<const 
         const auto& [a, b, c] = faces[i];
         return std::max(std::max(a, b), c) >= points;
     });
-    if (bad != faces.size())
-        refuse(function, "face " + std::to_string(bad) + " has a corner out of range");
+    if (bad == faces.size()) return;
+    const std::uint32_t corner = *std::ranges::max_element(faces[bad]);
+    refuse(function, "face " + std::to_string(bad) + " has a corner out of range: " +
+                         std::to_string(corner) + ", of " + std::to_string(points) +
+                         " points numbered from 0");
 }
 
 void check_finite_faces(const char* function, mesh_view mesh) {

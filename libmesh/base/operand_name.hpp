@@ -15,4 +15,10 @@ namespace treeform::detail::base {
     return name;
 }
 
+/// For messages: "operand b"; beyond the third, where letters must be counted, "operand 31 (ae)".
+[[nodiscard]] inline std::string operand_in_words(std::size_t operand) {
+    const std::string name = operand_name(operand);
+    return "operand " + (operand < 3 ? name : std::to_string(operand + 1) + " (" + name + ")");
+}
+
 }  // namespace treeform::detail::base

@@ -123,8 +123,8 @@ namespace {
 std::string name_in(const char* function, std::span<const mesh_view> operands,
                     const mesh_view& operand) {
     if (operands.size() == 1) return function;
-    return std::string(function) + ": operand " +
-           base::operand_name(static_cast<std::size_t>(&operand - operands.data()));
+    return std::string(function) + ": " +
+           base::operand_in_words(static_cast<std::size_t>(&operand - operands.data()));
 }
 
 }  // namespace
@@ -146,6 +146,8 @@ void check_operands(const char* function, std::span<const mesh_view> operands) {
     for (const mesh_view& operand : operands) {
         const std::string name = name_in(function, operands, operand);
         base::check_faces(name.c_str(), operand.points.size(), operand.faces);
+        if (operand.faces.empty() && !operand.points.empty())
+            throw std::invalid_argument("treeform::" + name + ": a point cloud is no operand");
         points += operand.points.size();
         faces += operand.faces.size();
     }

@@ -86,6 +86,7 @@ usable_mesh read_mesh(const std::filesystem::path& path) { return as_mesh(read(p
 usable_mesh as_mesh(mesh_file file) {
     detail::base::check_faces("as_mesh", file.mesh.points.size(), file.mesh.faces);
     usable_mesh result;
+    result.warnings = std::move(file.warnings);
     if (file.mesh.faces.empty()) {
         result.non_finite = drop_non_finite_points(file.mesh);
         result.mesh = std::move(file.mesh);

@@ -63,7 +63,15 @@ solid_part with_own_points(mesh_view whole, scene_part&& from) {
     return part;
 }
 
-/// The parts of a file with its own vertex numbers (`scene_parts`). Two parts are merged if a
+/// The parts of a file with its own vertex numbers (`scene_parts`).
+std::vector<scene_part> named_parts(const carry_source& input) {
+    std::vector<std::uint32_t> stored;
+    for (std::uint32_t f = 0; f < input.file->mesh.faces.size(); ++f)
+        stored.push_back(input.stored_face(f));
+    return scene_parts(input.file->mesh, input.file->attributes.parts, stored);
+}
+
+/// The same, except that two parts are merged if a
 /// border edge of one (an edge with one face of the part) has the same coordinates as a border edge
 /// of the other: they are patches of one surface. Solids that touch are not merged. Parts are in
 /// the order of their lowest faces; faces in a part ascend. The box of a merged part is that of its
@@ -72,9 +80,7 @@ solid_part with_own_points(mesh_view whole, scene_part&& from) {
 /// \cost O(V log V + F log F)
 std::vector<scene_part> surface_parts(const carry_source& input) {
     const mesh_view whole = input.file->mesh;
-    std::vector<std::uint32_t> stored;
-    for (std::uint32_t f = 0; f < whole.faces.size(); ++f) stored.push_back(input.stored_face(f));
-    std::vector<scene_part> named = scene_parts(whole, input.file->attributes.parts, stored);
+    std::vector<scene_part> named = named_parts(input);
     if (named.size() < 2) return named;
 
     base::union_find sets(named.size());
@@ -108,10 +114,11 @@ std::vector<solid_part> solid_parts(const carry_source& input) {
 
 namespace treeform {
 
-std::vector<file_part> split_parts(const carry_source& source) {
+std::vector<file_part> split_parts(const carry_source& source, bool combine_patches) {
     const mesh_file& whole = *source.file;
     std::vector<file_part> parts;
-    for (scene_part& of : detail::carry::surface_parts(source)) {
+    for (scene_part& of : combine_patches ? detail::carry::surface_parts(source)
+                                          : detail::carry::named_parts(source)) {
         file_part part{.name = std::move(of.name)};
         part.file.mesh = select_faces(whole.mesh, of.faces);
         part.file.stored_faces = of.faces.size();

@@ -30,11 +30,12 @@ struct level {
 };
 
 [[noreturn]] void refuse_step(const char* function, double step, double expected) {
+    const std::string enough =
+        base::brief(1.1 * step * std::sqrt(std::max(expected / most_cells, 1.0)));
     throw std::invalid_argument(
         "treeform::" + std::string(function) + ": the resolution " + base::brief(step) +
-        " is too fine: the surface would pass through more than 2^22 cells; " +
-        base::brief(1.1 * step * std::sqrt(std::max(expected / most_cells, 1.0))) +
-        " is coarse enough");
+        " is too fine: the surface would pass through more than 2^22 cells; " + enough +
+        " is coarse enough, for distances of at least twice as much");
 }
 
 level split(const level& from) {

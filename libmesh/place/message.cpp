@@ -111,8 +111,24 @@ std::size_t align_result::undetermined() const {
 }
 
 std::string align_result::message() const {
-    return "after " + counted(iterations, "step", "steps") + "; rms " + brief(rms) + ", from " +
-           brief(rms_at_start) + "; overlap " + brief(overlap) + loose_in_words(undetermined());
+    const std::string text = " after " + counted(iterations, "step", "steps") + "; rms " +
+                             brief(rms) + ", from " + brief(rms_at_start) + "; overlap " +
+                             brief(overlap) + loose_in_words(undetermined());
+    switch (outcome) {
+        case align_outcome::converged:
+            return "aligned" + text;
+        case align_outcome::doubtful:
+            return "doubtful" + text + "; neighbors deviate to the same side (correlation " +
+                   brief(correlation) +
+                   ") or the data do not determine the position (uncertainty " +
+                   brief(uncertainty) +
+                   "): a wrong position, or parts without a partner; more "
+                   "starts, or an overlap, may help";
+        case align_outcome::out_of_iterations:
+            return "not converged" + text + "; more iterations may help";
+        default:
+            return "not converged: nothing to align";
+    }
 }
 
 std::string laid_flat::message() const {

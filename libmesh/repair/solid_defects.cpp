@@ -69,7 +69,7 @@ std::string solid_defects::message() const {
     add_count(repeated, "repeated face", "repeated faces");
     add_count(inverted, "part inside out", "parts inside out");
     if (wrongly_nested) add("parts are wrongly nested");
-    return text.empty() ? "none" : text;
+    return text.empty() ? "no defects" : text;
 }
 
 solid_defects find_solid_defects(const mesh_ref& of, const progress_callback& progress) {

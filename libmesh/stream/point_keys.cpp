@@ -42,6 +42,8 @@ point_keys::point_keys(const mesh_file& header, const weld_stream_options& o) {
                              .keep_by = o.keep_by,
                              .order_by = o.order_by,
                              .highest_first = o.highest_first};
+    weld::check_choices("weld_stream", o.keep, !o.keep_by.empty(), !o.order_by.empty(),
+                        o.highest_first);
     const element* const faces = header.attributes.find("face");
     conditions_ = asked.conditions(header.attributes, faces != nullptr && faces->rows > 0);
     std::vector<weld::agreement::condition> all;
@@ -52,11 +54,8 @@ point_keys::point_keys(const mesh_file& header, const weld_stream_options& o) {
         all.push_back({is_whole(header.attributes, c.property), c.tolerance});
     }
     agree_ = weld::agreement(std::move(all));
-    if (!o.order_by.empty()) {
-        if (o.keep != weld_keep::first)
-            throw std::invalid_argument("treeform::weld_stream: an order needs weld_keep::first");
+    if (!o.order_by.empty())
         order_ = {weld::column_to_order_by(header.attributes, asked), !o.highest_first};
-    }
     if (o.keep == weld_keep::lowest || o.keep == weld_keep::highest)
         choice_ = {weld::column_to_keep_by(header.attributes, asked), o.keep == weld_keep::lowest};
     if (o.keep != weld_keep::first) refuse_lists(header);

@@ -65,8 +65,6 @@ void take_column_means(const column& from, const group_members& members, column&
 std::vector<std::uint32_t> points_in_order(points_view points, const attributes& properties,
                                            const weld_options& options) {
     if (options.order_by.empty()) return {};
-    if (options.keep != weld_keep::first)
-        throw std::invalid_argument("treeform::weld: an order needs weld_keep::first");
     const vertex_values values(points, properties, column_to_order_by(properties, options));
     if (points.size() > std::numeric_limits<std::uint32_t>::max())
         throw std::invalid_argument("treeform::weld: more than 2^32 - 2 points");

@@ -105,6 +105,18 @@ std::vector<weld_condition> weld_options::conditions(const attributes& propertie
     return conditions;
 }
 
+void detail::weld::check_choices(const char* function, weld_keep keep, bool has_keep_by,
+                                 bool has_order, bool highest_first) {
+    const bool by_value = keep == weld_keep::lowest || keep == weld_keep::highest;
+    const char* const why = by_value && !has_keep_by
+                                ? "keep lowest or highest needs keep_by, a property"
+                            : has_keep_by && !by_value ? "keep_by is for keep lowest or highest"
+                            : has_order && keep != weld_keep::first ? "order_by needs keep first"
+                            : highest_first && !has_order           ? "highest_first needs order_by"
+                                                                    : nullptr;
+    if (why) throw std::invalid_argument("treeform::" + std::string(function) + ": " + why);
+}
+
 std::string detail::weld::column_to_keep_by(const attributes& properties,
                                             const weld_options& options) {
     return required_column(properties, "keep_by", options.keep_by);

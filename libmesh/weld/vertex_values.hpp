@@ -19,6 +19,10 @@ namespace treeform::detail::weld {
 /// \throws std::invalid_argument of `weld`, always
 [[noreturn]] void refuse(const std::string& why);
 
+/// \throws std::invalid_argument for options that others make meaningless
+void check_choices(const char* function, weld_keep keep, bool has_keep_by, bool has_order,
+                   bool highest_first);
+
 /// The columns that `options.keep_by` and `options.order_by` name.
 /// \throws weld_property_error when the name matches no column, several columns, or a list column
 [[nodiscard]] std::string column_to_keep_by(const attributes& properties,

@@ -213,6 +213,8 @@ weld_result weld(const mesh_ref& given, const attributes& properties, const weld
     const mesh_view mesh = given.view();
     detail::base::check_faces("weld", mesh.points.size(), mesh.faces);
     detail::weld::check_rows(properties, mesh.points.size(), mesh.faces.size());
+    detail::weld::check_choices("weld", options.keep, !options.keep_by.empty(),
+                                !options.order_by.empty(), options.highest_first);
     const bool by_property =
         options.keep == weld_keep::lowest || options.keep == weld_keep::highest;
     if (by_property) static_cast<void>(detail::weld::column_to_keep_by(properties, options));

@@ -9,7 +9,8 @@
 namespace treeform {
 
 template <>
-transform<3> transform<3>::about(std::array<double, 3> axis, double degrees) {
+transform<3> transform<3>::rotation(const std::array<double, 3>& about, double degrees) {
+    std::array<double, 3> axis = about;
     const double length = std::hypot(axis[0], axis[1], axis[2]);
     if (!(length > 0.0 && std::isfinite(length) && std::isfinite(degrees)))
         throw std::invalid_argument("treeform::transform::rotation: not an axis and an angle");

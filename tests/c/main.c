@@ -62,7 +62,7 @@ treeform_mesh* cube(double x, double y, double z, double size) {
 
 treeform_mesh* model(const char* path) {
     treeform_mesh* mesh = NULL;
-    OK(treeform_read_mesh(path, &mesh));
+    OK(treeform_read_mesh(path, NULL, &mesh));
     return mesh;
 }
 

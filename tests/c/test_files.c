@@ -185,12 +185,12 @@ static void test_parts(void) {
     OK(treeform_read("data/two_spheres.stl", NULL, &file));
     OK(treeform_as_mesh(file, &part));
     CHECK(part->mesh.face_count == 640 && part->mesh.point_count == 1920 && part->non_finite == 0);
-    OK(treeform_read_mesh("data/two_spheres.stl", &mesh));
+    OK(treeform_read_mesh("data/two_spheres.stl", NULL, &mesh));
     OK(treeform_mesh_arrays(mesh, &arrays));
     CHECK(arrays.face_count == 640 && arrays.point_count == 1920);
     CHECK(memcmp(arrays.faces, part->mesh.faces, 640 * 3 * sizeof *arrays.faces) == 0);
     treeform_free(mesh);
-    CHECK(treeform_read_mesh("data/none.stl", &mesh) == TREEFORM_FILE && mesh == NULL);
+    CHECK(treeform_read_mesh("data/none.stl", NULL, &mesh) == TREEFORM_FILE && mesh == NULL);
     CHECK(part->triangle_of_face == NULL && part->face_in_file[639] == 639);
     treeform_free(part);
     treeform_part_options_init(&options, sizeof options);
@@ -216,7 +216,7 @@ static void test_parts(void) {
     OK(treeform_file_create(box_mesh, &boxed));
     both[0] = boxed;
     OK(treeform_scene(both, names, 2, &scene));
-    OK(treeform_split_parts(scene, &parts));
+    OK(treeform_split_parts(scene, 1, &parts));
     CHECK(parts->count == 2);
     if (parts->count == 2) {
         CHECK(is(parts->parts[0].name, "soup") && is(parts->parts[1].name, "ball"));

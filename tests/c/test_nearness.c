@@ -103,7 +103,7 @@ static void test_relations(void) {
     treeform_mesh* b = cube(0.75, 0, 0, 1);
     treeform_mesh* apart = cube(3, 0, 0, 1);
     treeform_measure_options options;
-    treeform_relation* relation = NULL;
+    treeform_mesh_measure* relation = NULL;
     treeform_mesh_relation how = 9;
     double depth = 0.0, move[3];
     treeform_search_effort effort;

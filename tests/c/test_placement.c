@@ -34,7 +34,6 @@ static void test_moves(void) {
     treeform_placement_options options;
     treeform_placement* placement = NULL;
     treeform_face_relations* faces = NULL;
-    treeform_mesh_set* set = NULL;
     int calls = 0;
     fixed[0] = base;
     fixed[1] = other;
@@ -56,11 +55,9 @@ static void test_moves(void) {
     treeform_free(placement);
     treeform_placement_options_init(&options, sizeof options);
     options.clearance = 0.125;
-    OK(treeform_mesh_set_create(fixed, 2, &set));
-    OK(treeform_slide(moving, set->meshes, 2, down, &options, &placement));
+    OK(treeform_slide(moving, fixed, 2, down, &options, &placement));
     CHECK(near(placement->travel, 3.875) && placement->relation == TREEFORM_RELATION_CLEAR);
     treeform_free(placement);
-    treeform_free(set);
     options.max_travel = 1.0;
     ENDS(TREEFORM_NO_PLACE, "", treeform_slide(moving, fixed, 2, down, &options, &placement));
     CHECK(placement && placement->certificate->status == TREEFORM_STATUS_NO_PLACEMENT);

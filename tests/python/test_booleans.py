@@ -204,3 +204,14 @@ def test_a_list_may_stand_among_operands():
     for wrong in ([plate, 3], "plate", [[cutters]], {"a": plate}):
         with pytest.raises(ValueError, match="mesh"):
             tf.difference(plate, wrong)
+
+
+def test_errors_name_operands_as_they_were_given():
+    with pytest.raises(tf.NotClosedError, match="of drill$"):
+        tf.boolean("body-drill", body=CUBE, drill=SHEET)
+    with pytest.raises(tf.NotClosedError, match="of the right operand of -"):
+        CUBE - SHEET
+    with pytest.raises(tf.NotClosedError, match=r"of operand 4 \(d\)"):
+        tf.union(CUBE, CUBE, CUBE, SHEET)
+    with pytest.raises(ValueError, match="at least one mesh"):
+        tf.union([])

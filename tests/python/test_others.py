@@ -204,7 +204,7 @@ def test_vtk_itself():
     source = vtkCubeSource()
     source.Update()
     assert len(tf.from_vtk(source.GetOutput()).faces) == 12  # of quads
-    assert tf.find_solid_defects(tf.from_vtk(source.GetOutput())).message == "none"
+    assert tf.find_solid_defects(tf.from_vtk(source.GetOutput())).message == "no defects"
 
 
 def test_meshio_itself():

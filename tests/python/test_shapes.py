@@ -70,7 +70,7 @@ def test_walls_and_boxes_are_measured():
     assert box.size == pytest.approx([5, 0, 0]) and box.center == pytest.approx([1.5, 2, 0])
     assert tf.oriented_box(np.zeros((0, 3))) is None
     hull = tf.convex_hull([[0, 0, 0], [9, 9, 9], [4, 4, 1], [0, 9, 0], [9, 0, 0]])
-    assert hull.mesh.is_solid and tf.find_solid_defects(hull).message == "none"
+    assert hull.mesh.is_solid and tf.find_solid_defects(hull).message == "no defects"
     assert tf.convex_hull(CUBE).mesh.volume == 1.0
 
 

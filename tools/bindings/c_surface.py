@@ -106,7 +106,7 @@ BOUND = [
     # nearness.h
     Bound("mesh_hit", "hit", "same"),
     Bound("measure_options"),
-    Bound("mesh_measure", "relation", custom={
+    Bound("mesh_measure", custom={
         f"on_{x}": [
             Member(f"uint32_t nearest_{x}", f"the face of `{x}` that contains `on_{x}`",
                    f"to.nearest_{x} = from.on_{x}.face;"),

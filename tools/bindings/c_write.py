@@ -70,8 +70,6 @@ class Writer:
             word, _, of = found.group(1).partition("::")
             if word in self.fields and not of:
                 return found.group(0)
-            if not of and f"treeform_{word}" in self.known:
-                return f"`treeform_{word}`"
             if not of and word not in (*_OTHERS, *self.near) and self.constant_of(word):
                 return f"`{self.constant_of(word)}`"
             if word in self.enums and not of and self.enums[word][0].startswith("treeform_"):

@@ -186,11 +186,11 @@ RESULTS = [
                column("normals", "Floats", "(S, 3) the outward normal of each side, of length 1.",
                       "sides", "one.normal")]}),
     # _properties
-    Result("solid_defects", "SolidDefects", "_properties", true='self.message != "none"',
+    Result("solid_defects", "SolidDefects", "_properties", true='self.message != "no defects"',
            doc="The defects that keep a mesh from being a solid. True if there are any.",
            custom={"+": [Attribute("message", "str",
                                    "The defects in words, such as 'open at 37 edges, 2 pairs of "
-                                   "faces meet', or 'none'.",
+                                   "faces meet', or 'no defects'.",
                                    "py::cast(from.message())")]}),
     Result("invalid_faces", "InvalidFaces", "_properties"),
     Result("topology_counts", "Topology", "_properties"),
@@ -400,7 +400,7 @@ RESULTS = [
            doc="The motion that `align` found.",
            docs={"outcome": "'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'.",
                  "matrix": "(4, 4) new = M * old, with `start` included.",
-                 "converged": "Whether `end` is 'converged'."},
+                 "converged": "Whether `outcome` is 'converged'."},
            custom={"points": [Attribute("mesh", "Mesh", "The moved mesh; without faces for a "
                                         "cloud.", "moved_mesh(std::move(from.points), moving, "
                                         "from.matrix, py::none())")],

@@ -15,7 +15,7 @@ _PLANE = {"normal": "(3,) the normal of the plane, of any length.",
           "at": "(3,) a point on the plane."}
 _HEIGHTS = {"heights": "(K,) the distances of K parallel planes from this plane, measured along "
                        "its unit normal. None: this plane only."}
-_RAYS = {"origins": "(n, 3) the start points of the rays.", "directions": "(n, 3) of any length.",
+_RAYS = {"origins": "(n, 3) the start points of the rays.", "directions": "(n, 3) of any length; (1, 3) for all rays.",
          "t_min": "ignore hits before origin + t_min * direction.",
          "t_max": "ignore hits beyond origin + t_max * direction."}
 _ALL_RAYS = "rays(origins, directions, t_min, t_max)"
@@ -372,12 +372,13 @@ FUNCTIONS = [
                               "given by number, from 1.",
                    "drop_non_finite": "drop points with a NaN or infinite coordinate, and their "
                                       "faces."}),
-    Function("split_parts(mesh: Mesh) -> dict[str, Mesh]",
+    Function("split_parts(mesh: Mesh, *, combine_patches: bool = False) -> dict[str, Mesh]",
              doc="The parts of a mesh that was read from a file, by name: the objects, groups or "
                  "nodes of the file. Each has its own vertices and faces, and their attributes. "
-                 "Parts whose open edges coincide are patches of one surface, and are combined "
-                 "into one part; solids that touch are not combined. Parts without a name are "
-                 "\"1\", \"2\", ... For the connected parts of any mesh, see `components`."),
+                 "Parts without a name are \"1\", \"2\", ... For the connected parts of any mesh, "
+                 "see `components`.",
+             docs={"combine_patches": "combine parts whose open edges coincide, the patches of one "
+                                      "surface. Solids that touch are not combined."}),
     Function("write(path: Path | IO[bytes], mesh: PartsLike, options: write_options(format))"
              " -> Written", body="written(path, mesh, format, how, progress)",
              words={"file": "mesh"},

@@ -22,7 +22,7 @@ BLOCK = re.compile(r"^# made of (headers|names|uses)[^\n]*:\n"
 
 #: The imports of the modules of the package, in this order.
 USES = {"html": "", "os": "", "re": "", "shutil": "", "tempfile": "",
-        "dataclasses": "dataclass", "functools": "partial",
+        "dataclasses": "dataclass replace", "functools": "partial",
         "typing": "IO Any Iterable List Mapping NamedTuple Sequence Union", "warnings": "warn",
         "numpy": "np", "numpy.typing": "ArrayLike NDArray", ".": "_arrays _core",
         "._arrays": "NONE Floats Ids path_of",

@@ -25,11 +25,14 @@ inline tf::mesh_file read(const std::filesystem::path& path, std::string_view fo
     return tf::read(path, format);
 }
 
-/// The mesh of the file at `path`, in one call: corners with equal coordinates are one vertex,
-/// triangles that are not finite are dropped, as are such points of a cloud. To know which ones,
-/// use `treeform_read` and `treeform_as_mesh`.
-inline answer_of<treeform_mesh> read_mesh(const std::filesystem::path& path) {
-    tf::mesh own = tf::read_mesh(path).mesh;
+/// The mesh of the file at `path`: corners with equal coordinates are one vertex; triangles that are
+/// not finite are dropped, as are such points of a cloud. `dropped`, or null, is their number.
+/// `treeform_read` and `treeform_as_mesh` tell which ones, and what else is wrong with the file.
+inline answer_of<treeform_mesh> read_mesh(const std::filesystem::path& path,
+                                          std::uint64_t* dropped) {
+    tf::usable_mesh read = tf::read_mesh(path);
+    if (dropped) *dropped = read.non_finite;
+    tf::mesh own = std::move(read.mesh);
     const std::span<const tf::face> faces = own.faces;  // stay where they are when moved
     return mesh_of(std::move(own), {}, faces, 0);
 }
@@ -256,12 +259,13 @@ inline tf::mesh_file scene(const treeform_file* const* files, const char* const*
     return tf::scene_of(members, labels, labels);
 }
 
-/// The parts of a file, by its objects, groups or nodes, each as a file of its own. Parts with
-/// common points or coinciding open edges are combined.
-inline answer_of<treeform_scene_parts> split_parts(const tf::mesh_file& file) {
+/// The parts of a file, by its objects, groups or nodes, each as a file of its own. With
+/// `combine_patches`, parts whose open edges coincide are patches of one surface, and combined.
+inline answer_of<treeform_scene_parts> split_parts(const tf::mesh_file& file,
+                                                   bool combine_patches) {
     auto made = make<treeform_scene_parts>();
     auto& all = made->keep(std::vector<treeform_scene_part>());
-    for (tf::file_part& one : made->keep(tf::split_parts({.file = &file})))
+    for (tf::file_part& one : made->keep(tf::split_parts({.file = &file}, combine_patches)))
         all.push_back({one.name.c_str(), keep(*made, std::move(one.file)), one.stored_face.data(),
                        one.stored_face.size()});
     made->value.count = all.size();

@@ -189,7 +189,6 @@ const treeform_mesh* const* handles(keeper& kept, const std::vector<tf::prepared
     auto& pointers = kept.keep(std::vector<const treeform_mesh*>());
     for (std::size_t i = 0; i < row.size(); ++i) {
         handles[i].prepared = &row[i];
-        handles[i].set = row.data();
         pointers.push_back(&handles[i]);
     }
     return pointers.data();

@@ -9,9 +9,8 @@
 struct treeform_mesh {
     void* owner;
     treeform::mesh arrays;                    ///< unless they are the caller's
-    treeform::prepared_mesh mine;             ///< unless the mesh belongs to a set
-    const treeform::prepared_mesh* prepared;  ///< `mine`, or that of a set
-    const void* set;
+    treeform::prepared_mesh mine;             ///< unless it is that of a body or part
+    const treeform::prepared_mesh* prepared;  ///< `mine`, or that one
     bool one_use;
 };
 

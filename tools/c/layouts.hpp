@@ -19,7 +19,7 @@ inline treeform_code give(tf::packing&& found, treeform_packing** out) {
 inline treeform_code give(tf::align_result&& found, treeform_align_result** out) {
     check(found.status);
     if (found.converged) return hand_out(std::move(found), out), TREEFORM_OK;
-    say((std::string(tf::name_of(found.outcome)) + ": " + found.message()).c_str());
+    say(found.message().c_str());
     return hand_out(std::move(found), out), TREEFORM_NO_PLACE;
 }
 

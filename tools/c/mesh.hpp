@@ -87,6 +87,13 @@ inline answer_of<treeform_mesh> mesh_of(const treeform_arrays* arrays, std::uint
     return mesh_create(of.points, of.point_count, of.faces, of.face_count, flags);
 }
 
+/// The box as a solid of 8 points and 12 faces.
+inline answer_of<treeform_mesh> mesh_of_box(const treeform_box* box) {
+    tf::mesh own = glue::box(need(box, "box")).mesh();
+    const std::span<const tf::face> faces = own.faces;
+    return mesh_of(std::move(own), {}, faces, 0);
+}
+
 /// The arrays of a mesh, valid as long as the mesh exists.
 inline treeform_arrays mesh_arrays(const treeform_mesh* mesh) { return arrays(view(mesh)); }
 
@@ -98,21 +105,6 @@ inline bool mesh_is_cloud(const treeform_mesh* mesh) {
 /// Number of indexes built so far.
 inline std::uint64_t mesh_indexes_built(const treeform_mesh* mesh) {
     return need(mesh, "mesh").prepared->indexes_built();
-}
-
-/// A set of meshes for functions of several meshes, such as `treeform_clash` and `treeform_slide`.
-/// With `set->meshes` as argument, indexes are kept from call to call; with meshes that were
-/// created separately, each call builds them again. The set refers to the arrays of `meshes`, which
-/// must outlive it.
-inline answer_of<treeform_mesh_set> mesh_set_create(const treeform_mesh* const* meshes,
-                                                    std::size_t count) {
-    auto made = make<treeform_mesh_set>();
-    auto& row = made->keep(std::vector<tf::prepared_mesh>());
-    for (const treeform_mesh* one : array(meshes, count, "meshes"))
-        row.push_back(tf::prepared_mesh::borrow(view(one)));
-    made->value.meshes = handles(*made, row);
-    made->value.count = count;
-    return made;
 }
 
 /// The mesh with points of equal coordinates joined (-0 equals +0), in the order in which they

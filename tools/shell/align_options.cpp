@@ -105,21 +105,4 @@ json align_entry(const tf::align_result& r) {
     return entry;
 }
 
-std::string align_sentence(const tf::align_result& r) {
-    switch (r.outcome) {
-        case tf::align_outcome::converged:
-            return "fitted " + r.message();
-        case tf::align_outcome::doubtful:
-            return "in doubt " + r.message() +
-                   "; neighbors deviate to the same side (correlation " + brief(r.correlation) +
-                   ") or the data do not determine the place (uncertainty " + brief(r.uncertainty) +
-                   "): a wrong place, or parts without a partner; --starts 100 or --overlap "
-                   "may help";
-        case tf::align_outcome::out_of_iterations:
-            return "not converged " + r.message() + "; more --iterations may help";
-        default:
-            return "not converged: nothing to align";
-    }
-}
-
 }  // namespace tools

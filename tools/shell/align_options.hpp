@@ -18,7 +18,5 @@ void add_align_options(command_line& line, tf::align_options& options);
 [[nodiscard]] std::span<const char* const> align_option_names();
 
 [[nodiscard]] json align_entry(const tf::align_result& result);
-/// "fitted after 12 steps; ...", or why not, and what may help.
-[[nodiscard]] std::string align_sentence(const tf::align_result& result);
 
 }  // namespace tools

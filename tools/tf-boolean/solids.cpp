@@ -79,7 +79,7 @@ std::vector<solid> named_parts(job& work, std::vector<std::string> names,
     std::vector<std::string> known;
     std::vector<std::vector<tf::file_part>> parts;
     for (const solid& whole : wholes)
-        for (const tf::file_part& part : parts.emplace_back(tf::split_parts(whole.source())))
+        for (const tf::file_part& part : parts.emplace_back(tf::split_parts(whole.source(), true)))
             known.push_back(part.name);
     const auto is_name = [&](auto& name) { return std::ranges::count(known, name) > 0; };
     if (wholes.size() == 1 && !std::ranges::all_of(names, is_name))
@@ -119,7 +119,7 @@ std::vector<std::string> operand_names(job& work, const boolean_settings& settin
     std::vector<std::string> names;
     bool is_mixed = !unites;
     if (has_parts)
-        for (const tf::file_part& one : tf::split_parts(s.source())) {
+        for (const tf::file_part& one : tf::split_parts(s.source(), true)) {
             names.push_back(one.name);
             is_mixed = is_mixed || tf::count_inside_out(one.file.mesh) > 0;
         }

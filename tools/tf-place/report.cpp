@@ -131,7 +131,7 @@ std::string sentence(const placing& p) {
         return "not placed: " + p.reason + pairs + p.remedy;
     }
     if (p.settings.mode == place_mode::measure) return relation;
-    if (p.aligned) return align_sentence(*p.aligned);
+    if (p.aligned) return p.aligned->message();
     if (p.laid) return "laid " + p.laid->message() + "; " + relation;
     if (p.settings.mode == place_mode::turn && at.angle > 0.0)
         return "turned by " + brief(at.angle) + " degrees; " + relation;

@@ -63,7 +63,7 @@ TEST_CASE("split_parts: solids that touch are parts, patches of one surface are 
         "-1\n";
     const auto parts_of_obj = [](const std::string& text) {
         const tf::mesh_file file = tf::read(std::as_bytes(std::span(text)), "a.obj", "obj");
-        return tf::split_parts({&file, {}});
+        return tf::split_parts({&file, {}}, true);
     };
     const auto two = parts_of_obj(box + "o one\n" + sides + other + "o two\n" + sides);
     REQUIRE(two.size() == 2);

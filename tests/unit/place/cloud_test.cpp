@@ -215,16 +215,19 @@ TEST_CASE("clouds: points without faces are a cloud in every query, prepared or 
     CHECK_FALSE(clashes.pairs[0].volume.has_value());
 }
 
-TEST_CASE("clouds: they bound nothing, and add nothing to a solid") {
+TEST_CASE("clouds: they bound nothing, and are no operands") {
     const tf::mesh solid = box(2, 2, 2);
     const std::vector<tf::point3> points{{1, 1, 1}, {9, 9, 9}};
     const auto prepared = tf::prepared_mesh::borrow({points});
     const auto prepared_solid = tf::prepared_mesh::borrow(solid);
     for (const tf::mesh_ref& given : {tf::mesh_ref(points), tf::mesh_ref(prepared)})
         for (const tf::mesh_ref& other : {tf::mesh_ref(solid), tf::mesh_ref(prepared_solid)}) {
-            CHECK(tf::unite(given, other).value().faces.size() == solid.faces.size());
-            CHECK(tf::subtract(other, given).value().faces.size() == solid.faces.size());
-            CHECK(tf::unite({given, other, given}).value().faces.size() == solid.faces.size());
+            CHECK_THROWS_WITH_AS((void)tf::unite(given, other),
+                                 doctest::Contains("operand a: a point cloud is no operand"),
+                                 std::invalid_argument);
+            CHECK_THROWS_AS((void)tf::subtract(other, given), std::invalid_argument);
+            CHECK_THROWS_AS((void)tf::unite({other, given, other}), std::invalid_argument);
+            CHECK_THROWS_AS((void)tf::check_operand(given), std::invalid_argument);
             CHECK(tf::self_intersections(given).pairs.empty());
             CHECK(tf::resolve_self_intersections(given).mesh.faces.empty());
             CHECK(tf::hollow(given, 0.1, {}).mesh.faces.empty());

@@ -324,7 +324,7 @@ TEST_CASE("repair: a fin has area and no volume, so that to drop it is no loss")
 
 TEST_CASE("repair: defects are found as they are") {
     CHECK(!tf::find_solid_defects(test::box(1, 1, 1)).any());
-    CHECK(tf::find_solid_defects(test::box(1, 1, 1)).message() == "none");
+    CHECK(tf::find_solid_defects(test::box(1, 1, 1)).message() == "no defects");
     tf::mesh unused = test::box(1, 1, 1);
     unused.points.push_back({std::numeric_limits<double>::quiet_NaN(), 0, 0});
     CHECK(tf::find_solid_defects(unused).message() == "1 vertex that is not finite");

@@ -160,6 +160,8 @@ void glue::fill(keeper& kept, const tf::usable_mesh& from, treeform_usable_mesh&
     to.component = or_null(from.component);
     to.degenerate = from.degenerate;
     to.joined = from.joined;
+    to.warnings = list<treeform_warning>(kept, from.warnings);
+    to.warning_count = from.warnings.size();
     to.face_in_file = faces_in_file(kept, from).data();
 }
 
@@ -203,10 +205,10 @@ treeform_code treeform_read(const char* path, const char* format, treeform_file*
     });
 }
 
-treeform_code treeform_read_mesh(const char* path, treeform_mesh** mesh) {
+treeform_code treeform_read_mesh(const char* path, uint64_t* dropped, treeform_mesh** mesh) {
     return glue::guard([&] {
         glue::start(mesh);
-        return glue::give(glue::read_mesh(std::string(&glue::need(path, "path"))), mesh);
+        return glue::give(glue::read_mesh(std::string(&glue::need(path, "path")), dropped), mesh);
     });
 }
 
@@ -392,10 +394,12 @@ treeform_code treeform_scene(const treeform_file* const* files, const char* cons
     });
 }
 
-treeform_code treeform_split_parts(const treeform_file* file, treeform_scene_parts** parts) {
+treeform_code treeform_split_parts(const treeform_file* file, int32_t combine_patches,
+                                   treeform_scene_parts** parts) {
     return glue::guard([&] {
         glue::start(parts);
-        return glue::give(glue::split_parts(glue::content(file, "file")), parts);
+        return glue::give(glue::split_parts(glue::content(file, "file"), combine_patches != 0),
+                          parts);
     });
 }
 

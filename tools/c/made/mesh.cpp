@@ -41,6 +41,13 @@ treeform_code treeform_mesh_of(const treeform_arrays* arrays, uint32_t flags,
     });
 }
 
+treeform_code treeform_mesh_of_box(const treeform_box* box, treeform_mesh** mesh) {
+    return glue::guard([&] {
+        glue::start(mesh);
+        return glue::give(glue::mesh_of_box(box), mesh);
+    });
+}
+
 treeform_code treeform_mesh_arrays(const treeform_mesh* mesh, treeform_arrays* result) {
     return glue::guard([&] {
         (void)glue::need(result, "result");
@@ -59,14 +66,6 @@ treeform_code treeform_mesh_indexes_built(const treeform_mesh* mesh, uint64_t* r
     return glue::guard([&] {
         (void)glue::need(result, "result");
         *result = glue::mesh_indexes_built(mesh);
-    });
-}
-
-treeform_code treeform_mesh_set_create(const treeform_mesh* const* meshes, size_t count,
-                                       treeform_mesh_set** set) {
-    return glue::guard([&] {
-        glue::start(set);
-        return glue::give(glue::mesh_set_create(meshes, count), set);
     });
 }
 

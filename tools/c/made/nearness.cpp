@@ -61,7 +61,7 @@ void treeform_measure_options_init(treeform_measure_options* options, size_t siz
     glue::init(options, size, to);
 }
 
-void glue::fill(keeper&, const tf::mesh_measure& from, treeform_relation& to) {
+void glue::fill(keeper&, const tf::mesh_measure& from, treeform_mesh_measure& to) {
     to.relation = static_cast<treeform_mesh_relation>(from.relation);
     to.face_a = from.face_a;
     to.face_b = from.face_b;
@@ -206,11 +206,11 @@ treeform_code treeform_raycast_all(const treeform_mesh* mesh, const treeform_ray
 
 treeform_code treeform_measure(const treeform_mesh* a, const treeform_mesh* b,
                                const treeform_measure_options* options,
-                               treeform_relation** relation) {
+                               treeform_mesh_measure** measure) {
     return glue::guard([&] {
-        glue::start(relation);
+        glue::start(measure);
         return glue::give(tf::measure(glue::ref(a, "a"), glue::ref(b, "b"), glue::read(options)),
-                          relation);
+                          measure);
     });
 }
 

@@ -98,7 +98,7 @@ void glue::fill(keeper& kept, const tf::placement& from, treeform_placement& to)
     to.below_bed = from.below_bed;
     to.relation_at_start = static_cast<treeform_mesh_relation>(from.relation_at_start);
     to.relation = static_cast<treeform_mesh_relation>(from.relation);
-    if (from.nearest) to.nearest = &filled<treeform_relation>(kept, *from.nearest);
+    if (from.nearest) to.nearest = &filled<treeform_mesh_measure>(kept, *from.nearest);
     to.nearest_fixed = from.nearest_fixed;
     to.contacts = list<treeform_contact>(kept, from.contacts);
     to.contact_listed = from.contacts.size();

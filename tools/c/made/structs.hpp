@@ -83,7 +83,7 @@ void fill(keeper& kept, const tf::oriented_box& from, treeform_oriented_box& to)
 void fill(keeper& kept, const tf::isolines_result& from, treeform_isolines_result& to);
 [[nodiscard]] tf::measure_options read(const treeform_measure_options* options);
 [[nodiscard]] tf::measure_options read(const treeform_measure_options& o);
-void fill(keeper& kept, const tf::mesh_measure& from, treeform_relation& to);
+void fill(keeper& kept, const tf::mesh_measure& from, treeform_mesh_measure& to);
 [[nodiscard]] tf::deviation_options read(const treeform_deviation_options* options);
 [[nodiscard]] tf::deviation_options read(const treeform_deviation_options& o);
 void fill(keeper& kept, const tf::deviation_result& from, treeform_deviation_result& to);

@@ -51,11 +51,11 @@ py::object scene(const held_meshes& meshes, const std::vector<std::string>& name
 }
 
 /// The parts of a mesh by name. Those without a name are called "1", "2", ..., by their positions.
-py::dict split_parts(const held_mesh& mesh) {
+py::dict split_parts(const held_mesh& mesh, bool combine_patches) {
     const tf::mesh_file whole = file_of(mesh);
     require_rows(whole, 0);
     std::vector<tf::file_part> parts = run([&](const tf::progress_callback&) {
-        return tf::split_parts({&whole, {}});
+        return tf::split_parts({&whole, {}}, combine_patches);
     });
     py::dict all;
     for (tf::file_part& one : parts) {
@@ -235,7 +235,8 @@ but not lists and other elements.
         .def_property_readonly("elements", &names_of_rows,
                                "Names of the elements of the file: 'vertex', 'face', ...")
         .def_property_readonly("parts", &parts_in,
-                               "Parts of the file: (object, group, material, first face).")
+                               "Parts of the file: (object, group, material, number in the file of the first face); "
+                               "see `split_parts`.")
         .def_property_readonly("corners", &corners,
                                "Values of the corners of faces: `texture` (n, 3) and "
                                "`texture_of_corner` (F, 3), "

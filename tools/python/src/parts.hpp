@@ -33,7 +33,7 @@ class rays {
   public:
     rays(const points_array& origins, const points_array& directions, double t_min, double t_max)
         : from_(points_of(origins)), along_(points_of(directions)), t_min_(t_min), t_max_(t_max) {
-        if (from_.size() != along_.size())
+        if (from_.size() != along_.size() && along_.size() != 1)
             throw std::invalid_argument("directions: " + std::to_string(along_.size()) + " for " +
                                         std::to_string(from_.size()) + " origins");
     }
@@ -42,7 +42,7 @@ class rays {
     [[nodiscard]] std::vector<tf::ray3> piece(std::size_t begin, std::size_t end) const {
         std::vector<tf::ray3> some;
         for (std::size_t i = begin; i < end; ++i)
-            some.push_back({numbers(from_[i]), numbers(along_[i]), t_min_, t_max_});
+            some.push_back({numbers(from_[i]), numbers(along_[along_.size() == 1 ? 0 : i]), t_min_, t_max_});
         return some;
     }
 

@@ -21,6 +21,11 @@ void require_faces(const held_meshes& meshes, const std::vector<std::string>& na
 
 namespace {
 
+py::object box(const std::array<double, 3>& low, const std::array<double, 3>& high) {
+    const tf::box3 of{{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+    return mesh_object(of.mesh(), py::none(), py::none());
+}
+
 // ---- cuts ----
 
 tf::oriented_plane plane_of(const std::array<double, 3>& at, const std::array<double, 3>& normal) {
@@ -193,6 +198,7 @@ void add_verbs(py::module_& module) {
     add_job(module, "write_section", &write_section, job_kind::writes);
     add_job(module, "write_isolines", &write_isolines, job_kind::writes);
     add_job(module, "concatenate", &concatenate);  // -> Mesh
+    module.def("box", &box);                       // -> Mesh
     add_job(module, "transformed", &transformed);
     add_job(module, "join_equal_points", &join_equal_points);
     add_job(module, "weld", &weld);

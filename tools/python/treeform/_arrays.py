@@ -164,7 +164,8 @@ def rows(values: ArrayLike, width: int, name: str) -> Floats:
     fits = array.ndim == 2 and array.shape[1] == width
     if array.size == 0 and not fits:
         return np.empty((0, width))
-    one = f": a single one is [{name}]" if array.shape == (width,) else ""
+    one = f": a single one is [{name}]" if array.shape == (width,) else (
+        f": reshape(-1, {width})" if array.ndim == 1 and array.size % width == 0 else "")
     return shaped(array, fits, name, f"(n, {width}){one}")
 
 

@@ -265,7 +265,7 @@ def clash(parts: Iterable[Body], clearance: float = 0.0, *, volumes: bool = True
     volumes: Compute the volume of the intersection of closed parts.
     depths: Compute depths of penetrating parts.
     limit: Largest number of faces listed for each region and part.
-    vertices: 'by_coordinates' or 'by_index'. As in `measure`.
+    vertices: 'by_coordinates' or 'by_index'. Which corners are the same vertex.
     poses: (N, 4, 4) an affine transform for each of the N parts. Transformed vertices are rounded
         to float64; everything after that is exact. The result refers to the transformed parts. For
         many poses of all parts, use `check_poses`.
@@ -318,7 +318,8 @@ class PoseClashes(Result):
 def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0, *,
                 first_only: bool = False, vertices: str = "by_coordinates", ignored: PartPairs = (),
                 progress: Progress = None) -> PoseClashes:
-    """The clashes in each of many poses.
+    """The clashes in each of many poses. All pairs are tested, also of parts that do not move: if
+    such a pair meets, every pose is in collision, unless `ignored` has it.
 
     Exact, like `clash` and `measure`, for the moved corners, rounded to double. Two parts are only
     copied and indexed again for a pose if they touch, if a corner of one is so near the surface of
@@ -328,7 +329,7 @@ def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0,
         4), to move only the first part.
     clearance: Parts nearer than this are too close; not squared.
     first_only: Find only the first clash of each pose.
-    vertices: 'by_coordinates' or 'by_index'. As in `measure`.
+    vertices: 'by_coordinates' or 'by_index'. Which corners are the same vertex.
     ignored: pairs of part numbers to ignore.
 
     Raises ValueError naming the part and its lowest face with a corner out of range or not finite,

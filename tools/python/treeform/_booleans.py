@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 # made of uses:
-from dataclasses import dataclass
+import re
+from dataclasses import dataclass, replace
 from typing import Any, Iterable, Union
 
 import numpy as np
@@ -27,7 +28,10 @@ MeshesLike = Union[MeshLike, Iterable[MeshLike]]
 def operands_of(meshes: Iterable[Any]) -> list[_core.HeldMesh]:
     """The operands of `union(a, b, c)`, `union([a, b, c])` or `difference(a, [b, c])`."""
     several = [(one,) if (many := listed(one)) is None else many for one in meshes]
-    return each([one for many in several for one in many], "meshes", held)
+    made = each([one for many in several for one in many], "meshes", held)
+    if not made:
+        raise ValueError("meshes: expected at least one mesh, not an empty list")
+    return made
 
 
 def combined(operation: str, meshes: tuple[Any, ...], how: _core.BooleanOptions,
@@ -35,7 +39,7 @@ def combined(operation: str, meshes: tuple[Any, ...], how: _core.BooleanOptions,
     """The set operation. Except in a union, a single mesh stands for the objects in it."""
     operands = operands_of(meshes)
     if len(operands) == 1 and operation != "union":
-        parts = _core.split_parts(operands[0]).values()
+        parts = _core.split_parts(operands[0], True).values()
         operands = [held(one) for one in parts] if len(parts) > 1 else operands
     return _core.boolean_of(operands, operation, "", [], how, progress=progress)
 
@@ -45,8 +49,13 @@ def by_formula(expression: str, operands: tuple[Any, ...], meshes: dict[str, Any
     """Implements `boolean`: operands without a name are called a, b, c, ..."""
     unnamed = operands_of(operands)
     names = [*(chr(ord("a") + i) for i in range(len(unnamed))), *meshes]
-    return _core.boolean_of([*unnamed, *(held(mesh) for mesh in meshes.values())], "",
+    made = _core.boolean_of([*unnamed, *(held(mesh) for mesh in meshes.values())], "",
                             _arrays.word(expression, "expression"), names, how, progress=progress)
+    opened = made.certificate.open_faces
+    if len(opened) == 0:
+        return made
+    said = re.sub(r"operand [^,]*$", names[opened[0, 0]], made.certificate.message)
+    return replace(made, certificate=replace(made.certificate, message=said))
 
 
 def clipped(sheet: MeshLike, solids: tuple[Any, ...], keep: str, how: _core.BooleanOptions,
@@ -98,7 +107,7 @@ def union(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str = "flo
         mesh's length unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
-        between two regions. Uncut faces are not changed. `split` keeps all cuts.
+        between two regions. Uncut faces are not changed.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
@@ -144,7 +153,7 @@ def intersection(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str
         mesh's length unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
-        between two regions. Uncut faces are not changed. `split` keeps all cuts.
+        between two regions. Uncut faces are not changed.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
@@ -186,7 +195,7 @@ def difference(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str =
         mesh's length unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
-        between two regions. Uncut faces are not changed. `split` keeps all cuts.
+        between two regions. Uncut faces are not changed.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
@@ -228,7 +237,7 @@ def symmetric_difference(*meshes: MeshesLike, fill_rule: str = "nonzero",
         mesh's length unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
-        between two regions. Uncut faces are not changed. `split` keeps all cuts.
+        between two regions. Uncut faces are not changed.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
@@ -284,7 +293,7 @@ def boolean(expression: str, *operands: MeshesLike, fill_rule: str = "nonzero",
         mesh's length unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
-        between two regions. Uncut faces are not changed. `split` keeps all cuts.
+        between two regions. Uncut faces are not changed.
     simplify: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
@@ -325,7 +334,7 @@ def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", fill_rule:
         mesh's length unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
-        between two regions. Uncut faces are not changed. `split` keeps all cuts.
+        between two regions. Uncut faces are not changed.
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotClosedError if an operand is open, NotCertifiedError if the result could not be

@@ -352,8 +352,8 @@ def components(mesh: MeshLike, *, min_volume: float = 0.0, largest: int = 0,
     lowest faces. Corners with equal coordinates are one. A closed component that is inside out is a
     cavity; it is returned with the smallest closed component around it, if any. Parts with a volume
     below `min_volume`, in cubic units, are omitted; volumes count without sign, those of open parts
-    as 0. If `largest` is not 0, only that many parts are returned: those of the greatest volume
-    and, for equal volumes, the greatest area.
+    as 0 here. If `largest` is not 0, only that many parts are returned: those of the greatest
+    volume and, for equal volumes, the greatest area.
 
     min_volume: ignore components with a smaller volume, in cubic units.
     largest: return only this many of the largest components; 0: all.

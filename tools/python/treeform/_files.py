@@ -107,11 +107,14 @@ def _scene_of(parts: Mapping[str, Any]) -> tuple[Mesh, bool]:
 
 # made of headers:
 #   split_parts
-def split_parts(mesh: MeshLike, *, progress: Progress = None) -> dict[str, Mesh]:
+def split_parts(mesh: MeshLike, *, combine_patches: bool = False,
+                progress: Progress = None) -> dict[str, Mesh]:
     """The parts of a mesh that was read from a file, by name: the objects, groups or nodes of the
-    file. Each has its own vertices and faces, and their attributes. Parts whose open edges coincide
-    are patches of one surface, and are combined into one part; solids that touch are not combined.
-    Parts without a name are "1", "2", ... For the connected parts of any mesh, see `components`.
+    file. Each has its own vertices and faces, and their attributes. Parts without a name are "1",
+    "2", ... For the connected parts of any mesh, see `components`.
+
+    combine_patches: combine parts whose open edges coincide, the patches of one surface. Solids
+        that touch are not combined.
 
     Raises ValueError naming the lowest face with a corner out of range.
 
@@ -123,7 +126,8 @@ def split_parts(mesh: MeshLike, *, progress: Progress = None) -> dict[str, Mesh]
     >>> treeform.split_parts(treeform.read(io.BytesIO(file.getvalue())))
     {'lid': Mesh(8 vertices, 12 faces), 'box': Mesh(8 vertices, 12 faces)}
     """
-    return _core.split_parts(held(mesh), progress=progress)
+    return _core.split_parts(held(mesh), _arrays.flag(combine_patches, "combine_patches"),
+                             progress=progress)
 # end
 
 

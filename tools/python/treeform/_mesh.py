@@ -193,6 +193,16 @@ class Mesh:
         """(2, 3) the lowest and highest coordinates of the finite vertices; None without any."""
         return _core.bounds(self._ready()._held)
 
+    @classmethod
+    def box(cls, low: ArrayLike, high: ArrayLike) -> Mesh:
+        """The box between two corners, as a solid of 8 vertices and 12 faces.
+
+        >>> import treeform
+        >>> treeform.Mesh.box([0, 0, 0], [1, 2, 3]).volume
+        6.0
+        """
+        return _core.box(_arrays.vector(low, "low"), _arrays.vector(high, "high"))
+
     def show(self, *others: MeshLike, **look: Any) -> View:
         """An interactive view of this mesh and others; the arguments are those of `show`."""
         from ._show import show
@@ -409,3 +419,18 @@ class MeshResult(Result):
     def faces(self) -> Ids:
         """(F, 3) uint32, the faces of the mesh."""
         return self.mesh.faces
+
+    @property
+    def volume(self) -> float:
+        """The volume of the mesh, as `Mesh.volume`."""
+        return self.mesh.volume
+
+    @property
+    def bounds(self) -> Floats | None:
+        """The bounds of the mesh, as `Mesh.bounds`."""
+        return self.mesh.bounds
+
+    @property
+    def is_solid(self) -> bool:
+        """Whether the mesh is a solid, as `Mesh.is_solid`."""
+        return self.mesh.is_solid

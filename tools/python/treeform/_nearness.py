@@ -211,7 +211,7 @@ def raycast(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min:
     Faces include their edges and are hit from both sides.
 
     origins: (n, 3) the start points of the rays.
-    directions: (n, 3) of any length.
+    directions: (n, 3) of any length; (1, 3) for all rays.
     t_min: ignore hits before origin + t_min * direction.
     t_max: ignore hits beyond origin + t_max * direction.
 
@@ -236,7 +236,7 @@ def raycast_all(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
     """All faces that each ray hits, in the exact order along the ray, then by number.
 
     origins: (n, 3) the start points of the rays.
-    directions: (n, 3) of any length.
+    directions: (n, 3) of any length; (1, 3) for all rays.
     t_min: ignore hits before origin + t_min * direction.
     t_max: ignore hits beyond origin + t_max * direction.
 
@@ -254,7 +254,7 @@ def raycast_any(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
     """(n,) bool: whether each ray hits any face. Exact.
 
     origins: (n, 3) the start points of the rays.
-    directions: (n, 3) of any length.
+    directions: (n, 3) of any length; (1, 3) for all rays.
     t_min: ignore hits before origin + t_min * direction.
     t_max: ignore hits beyond origin + t_max * direction.
 
@@ -327,8 +327,8 @@ def deviation(a: Body, b: Body, *, band: tuple[float, float] | None = None, bins
 
     The sign is exact: that of the winding number of `b` around the point (`locate`). Corners of `b`
     with equal coordinates are one vertex. If `b` is open, or a cloud, it has no inside, and
-    distances have no sign. Magnitudes have the error bound of `closest_point`, 16 u L; a distance
-    may round to 0.
+    distances have no sign. Magnitudes have the error bound of `closest_point`; a distance may round
+    to 0.
 
     Raises ValueError if `a` or `b` is empty.
 

@@ -481,7 +481,7 @@ class Alignment(MeshResult):
         points, from the residuals and the stiffness of the motions. Motions that `undetermined`
         counts are left out.
     scale: The scale found, in addition to that of `start`.
-    converged: Whether `end` is 'converged'.
+    converged: Whether `outcome` is 'converged'.
     iterations: Steps from the best start.
     start: Number of the best start; 0 is the present position.
     undetermined: Number of independent motions that the data do not determine, such as a plane

@@ -38,7 +38,8 @@ class SolidDefects(Result):
     meeting_pairs: Pairs of faces that meet beyond common corners.
     inverted: Closed components that are inside out, without being inside another.
     wrongly_nested: Disjoint closed components are nested, but not as a solid and its cavities.
-    message: The defects in words, such as 'open at 37 edges, 2 pairs of faces meet', or 'none'.
+    message: The defects in words, such as 'open at 37 edges, 2 pairs of faces meet', or 'no
+        defects'.
     """
 
     nonfinite_vertices: int
@@ -57,7 +58,7 @@ class SolidDefects(Result):
     message: str
 
     def __bool__(self) -> bool:
-        return self.message != "none"
+        return self.message != "no defects"
 
 
 def find_solid_defects(mesh: MeshLike, *, progress: Progress = None) -> SolidDefects:

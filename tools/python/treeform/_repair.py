@@ -38,7 +38,8 @@ STEPS = ("join", "orient", "fill", "resolve", "detach")
 
 def steps_of(steps: Iterable[str]) -> dict[str, bool]:
     """For each step, whether to perform it."""
-    taken = [_arrays.one_of(step, "steps", STEPS) for step in _arrays.several(steps, "steps")]
+    steps = [steps] if isinstance(steps, str) else _arrays.several(steps, "steps")
+    taken = [_arrays.one_of(step, "steps", STEPS) for step in steps]
     return {step: step in taken for step in STEPS}
 
 

@@ -143,7 +143,7 @@ struct align_result {
     /// Number of `freedoms` with a stiffness below 1e-4; these come first. The data do not
     /// determine these motions.
     [[nodiscard]] TREEFORM_API std::size_t undetermined() const;
-    /// For people: "after 12 steps; rms 0.01, from 0.3; overlap 1".
+    /// For people: "aligned after 12 steps; rms 0.01, from 0.3; overlap 1"; if not converged, why.
     [[nodiscard]] TREEFORM_API std::string message() const;
     /// The result as a `placement`; contacts are not tested.
     [[nodiscard]] TREEFORM_API placement as_placement() const;

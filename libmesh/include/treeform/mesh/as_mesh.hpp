@@ -31,7 +31,8 @@ struct usable_mesh {
     std::uint64_t degenerate = 0;  ///< from `usable_part`: triangles that are a segment or a point
     /// from `usable_part` with `details`: number of different points
     std::optional<std::uint64_t> distinct{};
-    std::uint64_t joined = 0;  ///< from `usable_part`: points merged by tolerance
+    std::uint64_t joined = 0;            ///< from `usable_part`: points merged by tolerance
+    std::vector<io_warning> warnings{};  ///< from `as_mesh`: those of the file
 
     /// The triangle in the file of face `f`.
     [[nodiscard]] std::uint32_t triangle(std::uint32_t f) const {

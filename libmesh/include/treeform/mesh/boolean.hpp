@@ -81,7 +81,7 @@ struct boolean_options {
     double max_displacement = std::numeric_limits<double>::infinity();
     /// Do not merge coplanar faces that were cut, or that overlap. By default they are merged
     /// before rounding, which removes vertices inside a flat region and on straight edges between
-    /// two regions. Uncut faces are not changed. `split` keeps all cuts.
+    /// two regions. Uncut faces are not changed.
     bool keep_cuts = false;
     bool simplify = false;  ///< merge all coplanar faces of the result, also those not cut
     /// [faces of all operands in order] or empty: only faces with equal numbers are merged.
@@ -117,7 +117,7 @@ struct boolean_statistics {
     std::uint64_t cut_faces = 0;      ///< input faces that were cut or covered by others
     std::uint64_t degenerate = 0;     ///< input faces without area
     std::uint64_t skipped_faces = 0;  ///< input faces skipped, since the result cannot contain them
-    /// For `split`: input faces that are entirely covered by faces with lower numbers.
+    /// If all pieces are kept: input faces that are entirely covered by faces with lower numbers.
     std::uint64_t covered = 0;
     /// Faces of the exact result, before rounding. If not 0 while `mesh` has no faces, all of the
     /// result was too thin for the coordinates, or removed as `small_parts`.

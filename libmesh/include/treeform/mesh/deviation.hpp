@@ -85,7 +85,7 @@ struct deviation_result {
 ///
 /// The sign is exact: that of the winding number of `b` around the point (`locate`). Corners of `b`
 /// with equal coordinates are one vertex. If `b` is open, or a cloud, it has no inside, and
-/// distances have no sign. Magnitudes have the error bound of `closest_point`, 16 u L; a distance
+/// distances have no sign. Magnitudes have the error bound of `closest_point`; a distance
 /// may round to 0.
 ///
 /// None if `a` or `b` is empty.

@@ -106,7 +106,7 @@ struct laid_flat {
 /// The plates, and options of packing.
 struct pack_options {
     /// Length, depth and height of the plate or box. An infinite height, or 0, means no limit, so
-    /// that `{.size = {250, 210}}` is a plate.
+    /// that {250, 210, 0} is a plate.
     point3 size{0.0, 0.0, std::numeric_limits<double>::infinity()};
     /// The corner of the first plate with the lowest x and y; its z is the bed.
     point3 corner{};

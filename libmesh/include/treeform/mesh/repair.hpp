@@ -216,7 +216,7 @@ struct TREEFORM_API solid_defects {
     bool wrongly_nested = false;
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is invalid
     [[nodiscard]] bool any() const;
-    /// "open at 37 edges, 2 pairs of faces meet"; "none" if there are no defects.
+    /// "open at 37 edges, 2 pairs of faces meet"; "no defects" if there are none.
     [[nodiscard]] std::string message() const;
 };
 

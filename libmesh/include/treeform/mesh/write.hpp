@@ -99,11 +99,10 @@ struct write_result {
 ///   triangles. Numbers are written as the shortest text of the double, so that readers of floats
 ///   and of doubles get the same value.
 ///
-/// Columns of points that several formats have get the name and type of the written format (table
-/// in `libmesh/attributes/known_columns.cpp`): colors are red, green and blue of 8 bits, but in LAS
-/// of 16, in PCD the packed `rgb`, in OBJ numbers from 0 to 1; normals are nx, ny, nz, in PCD
-/// normal_x, ..., in OBJ `vn`. If a file was read from the format that is written, its columns are
-/// unchanged.
+/// Columns of points that several formats have get the name and type of the written format: colors
+/// are red, green and blue of 8 bits, but in LAS of 16, in PCD the packed `rgb`, in OBJ numbers
+/// from 0 to 1; normals are nx, ny, nz, in PCD normal_x, ..., in OBJ `vn`. If a file was read from
+/// the format that is written, its columns are unchanged.
 ///
 /// `write_result::warnings` lists what is scaled, rounded or omitted.
 ///
@@ -130,11 +129,10 @@ TREEFORM_API double round_to_las(mesh_file& file, const write_options& options =
 TREEFORM_API write_result write(const std::filesystem::path& path, mesh surface,
                                 const write_options& options = {});
 
-/// A result with a certificate, such as `boolean_result` and `repair_result`.
+/// A result with a mesh, such as `boolean_result`, `repair_result` and `weld_result`.
 template <class Result>
-concept certified_result = requires(const Result& result) {
-    { result.value() } -> std::convertible_to<const mesh&>;
-    { result.certificate } -> std::convertible_to<const certificate&>;
+concept mesh_result = requires(const Result& result) {
+    { result.mesh } -> std::convertible_to<const mesh&>;
 };
 
 namespace detail::io {
@@ -144,16 +142,25 @@ TREEFORM_API write_result write_certified(const std::filesystem::path& path, con
                                           const write_options& options);
 }  // namespace detail::io
 
-/// Writes the mesh of a result in the certified coordinates. Binary STL and GLB only hold
-/// `precision::float32`.
+/// Writes the mesh of a result, with its attributes if it has any; if it has a certificate, in the
+/// certified coordinates. Binary STL and GLB only hold `precision::float32`.
 ///
 /// \throws not_certified_error unless the certificate's status is ok
 /// \throws io_error as for a file; if a coordinate would be rounded and `options.round` is not set
-template <certified_result Result>
+template <mesh_result Result>
 write_result write(const std::filesystem::path& path, const Result& result,
                    const write_options& options = {}) {
-    return options.round ? write(path, result.value(), options)
-                         : detail::io::write_certified(path, result.value(), options);
+    if constexpr (requires { result.certificate; }) {
+        return options.round ? write(path, result.value(), options)
+                             : detail::io::write_certified(path, result.value(), options);
+    } else if constexpr (requires { result.attributes; }) {
+        mesh_file file;
+        file.mesh = result.mesh;
+        file.attributes = result.attributes;
+        return write(path, file, options);
+    } else {
+        return write(path, result.mesh, options);
+    }
 }
 
 /// The bytes that `write` writes.

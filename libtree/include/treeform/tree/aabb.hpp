@@ -128,22 +128,20 @@ struct transform {
         return moved;
     }
 
-    /// The map that adds `offset`, anything with [], to every point.
-    template <class Vector>
+    /// The map that adds `offset`, a list of numbers or anything with [], to every point.
+    template <class Vector = std::array<double, D>>
     [[nodiscard]] static constexpr transform translation(const Vector& offset) {
         transform result;
         for (std::size_t k = 0; k < D; ++k) result.rows[k][D] = offset[k];
         return result;
     }
 
-    /// The rotation about an axis through the origin, anything with []; counterclockwise if the
-    /// axis points to the viewer. Quarter turns about a coordinate axis are exact.
+    /// The rotation about an axis through the origin, counterclockwise if the axis points to the
+    /// viewer. Quarter turns about a coordinate axis are exact.
     ///
     /// \throws std::invalid_argument if the axis is zero, or it or the angle is not finite
-    template <class Vector>
-    [[nodiscard]] static transform rotation(const Vector& axis, double degrees) requires(D == 3) {
-        return about({axis[0], axis[1], axis[2]}, degrees);
-    }
+    [[nodiscard]] static transform rotation(const std::array<double, 3>& axis,
+                                            double degrees) requires(D == 3);
 
     /// The composition: the map that applies `inner` first, then this map. Entries are rounded.
     [[nodiscard]] constexpr transform after(const transform& inner) const {
@@ -191,7 +189,6 @@ struct transform {
     friend constexpr bool operator==(const transform&, const transform&) = default;
 
   private:
-    static transform about(std::array<double, 3> axis, double degrees);
     static constexpr std::array<row, D> unit() {
         std::array<row, D> result{};
         for (std::size_t k = 0; k < D; ++k) result[k][k] = 1.0;
@@ -200,7 +197,7 @@ struct transform {
 };
 
 template <>
-TREEFORM_API transform<3> transform<3>::about(std::array<double, 3> axis, double degrees);
+TREEFORM_API transform<3> transform<3>::rotation(const std::array<double, 3>& axis, double degrees);
 
 namespace detail {
 

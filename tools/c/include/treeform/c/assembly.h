@@ -29,7 +29,7 @@ typedef struct treeform_body {
 typedef struct treeform_bodies {
     void* owner;
     const treeform_body* bodies;         ///< [count]
-    const treeform_mesh* const* meshes;  ///< [count] meshes of the bodies, as a `treeform_mesh_set`
+    const treeform_mesh* const* meshes;  ///< [count] meshes of the bodies
     size_t count;
 } treeform_bodies;
 
@@ -60,7 +60,7 @@ typedef struct treeform_clash_options {
     /// [ignored_count][2] pairs of parts to skip; any order; or null
     const uint32_t* ignored;
     size_t ignored_count;
-    treeform_vertex_identity vertices;  ///< as in `treeform_relate`
+    treeform_vertex_identity vertices;  ///< which corners are the same vertex
     treeform_progress progress;
     void* progress_data;
     /// Compute the volume of the intersection of closed parts; default 1

@@ -23,10 +23,11 @@ typedef struct treeform_named_column {
 TREEFORM_C_API treeform_code treeform_read(const char* path, const char* format,
                                            treeform_file** file);
 
-/// The mesh of the file at `path`, in one call: corners with equal coordinates are one vertex,
-/// triangles that are not finite are dropped, as are such points of a cloud. To know which ones,
-/// use `treeform_read` and `treeform_as_mesh`.
-TREEFORM_C_API treeform_code treeform_read_mesh(const char* path, treeform_mesh** mesh);
+/// The mesh of the file at `path`: corners with equal coordinates are one vertex; triangles that
+/// are not finite are dropped, as are such points of a cloud. `dropped`, or null, is their number.
+/// `treeform_read` and `treeform_as_mesh` tell which ones, and what else is wrong with the file.
+TREEFORM_C_API treeform_code treeform_read_mesh(const char* path, uint64_t* dropped,
+                                                treeform_mesh** mesh);
 
 /// How to read.
 typedef struct treeform_read_options {
@@ -312,6 +313,9 @@ typedef struct treeform_usable_mesh {
     uint64_t joined;  ///< from `treeform_usable_part`: points merged by tolerance
     /// [F] number of each face in the file, counting polygons
     const uint32_t* face_in_file;
+    /// [warning_count] from `treeform_as_mesh`: those of the file
+    const treeform_warning* warnings;
+    size_t warning_count;
 } treeform_usable_mesh;
 
 /// Options of `treeform_usable_part`.
@@ -367,9 +371,10 @@ typedef struct treeform_scene_parts {
 
 // made of the headers of C++:
 //   split_parts()
-/// The parts of a file, by its objects, groups or nodes, each as a file of its own. Parts with
-/// common points or coinciding open edges are combined.
+/// The parts of a file, by its objects, groups or nodes, each as a file of its own. With
+/// `combine_patches`, parts whose open edges coincide are patches of one surface, and combined.
 TREEFORM_C_API treeform_code treeform_split_parts(const treeform_file* file,
+                                                  int32_t combine_patches,
                                                   treeform_scene_parts** parts);
 // end
 

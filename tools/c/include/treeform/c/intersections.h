@@ -182,8 +182,8 @@ typedef struct treeform_paths {
 /// The segments of `treeform_intersection_curves`, joined into paths where their ends are equal as
 /// exact points.
 ///
-/// A segment common to several pairs is listed once. Points are ordered by `edge`, then `by`;
-/// paths by the number of their first point.
+/// A segment common to several pairs is listed once. Points are ordered by the elements that name
+/// them, paths by the number of their first point.
 TREEFORM_C_API treeform_code treeform_intersection_paths(const treeform_mesh* mesh,
                                                          const treeform_face_pair* pairs,
                                                          size_t count, treeform_paths** paths);

@@ -92,7 +92,7 @@ TREEFORM_C_API treeform_code treeform_lay_flat(const treeform_mesh* mesh,
 typedef struct treeform_pack_options {
     size_t struct_size;
     /// Length, depth and height of the plate or box. An infinite height, or 0, means no limit, so
-    /// that `{.size = {250, 210}}` is a plate; default infinite
+    /// that {250, 210, 0} is a plate; default infinite
     double size[3];
     /// The corner of the first plate with the lowest x and y; its z is the bed.
     double corner[3];

@@ -16,7 +16,7 @@ enum {
 };
 
 // made of the headers of C++:
-//   mesh_create() mesh_create_float() mesh_of() mesh_arrays() mesh_is_cloud()
+//   mesh_create() mesh_create_float() mesh_of() mesh_of_box() mesh_arrays() mesh_is_cloud()
 //   mesh_indexes_built()
 /// A mesh of `points` [point_count][3] and `faces` [face_count][3]; without faces, a point cloud,
 /// which can be measured, moved, welded and aligned like a mesh. Queries take each point of a
@@ -41,6 +41,9 @@ TREEFORM_C_API treeform_code treeform_mesh_create_float(const float* points, siz
 TREEFORM_C_API treeform_code treeform_mesh_of(const treeform_arrays* arrays, uint32_t flags,
                                               treeform_mesh** mesh);
 
+/// The box as a solid of 8 points and 12 faces.
+TREEFORM_C_API treeform_code treeform_mesh_of_box(const treeform_box* box, treeform_mesh** mesh);
+
 /// The arrays of a mesh, valid as long as the mesh exists.
 TREEFORM_C_API treeform_code treeform_mesh_arrays(const treeform_mesh* mesh,
                                                   treeform_arrays* result);
@@ -51,23 +54,6 @@ TREEFORM_C_API treeform_code treeform_mesh_is_cloud(const treeform_mesh* mesh, i
 /// Number of indexes built so far.
 TREEFORM_C_API treeform_code treeform_mesh_indexes_built(const treeform_mesh* mesh,
                                                          uint64_t* result);
-// end
-
-/// Several meshes side by side.
-typedef struct treeform_mesh_set {
-    void* owner;
-    const treeform_mesh* const* meshes;  ///< [count] they belong to the set
-    size_t count;
-} treeform_mesh_set;
-
-// made of the headers of C++:
-//   mesh_set_create()
-/// A set of meshes for functions of several meshes, such as `treeform_clash` and `treeform_slide`.
-/// With `set->meshes` as argument, indexes are kept from call to call; with meshes that were
-/// created separately, each call builds them again. The set refers to the arrays of `meshes`,
-/// which must outlive it.
-TREEFORM_C_API treeform_code treeform_mesh_set_create(const treeform_mesh* const* meshes,
-                                                      size_t count, treeform_mesh_set** set);
 // end
 
 /// A mesh made from others.

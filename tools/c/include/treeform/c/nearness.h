@@ -156,7 +156,7 @@ enum {
 TREEFORM_C_API const char* treeform_mesh_relation_name(treeform_mesh_relation value);
 
 /// The relation and distance of two meshes.
-typedef struct treeform_relation {
+typedef struct treeform_mesh_measure {
     void* owner;
     treeform_mesh_relation relation;
     /// Faces that prove the relation: two that cross, overlap with the inside on the same side, or
@@ -178,7 +178,7 @@ typedef struct treeform_relation {
     double on_b[3];           ///< the nearest point on the surface of `b`
     double barycentric_a[3];  ///< barycentric coordinates of `on_a` in that face
     double barycentric_b[3];  ///< barycentric coordinates of `on_b` in that face
-} treeform_relation;
+} treeform_mesh_measure;
 
 /// Options of `treeform_relate`, `treeform_measure` and `treeform_penetration_depth`. Each ignores
 /// those that do not concern it.
@@ -209,7 +209,7 @@ TREEFORM_C_API void treeform_measure_options_init(treeform_measure_options* opti
 /// meet, the points are on them.
 TREEFORM_C_API treeform_code treeform_measure(const treeform_mesh* a, const treeform_mesh* b,
                                               const treeform_measure_options* options,
-                                              treeform_relation** relation);
+                                              treeform_mesh_measure** measure);
 
 /// Only the relation, exactly: separate, touching or penetrating.
 TREEFORM_C_API treeform_code treeform_relate(const treeform_mesh* a, const treeform_mesh* b,
@@ -301,7 +301,7 @@ typedef struct treeform_deviation_result {
 /// The sign is exact: that of the winding number of `b` around the point (`treeform_locate`).
 /// Corners of `b` with equal coordinates are one vertex. If `b` is open, or a cloud, it has no
 /// inside, and distances have no sign. Magnitudes have the error bound of
-/// `treeform_closest_point`, 16 u L; a distance may round to 0.
+/// `treeform_closest_point`; a distance may round to 0.
 ///
 /// Null, with `TREEFORM_OK`, if `a` or `b` is empty.
 TREEFORM_C_API treeform_code treeform_deviation(const treeform_mesh* a,

@@ -5,7 +5,7 @@
 ///
 /// Placements are checked exactly in the returned coordinates. If there is no such position,
 /// functions return `TREEFORM_NO_PLACE`, with a result that has the reason. `fixed` [count] are
-/// meshes that do not move; those of a `treeform_mesh_set` keep their indexes between calls.
+/// meshes that do not move.
 
 #include <treeform/c/files.h>
 #include <treeform/c/layouts.h>
@@ -89,7 +89,7 @@ typedef struct treeform_placement {
     size_t nearest_fixed;  ///< fixed mesh of `nearest`; the lowest if several qualify
     /// The relation, at the place, of the moving mesh (`a`) to the fixed mesh that it penetrates,
     /// else to one that it touches, else to the nearest. Null if all are too far away.
-    const treeform_relation* nearest;
+    const treeform_mesh_measure* nearest;
     const treeform_contact* contacts;  ///< [contact_listed]
     size_t contact_listed;
     uint64_t contact_count;  ///< number of all contacts, listed or not
@@ -146,7 +146,7 @@ typedef struct treeform_placement_options {
     /// largest number of contacts listed; for `treeform_separate`, for each fixed mesh; default
     /// 1000
     uint64_t limit;
-    treeform_vertex_identity vertices;  ///< as in `treeform_relate`
+    treeform_vertex_identity vertices;  ///< which corners are the same vertex
     treeform_progress progress;
     void* progress_data;
 } treeform_placement_options;

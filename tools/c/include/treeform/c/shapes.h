@@ -130,8 +130,8 @@ typedef struct treeform_simplify_options {
     treeform_progress progress;
     void* progress_data;
     /// [3 F] or empty: groups of corners. An edge is a seam, and so a border of both faces, unless
-    /// at each end the corners of both faces are in one group. `treeform_carry` has the groups of
-    /// a file; or null
+    /// at each end the corners of both faces are in one group. `treeform_corner_groups` has the
+    /// groups of a file; or null
     const uint32_t* corner_groups;
     size_t corner_group_count;
 } treeform_simplify_options;

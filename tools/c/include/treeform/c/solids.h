@@ -37,7 +37,7 @@ typedef struct treeform_boolean_options {
     double max_displacement;
     /// Do not merge coplanar faces that were cut, or that overlap. By default they are merged
     /// before rounding, which removes vertices inside a flat region and on straight edges between
-    /// two regions. Uncut faces are not changed. `treeform_split` keeps all cuts.
+    /// two regions. Uncut faces are not changed.
     int32_t keep_cuts;
     int32_t simplify;  ///< merge all coplanar faces of the result, also those not cut
     /// Compute `treeform_boolean_result::volumes`; only for two operands, without filled gaps.
@@ -106,7 +106,7 @@ typedef struct treeform_boolean_result {
     uint64_t degenerate;  ///< input faces without area
     /// input faces skipped, since the result cannot contain them
     uint64_t skipped_faces;
-    /// For `treeform_split`: input faces that are entirely covered by faces with lower numbers.
+    /// If all pieces are kept: input faces that are entirely covered by faces with lower numbers.
     uint64_t covered;
     /// Faces of the exact result, before rounding. If not 0 while `mesh` has no faces, all of the
     /// result was too thin for the coordinates, or removed as `small_parts`.
@@ -205,8 +205,8 @@ typedef struct treeform_resolve_options {
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
     /// `TREEFORM_FLOAT64`
     treeform_precision precision;
-    /// For `treeform_split` and `TREEFORM_RESOLVE_OUTER`: as in `treeform_boolean_options`;
-    /// default infinite
+    /// For `TREEFORM_RESOLVE_SPLIT` and `TREEFORM_RESOLVE_OUTER`: as in
+    /// `treeform_boolean_options`; default infinite
     double max_displacement;
     /// for `TREEFORM_RESOLVE_REMOVE`: also delete faces that only touch
     int32_t touching;
@@ -220,8 +220,8 @@ typedef struct treeform_resolve_options {
     double max_loss;
     treeform_progress progress;
     void* progress_data;
-    /// for `TREEFORM_RESOLVE_OUTER`: as in `treeform_boolean_options`; `treeform_split` keeps all
-    /// cuts
+    /// for `TREEFORM_RESOLVE_OUTER`: as in `treeform_boolean_options`; `TREEFORM_RESOLVE_SPLIT`
+    /// keeps all cuts
     int32_t keep_cuts;
 } treeform_resolve_options;
 /// Sets the defaults.
@@ -261,9 +261,9 @@ typedef struct treeform_repair_statistics {
     double area_before;
     double area_after;
     double area_lost;  ///< as in `treeform_repair_options::max_loss`
-    /// For `treeform_resolve_self_intersections` with `treeform_split`: input faces that lie
-    /// entirely on faces of lower numbers. Their pieces are those of the lower faces, so they do
-    /// not count as removed.
+    /// For `treeform_resolve_self_intersections` with `TREEFORM_RESOLVE_SPLIT`: input faces that
+    /// lie entirely on faces of lower numbers. Their pieces are those of the lower faces, so they
+    /// do not count as removed.
     uint64_t covered;
     /// For `treeform_resolve_self_intersections` with `TREEFORM_RESOLVE_REMOVE`: edges that lost
     /// their second face.
@@ -286,10 +286,10 @@ typedef struct treeform_repair_result {
     /// Status ok means, verified on the coordinates of `mesh`: a closed manifold, the inside
     /// behind every face, and any two faces share a corner, an edge or nothing. Status sheet means
     /// the same for a surface with a border. For `treeform_resolve_self_intersections` with
-    /// `treeform_split` and `TREEFORM_RESOLVE_REMOVE`, ok only means that any two faces share a
-    /// corner, an edge or nothing, and that no face is degenerate; with `TREEFORM_RESOLVE_REMOVE`,
-    /// closed parts are still closed, and faces that touched before may still touch
-    /// (`treeform_resolve_options::touching`).
+    /// `TREEFORM_RESOLVE_SPLIT` and `TREEFORM_RESOLVE_REMOVE`, ok only means that any two faces
+    /// share a corner, an edge or nothing, and that no face is degenerate; with
+    /// `TREEFORM_RESOLVE_REMOVE`, closed parts are still closed, and faces that touched before may
+    /// still touch (`treeform_resolve_options::touching`).
     const treeform_certificate* certificate;
     const treeform_repair_statistics* statistics;
     /// for a file: the result with its attributes; else null
@@ -300,9 +300,9 @@ typedef struct treeform_repair_result {
 /// `mesh` without self-intersections. Check the certificate: its status says whether this was
 /// possible.
 ///
-/// `treeform_split` and `TREEFORM_RESOLVE_OUTER` decide exactly, on the coordinates as given, what
-/// is cut and what is inside. Then they round the points on cuts. Faces that meet no other face do
-/// not change.
+/// `TREEFORM_RESOLVE_SPLIT` and `TREEFORM_RESOLVE_OUTER` decide exactly, on the coordinates as
+/// given, what is cut and what is inside. Then they round the points on cuts. Faces that meet no
+/// other face do not change.
 ///
 /// `TREEFORM_RESOLVE_REMOVE` is for surfaces that bound no solid, and works locally. It deletes
 /// the faces that meet or are degenerate. It closes each hole by triangles of the least total area
