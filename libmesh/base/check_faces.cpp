@@ -28,9 +28,9 @@ void check_faces(const char* function, std::size_t point_count, std::span<const 
     });
     if (bad == faces.size()) return;
     const std::uint32_t corner = *std::ranges::max_element(faces[bad]);
-    refuse(function, "face " + std::to_string(bad) + " has a corner out of range: " +
-                         std::to_string(corner) + ", of " + std::to_string(points) +
-                         " points numbered from 0");
+    refuse(function, "face " + std::to_string(bad) +
+                         " has a corner out of range: " + std::to_string(corner) + ", of " +
+                         std::to_string(points) + " points numbered from 0");
 }
 
 void check_finite_faces(const char* function, mesh_view mesh) {

@@ -21,7 +21,8 @@
 
 namespace treeform::detail::stream {
 
-/// All blocks together equal the result of `concatenate_files` for the files. One file is open at a time.
+/// All blocks together equal the result of `concatenate_files` for the files. One file is open at a
+/// time.
 class joined_points {
   public:
     /// Reads the headers. Text is read once, each rank its share of the bytes; with several ranks

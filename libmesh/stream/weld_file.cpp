@@ -215,6 +215,7 @@ std::optional<std::uint64_t> count_mergeable(const mesh_file& welded, const weld
     }
     weld_options again = options;
     again.keep = weld_keep::first;
+    again.keep_by.clear();
     again.same = options.conditions(welded.attributes, !welded.mesh.faces.empty());
     again.keep_seams = false;
     attributes properties;

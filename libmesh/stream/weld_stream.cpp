@@ -179,6 +179,7 @@ struct shared_weld::state {
         again.tolerance = steps.survey().tolerance;
         again.relative = false;
         again.keep = weld_keep::first;
+        again.keep_by.clear();
         again.as_las = false;
         again.points_per_tile = 0;  // of the cloud
         again.folder += ".again";

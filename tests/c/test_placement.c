@@ -253,7 +253,8 @@ static void test_align(void) {
     CHECK(result->point_count == arrays.point_count && near(result->scale, 1.0));
     treeform_free(result);
     OK(treeform_mesh_create(NULL, 0, NULL, 0, 0, &nothing));
-    ENDS(TREEFORM_NO_PLACE, "nothing-to-align", treeform_align(nothing, fixed, NULL, &result));
+    ENDS(TREEFORM_NO_PLACE, "not converged: nothing to align",
+         treeform_align(nothing, fixed, NULL, &result));
     treeform_free(result);
     options.scale = 1;
     options.least_scale = 0.9;

@@ -15,7 +15,8 @@ _PLANE = {"normal": "(3,) the normal of the plane, of any length.",
           "at": "(3,) a point on the plane."}
 _HEIGHTS = {"heights": "(K,) the distances of K parallel planes from this plane, measured along "
                        "its unit normal. None: this plane only."}
-_RAYS = {"origins": "(n, 3) the start points of the rays.", "directions": "(n, 3) of any length; (1, 3) for all rays.",
+_RAYS = {"origins": "(n, 3) the start points of the rays.", "directions": "(n, 3) of "
+         "any length; (1, 3) for all rays.",
          "t_min": "ignore hits before origin + t_min * direction.",
          "t_max": "ignore hits beyond origin + t_max * direction."}
 _ALL_RAYS = "rays(origins, directions, t_min, t_max)"

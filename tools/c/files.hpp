@@ -25,8 +25,8 @@ inline tf::mesh_file read(const std::filesystem::path& path, std::string_view fo
     return tf::read(path, format);
 }
 
-/// The mesh of the file at `path`: corners with equal coordinates are one vertex; triangles that are
-/// not finite are dropped, as are such points of a cloud. `dropped`, or null, is their number.
+/// The mesh of the file at `path`: corners with equal coordinates are one vertex; triangles that
+/// are not finite are dropped, as are such points of a cloud. `dropped`, or null, is their number.
 /// `treeform_read` and `treeform_as_mesh` tell which ones, and what else is wrong with the file.
 inline answer_of<treeform_mesh> read_mesh(const std::filesystem::path& path,
                                           std::uint64_t* dropped) {

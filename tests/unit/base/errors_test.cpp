@@ -32,7 +32,7 @@ TEST_CASE("errors name the function that was called, the operand, and the caller
     const std::vector<tf::mesh_view> with_wild{good, wild};
     const auto named = [](const char* function, const char* operand) {
         return std::string("treeform::") + function + ": " + operand +
-               "face 2 has a corner out of range";
+               "face 2 has a corner out of range: 99, of 8 points numbered from 0";
     };
     const tf::boolean_expression both("a*b", 2);
     const std::vector<std::pair<std::string, std::function<void()>>> calls{

@@ -62,7 +62,7 @@ TEST_CASE(
 TEST_CASE("as_mesh: of nothing nothing, and a corner that is no vertex is refused") {
     CHECK(tf::as_mesh({}).mesh == tf::mesh{});
     CHECK_THROWS_WITH_AS(static_cast<void>(tf::as_mesh(file_of({{{0, 0, 0}}, {{0, 0, 1}}}))),
-                         "treeform::as_mesh: face 0 has a corner out of range",
+                         doctest::Contains("treeform::as_mesh: face 0 has a corner out of range"),
                          std::invalid_argument);
 }
 

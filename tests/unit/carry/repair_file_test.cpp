@@ -87,7 +87,7 @@ TEST_CASE("repair_file: objects that are patches of one surface are one part") {
     CHECK(names_of(made) == std::vector<std::string>{"top", "other"});
     CHECK(made.statistics.holes == 0);
     CHECK(made.parts[0].faces == 12);
-    CHECK(tf::find_solid_defects({&file}).message() == "none");
+    CHECK(tf::find_solid_defects({&file}).message() == "no defects");
     CHECK(tf::find_solid_defects(file.mesh).meeting_pairs > 0);
 }
 

@@ -138,7 +138,8 @@ TEST_CASE("closest point query: what cannot be meant is refused by name") {
     CHECK_THROWS_AS(tf::detail::nearness::closest_point_query{mesh}, std::invalid_argument);
     mesh = test::grid(2);
     mesh.faces[5][1] = 99;
-    CHECK_THROWS_WITH_AS(tf::detail::nearness::closest_point_query{mesh},
-                         "treeform::closest_point: face 5 has a corner out of range",
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(
+        tf::detail::nearness::closest_point_query{mesh},
+        doctest::Contains("treeform::closest_point: face 5 has a corner out of range"),
+        std::invalid_argument);
 }

@@ -91,16 +91,18 @@ TEST_CASE("prepared queries: errors name the verb, the mesh and its face or poin
                          "treeform::intersects: b: face 0 has a corner that is not "
                          "finite",
                          std::invalid_argument);
-    CHECK_THROWS_WITH_AS((void)tf::intersects(wild, good),
-                         "treeform::intersects: a: face 4 has a corner out of range",
-                         std::invalid_argument);
-    CHECK_THROWS_WITH_AS((void)tf::closest_point(wild, tf::point3{}),
-                         "treeform::closest_point: face 4 has a corner out of range",
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(
+        (void)tf::intersects(wild, good),
+        doctest::Contains("treeform::intersects: a: face 4 has a corner out of range"),
+        std::invalid_argument);
+    CHECK_THROWS_WITH_AS(
+        (void)tf::closest_point(wild, tf::point3{}),
+        doctest::Contains("treeform::closest_point: face 4 has a corner out of range"),
+        std::invalid_argument);
     CHECK_THROWS_WITH_AS((void)tf::raycast(bad, tf::ray3{{0, 0, 0}, {1, 0, 0}}),
                          "treeform::raycast: face 0 has a corner that is not finite",
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS((void)tf::locate(wild, tf::point3{}),
-                         "treeform::locate: face 4 has a corner out of range",
+                         doctest::Contains("treeform::locate: face 4 has a corner out of range"),
                          std::invalid_argument);
 }

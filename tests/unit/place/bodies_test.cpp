@@ -149,8 +149,13 @@ TEST_CASE("bodies: how they lie to each other, in words, with the numbers of the
 TEST_CASE("what has been laid flat or aligned says so in words") {
     CHECK(tf::lay_flat(box(1, 2, 3))->message() == "on side 0 of 6, of area 6");
     CHECK(tf::laid_flat{}.message().empty());
-    CHECK(tf::align_result{.rms = 0.5, .overlap = 1, .iterations = 1}.message() ==
-          "after 1 step; rms 0.5, from 0; overlap 1");
+    CHECK(tf::align_result{.rms = 0.5,
+                           .overlap = 1,
+                           .outcome = tf::align_outcome::out_of_iterations,
+                           .iterations = 1}
+              .message() ==
+          "not converged after 1 step; rms 0.5, from 0; overlap 1; more "
+          "iterations may help");
 }
 
 TEST_CASE(

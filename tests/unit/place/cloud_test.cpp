@@ -229,8 +229,9 @@ TEST_CASE("clouds: they bound nothing, and are no operands") {
             CHECK_THROWS_AS((void)tf::unite({other, given, other}), std::invalid_argument);
             CHECK_THROWS_AS((void)tf::check_operand(given), std::invalid_argument);
             CHECK(tf::self_intersections(given).pairs.empty());
-            CHECK(tf::resolve_self_intersections(given).mesh.faces.empty());
-            CHECK(tf::hollow(given, 0.1, {}).mesh.faces.empty());
+            CHECK_THROWS_AS((void)tf::resolve_self_intersections(given), std::invalid_argument);
+            CHECK_THROWS_WITH_AS((void)tf::hollow(given, 0.1, {}), doctest::Contains("point cloud"),
+                                 std::invalid_argument);
             CHECK(tf::find_invalid_faces(given).degenerate_faces.empty());
         }
     const tf::mesh collapsed{{{0, 0, 0}, {1, 1, 1}}, {{0, 1, 1}}};  // its only face has no area

@@ -160,9 +160,10 @@ TEST_CASE("relation: a prepared mesh gives the same answers, and builds its inde
 TEST_CASE("relation: what is refused is named") {
     tf::mesh bad = box(1, 1, 1);
     bad.faces[3][1] = 99;
-    CHECK_THROWS_WITH_AS(static_cast<void>(tf::relation(box(1, 1, 1), bad)),
-                         "treeform::relation: b: face 3 has a corner out of range",
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(
+        static_cast<void>(tf::relation(box(1, 1, 1), bad)),
+        doctest::Contains("treeform::relation: b: face 3 has a corner out of range"),
+        std::invalid_argument);
     bad = box(1, 1, 1);
     bad.points[bad.faces[2][0]].y = std::nan("");
     CHECK_THROWS_AS(static_cast<void>(tf::relation(bad, bad)), std::invalid_argument);

@@ -263,8 +263,9 @@ TEST_CASE("face_components: numbered by their lowest face, faces that repeat a c
 TEST_CASE("topology: a corner out of range is refused by the number of its face") {
     const faces list{{0, 1, 2}, {1, 2, 3}};
     CHECK_NOTHROW((void)tf::count_topology(4, list));
-    CHECK_THROWS_WITH_AS((void)tf::count_topology(3, list),
-                         "treeform::count_topology: face 1 has a corner out of range",
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(
+        (void)tf::count_topology(3, list),
+        doctest::Contains("treeform::count_topology: face 1 has a corner out of range"),
+        std::invalid_argument);
     CHECK_THROWS_AS((void)tf::face_components(3, list), std::invalid_argument);
 }

@@ -234,9 +234,10 @@ but not lists and other elements.
             "Comment lines of a PLY file.")
         .def_property_readonly("elements", &names_of_rows,
                                "Names of the elements of the file: 'vertex', 'face', ...")
-        .def_property_readonly("parts", &parts_in,
-                               "Parts of the file: (object, group, material, number in the file of the first face); "
-                               "see `split_parts`.")
+        .def_property_readonly(
+            "parts", &parts_in,
+            "Parts of the file: (object, group, material, number in the file of the first face); "
+            "see `split_parts`.")
         .def_property_readonly("corners", &corners,
                                "Values of the corners of faces: `texture` (n, 3) and "
                                "`texture_of_corner` (F, 3), "

@@ -28,16 +28,15 @@ MeshesLike = Union[MeshLike, Iterable[MeshLike]]
 def operands_of(meshes: Iterable[Any]) -> list[_core.HeldMesh]:
     """The operands of `union(a, b, c)`, `union([a, b, c])` or `difference(a, [b, c])`."""
     several = [(one,) if (many := listed(one)) is None else many for one in meshes]
-    made = each([one for many in several for one in many], "meshes", held)
-    if not made:
-        raise ValueError("meshes: expected at least one mesh, not an empty list")
-    return made
+    return each([one for many in several for one in many], "meshes", held)
 
 
 def combined(operation: str, meshes: tuple[Any, ...], how: _core.BooleanOptions,
              progress: Progress) -> BooleanResult:
     """The set operation. Except in a union, a single mesh stands for the objects in it."""
     operands = operands_of(meshes)
+    if not operands:
+        raise ValueError("meshes: expected at least one mesh, not an empty list")
     if len(operands) == 1 and operation != "union":
         parts = _core.split_parts(operands[0], True).values()
         operands = [held(one) for one in parts] if len(parts) > 1 else operands

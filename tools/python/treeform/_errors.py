@@ -66,7 +66,8 @@ class CertificateError(Error, ValueError):
     """
 
     def __init__(self, certificate: Certificate, of: str = " of operand a") -> None:
-        super().__init__(certificate.message.replace(" of operand a", of))
+        text, one = certificate.message, " of operand a"
+        super().__init__(text.replace(one, of) if one in text or of == one else text + of)
         self.certificate = certificate
         self._of = of
 

@@ -419,18 +419,3 @@ class MeshResult(Result):
     def faces(self) -> Ids:
         """(F, 3) uint32, the faces of the mesh."""
         return self.mesh.faces
-
-    @property
-    def volume(self) -> float:
-        """The volume of the mesh, as `Mesh.volume`."""
-        return self.mesh.volume
-
-    @property
-    def bounds(self) -> Floats | None:
-        """The bounds of the mesh, as `Mesh.bounds`."""
-        return self.mesh.bounds
-
-    @property
-    def is_solid(self) -> bool:
-        """Whether the mesh is a solid, as `Mesh.is_solid`."""
-        return self.mesh.is_solid

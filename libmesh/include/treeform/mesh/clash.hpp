@@ -38,7 +38,8 @@ struct clash_options {
     std::size_t limit = 1000;  ///< largest number of faces listed for each region and part
     bool first_only = false;   ///< find only the first clash of each pose
     std::span<const part_pair> ignored{};  ///< pairs of parts to skip; any order
-    vertex_identity vertices = vertex_identity::by_coordinates;  ///< which corners are the same vertex
+    vertex_identity vertices =
+        vertex_identity::by_coordinates;  ///< which corners are the same vertex
     progress_callback progress{};
 };
 
@@ -149,8 +150,8 @@ struct pose_result {
 };
 
 /// The clashes in each of many poses. `poses` has a transform for each part, pose after pose:
-/// `poses[p * parts.size() + i]` moves part i in pose p. All pairs are tested, also of parts that do
-/// not move: if such a pair meets, every pose is in collision, unless `ignored` has it.
+/// `poses[p * parts.size() + i]` moves part i in pose p. All pairs are tested, also of parts that
+/// do not move: if such a pair meets, every pose is in collision, unless `ignored` has it.
 ///
 /// Exact, like `clash` and `relation`, for the moved corners, rounded to double
 /// (`transform::operator()`). Two parts are only copied and indexed again for a pose if they touch,

@@ -140,8 +140,8 @@ struct mesh_part {
 /// lowest faces. Corners with equal coordinates are one. A closed component that is inside out is a
 /// cavity; it is returned with the smallest closed component around it, if any. Parts with a volume
 /// below `min_volume`, in cubic units, are omitted; volumes count without sign, those of open parts
-/// as 0 here. If `largest` is not 0, only that many parts are returned: those of the greatest volume
-/// and, for equal volumes, the greatest area.
+/// as 0 here. If `largest` is not 0, only that many parts are returned: those of the greatest
+/// volume and, for equal volumes, the greatest area.
 ///
 /// \pre    every coordinate of a corner is finite
 /// \throws std::invalid_argument naming the lowest face with a corner out of range, and for a

@@ -110,8 +110,8 @@ struct curve_network {
 /// The segments of `intersection_curves`, joined into paths where their ends are equal as exact
 /// points.
 ///
-/// A segment common to several pairs is listed once. Points are ordered by the elements that name them,
-/// paths by the number of their first point.
+/// A segment common to several pairs is listed once. Points are ordered by the elements that name
+/// them, paths by the number of their first point.
 ///
 /// \throws std::invalid_argument naming the pair with a face or a corner that is out of range or
 ///         not finite; for a face without area

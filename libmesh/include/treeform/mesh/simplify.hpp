@@ -28,8 +28,8 @@ struct simplify_options {
     /// [F] or empty: edges between faces of different groups are borders of both.
     std::span<const std::uint32_t> face_groups{};
     /// [3 F] or empty: groups of corners. An edge is a seam, and so a border of both faces, unless
-    /// at each end the corners of both faces are in one group. `carry_sources::corner_groups` has the groups of a
-    /// file.
+    /// at each end the corners of both faces are in one group. `carry_sources::corner_groups` has
+    /// the groups of a file.
     std::span<const std::uint32_t> corner_groups{};
     progress_callback progress{};
 };

@@ -43,7 +43,8 @@ struct placement_options {
     std::uint64_t effort = 0;
     /// largest number of contacts listed; for `separate`, for each fixed mesh
     std::size_t limit = 1000;
-    vertex_identity vertices = vertex_identity::by_coordinates;  ///< which corners are the same vertex
+    vertex_identity vertices =
+        vertex_identity::by_coordinates;  ///< which corners are the same vertex
     progress_callback progress{};
 };
 
