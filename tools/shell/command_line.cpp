@@ -242,6 +242,14 @@ command_line::outcome command_line::parse(int argc, const char* const* argv) {
         tools::refuse(name == std::string::npos ? what + " (see --help)"
                                                 : "--" + what.substr(0, name) + " takes no value");
     } catch (const CLI::ParseError& error) {
+        std::string modes;
+        bool is_mode = !text_.needs_mode || argc < 2 || argv[1][0] == '-';
+        for (const mode_text& one : text_.modes) {
+            modes += (modes.empty() ? "" : ", ") + one.name;
+            is_mode = is_mode || one.name == argv[1];
+        }
+        if (!is_mode && !modes.empty())
+            tools::refuse(std::string(argv[1]) + ": not a mode; expected one of " + modes);
         throw failure(bad_usage, "usage", std::string(error.what()) + " (see --help)");
     }
     return outcome::run;

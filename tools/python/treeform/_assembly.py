@@ -85,7 +85,7 @@ def clashes_in_poses(parts: Iterable[Body], poses: ArrayLike, how: _core.ClashOp
         moves[:, 0] = array
         array = moves
     _arrays.shaped(array, array.ndim == 4 and array.shape[1:] == (len(bodies), 4, 4), "poses",
-                   f"(n, {len(bodies)}, 4, 4)")
+                   f"(n, {len(bodies)}, 4, 4), or (n, 4, 4) for the first part")
     return _core.clash_in_poses(bodies, poses_of(array.reshape(-1, 4, 4), "poses"), how,
                                 _pairs(ignored), progress=progress)
 
