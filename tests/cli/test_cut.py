@@ -335,6 +335,7 @@ class Cut(ToolTest):
         part = self.put_box()
         for arguments, words in [
                 (["cut", part], "not a mode"),
+                ([part], "not a mode; expected one of half, section"),
                 (["half", part, "-n"], "half needs --height or --at"),
                 (["half", part, "--height", "1,2", "-n"], "one --height"),
                 (["half", part, "--height", "x", "-n"], "--height x: expected a number"),
