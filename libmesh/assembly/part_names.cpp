@@ -13,21 +13,6 @@
 #include <vector>
 
 namespace treeform {
-namespace {
-
-/// The same faces, each with corners of its own.
-mesh loose(mesh_view of, std::span<const std::uint32_t> faces) {
-    mesh soup;
-    for (const std::uint32_t f : faces) {
-        const auto first = static_cast<std::uint32_t>(soup.points.size());
-        for (const std::uint32_t corner : of.faces[f]) soup.points.push_back(of.points[corner]);
-        soup.faces.push_back({first, first + 1, first + 2});
-    }
-    return soup;
-}
-
-}  // namespace
-
 using detail::assembly::matches;
 
 bool detail::assembly::matches(std::string_view pattern, std::string_view name) {
@@ -77,7 +62,7 @@ body_file& body_set::add_named_parts(mesh_file content, std::string label, std::
         triangle.push_back(this->triangle(whole, f));
         stored.push_back(stored_face(whole, f));
     }
-    const auto parts = scene_parts(loose(file.content.mesh, triangle), names, stored);
+    const auto parts = scene_parts(select_faces(file.content.mesh, triangle), names, stored, false);
     shapes.pop_back();
     bodies_.pop_back();
     for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -48,7 +48,8 @@ std::vector<std::uint32_t> names_of_faces(std::size_t faces, std::span<const par
 }  // namespace
 
 std::vector<scene_part> scene_parts(mesh_view mesh, std::span<const part> names,
-                                    std::span<const std::uint32_t> number) {
+                                    std::span<const std::uint32_t> number,
+                                    bool joined_at_points) {
     if (!number.empty() && number.size() != mesh.faces.size())
         throw std::invalid_argument("treeform::scene_parts: expected one number for each face");
     detail::base::check_faces("scene_parts", mesh.points.size(), mesh.faces);
@@ -56,7 +57,7 @@ std::vector<scene_part> scene_parts(mesh_view mesh, std::span<const part> names,
     const std::vector<std::uint32_t> name = names_of_faces(mesh.faces.size(), names, number, table);
     detail::base::union_find sets(table.names.size());
     std::vector<std::uint32_t> name_at(mesh.points.size(), nobody);
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (std::size_t f = 0; joined_at_points && f < mesh.faces.size(); ++f)
         for (const std::uint32_t corner : mesh.faces[f]) {
             if (name_at[corner] == nobody)
                 name_at[corner] = name[f];

@@ -28,8 +28,9 @@ struct scene_part {
 
 /// The parts of `mesh`, in the order of their first faces. Each face is in exactly one part.
 ///
-/// Faces with the same object and group are one part, whatever their material. Parts with a point
-/// in common are patches of one surface, and so are one part, with the name of the first. Nodes of
+/// Faces with the same object and group are one part, whatever their material. With
+/// `joined_at_points`, parts with a point in common are patches of one surface, and so are one
+/// part, with the name of the first. Nodes of
 /// a scene are parts; `read` has already applied their transforms.
 ///
 /// `number` is [F], the file's number of each face, ascending; or empty when that is its number in
@@ -40,6 +41,7 @@ struct scene_part {
 ///         corner out of range
 /// \cost   O(F + P log P) for P of `names`
 [[nodiscard]] TREEFORM_API std::vector<scene_part> scene_parts(
-    mesh_view mesh, std::span<const part> names, std::span<const std::uint32_t> number = {});
+    mesh_view mesh, std::span<const part> names, std::span<const std::uint32_t> number = {},
+    bool joined_at_points = true);
 
 }  // namespace treeform

@@ -64,11 +64,11 @@ solid_part with_own_points(mesh_view whole, scene_part&& from) {
 }
 
 /// The parts of a file with its own vertex numbers (`scene_parts`).
-std::vector<scene_part> named_parts(const carry_source& input) {
+std::vector<scene_part> named_parts(const carry_source& input, bool joined_at_points) {
     std::vector<std::uint32_t> stored;
     for (std::uint32_t f = 0; f < input.file->mesh.faces.size(); ++f)
         stored.push_back(input.stored_face(f));
-    return scene_parts(input.file->mesh, input.file->attributes.parts, stored);
+    return scene_parts(input.file->mesh, input.file->attributes.parts, stored, joined_at_points);
 }
 
 /// The same, except that two parts are merged if a
@@ -80,7 +80,7 @@ std::vector<scene_part> named_parts(const carry_source& input) {
 /// \cost O(V log V + F log F)
 std::vector<scene_part> surface_parts(const carry_source& input) {
     const mesh_view whole = input.file->mesh;
-    std::vector<scene_part> named = named_parts(input);
+    std::vector<scene_part> named = named_parts(input, true);
     if (named.size() < 2) return named;
 
     base::union_find sets(named.size());
@@ -118,7 +118,7 @@ std::vector<file_part> split_parts(const carry_source& source, bool combine_patc
     const mesh_file& whole = *source.file;
     std::vector<file_part> parts;
     for (scene_part& of : combine_patches ? detail::carry::surface_parts(source)
-                                          : detail::carry::named_parts(source)) {
+                                          : detail::carry::named_parts(source, false)) {
         file_part part{.name = std::move(of.name)};
         part.file.mesh = select_faces(whole.mesh, of.faces);
         part.file.stored_faces = of.faces.size();

@@ -180,14 +180,13 @@ def test_queries_of_two_meshes_take_clouds_too():
     assert tf.distance(CUBE, ([], [])) == np.inf
 
 
-def test_a_dict_of_meshes_is_refused_with_what_to_pass():
-    parts = {"a": CUBE, "b": CUBE}
-    for call in (tf.clash, tf.union, lambda some: tf.boolean("a - b", some),
-                 lambda some: tf.slide(CUBE, some, [0, 0, 1]),
-                 lambda some: tf.pack(some, [8, 8]), tf.concatenate):
-        with pytest.raises(ValueError, match="dict.*: pass a list of its values"):
-            call(parts)
-    assert tf.boolean("a - b", **parts).mesh.volume == 0
+def test_a_dict_of_meshes_is_its_values():
+    parts = {"a": CUBE, "b": moved(CUBE, 0.5, 0, 0)}
+    assert tf.clash(parts).pairs[0].relation == "penetrating"
+    assert tf.union(parts).mesh.volume == tf.boolean("a+b", **parts).mesh.volume == 1.5
+    assert len(tf.concatenate(parts).faces) == 24 and len(tf.pack(parts, [8, 8]).parts) == 2
+    with pytest.raises(ValueError, match="dict"):
+        tf.repair(parts)
 
 
 @pytest.mark.parametrize("call, name", [

@@ -15,8 +15,8 @@ _PLANE = {"normal": "(3,) the normal of the plane, of any length.",
           "at": "(3,) a point on the plane."}
 _HEIGHTS = {"heights": "(K,) the distances of K parallel planes from this plane, measured along "
                        "its unit normal. None: this plane only."}
-_RAYS = {"origins": "(n, 3) the start points of the rays.", "directions": "(n, 3) of "
-         "any length; (1, 3) for all rays.",
+_RAYS = {"origins": "(n, 3) the start points of the rays; (1, 3) for all.", "directions": "(n, 3) of "
+         "any length; (1, 3) for all.",
          "t_min": "ignore hits before origin + t_min * direction.",
          "t_max": "ignore hits beyond origin + t_max * direction."}
 _ALL_RAYS = "rays(origins, directions, t_min, t_max)"
@@ -378,8 +378,8 @@ FUNCTIONS = [
                  "nodes of the file. Each has its own vertices and faces, and their attributes. "
                  "Parts without a name are \"1\", \"2\", ... For the connected parts of any mesh, "
                  "see `components`.",
-             docs={"combine_patches": "combine parts whose open edges coincide, the patches of one "
-                                      "surface. Solids that touch are not combined."}),
+             docs={"combine_patches": "combine parts with a common vertex, or whose open edges "
+                                      "coincide: the patches of one surface."}),
     Function("write(path: Path | IO[bytes], mesh: PartsLike, options: write_options(format))"
              " -> Written", body="written(path, mesh, format, how, progress)",
              words={"file": "mesh"},

@@ -260,7 +260,7 @@ inline tf::mesh_file scene(const treeform_file* const* files, const char* const*
 }
 
 /// The parts of a file, by its objects, groups or nodes, each as a file of its own. With
-/// `combine_patches`, parts whose open edges coincide are patches of one surface, and combined.
+/// `combine_patches`, parts with a common point, or whose open edges coincide, are combined.
 inline answer_of<treeform_scene_parts> split_parts(const tf::mesh_file& file,
                                                    bool combine_patches) {
     auto made = make<treeform_scene_parts>();

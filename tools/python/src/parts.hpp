@@ -33,11 +33,13 @@ class rays {
   public:
     rays(const points_array& origins, const points_array& directions, double t_min, double t_max)
         : from_(points_of(origins)), along_(points_of(directions)), t_min_(t_min), t_max_(t_max) {
-        if (from_.size() != along_.size() && along_.size() != 1)
+        if (from_.size() != along_.size() && from_.size() != 1 && along_.size() != 1)
             throw std::invalid_argument("directions: " + std::to_string(along_.size()) + " for " +
                                         std::to_string(from_.size()) + " origins");
     }
-    [[nodiscard]] std::size_t size() const { return from_.size(); }
+    [[nodiscard]] std::size_t size() const {
+        return from_.size() == 1 ? along_.size() : from_.size();
+    }
 
     [[nodiscard]] std::vector<tf::ray3> piece(std::size_t begin, std::size_t end) const {
         std::vector<tf::ray3> some;

@@ -259,7 +259,9 @@ def _read_only(array: _Array) -> _Array:
 
 def listed(meshes: Any) -> tuple[Any, ...] | None:
     """The elements of a list or another iterable of meshes; None if `meshes` is a single mesh."""
-    if not isinstance(meshes, Iterable) or isinstance(meshes, (str, bytes, dict)) or any(
+    if isinstance(meshes, dict):
+        return tuple(meshes.values())
+    if not isinstance(meshes, Iterable) or isinstance(meshes, (str, bytes)) or any(
             hasattr(meshes, name) for name in ("mesh", "vertices", "points", "__array__")):
         return None
     several = tuple(meshes)
@@ -309,6 +311,7 @@ def held_body(body: Any) -> _core.HeldMesh:
 
 def each(many: Any, name: str, take: _Take = held_body) -> list[_core.HeldMesh]:
     """Several bodies for the extension. Errors have the number of the body."""
+    many = list(many.values()) if isinstance(many, dict) else many
     pair = _is_mesh(many)
     if pair or hasattr(many, "vertices") or hasattr(many, "mesh"):
         what = "(vertices, faces)" if pair else f"a {type(many).__name__}"

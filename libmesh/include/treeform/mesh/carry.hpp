@@ -137,8 +137,9 @@ struct file_part {
 };
 
 /// The parts of a file, by its objects, groups or nodes, each with its own points and faces and
-/// their attributes (`carry_sources`). With `combine_patches`, parts whose open edges coincide are
-/// patches of one surface, and are combined into one part; solids that touch are not combined.
+/// their attributes (`carry_sources`). With `combine_patches`, parts with a common point, or whose
+/// open edges coincide, are patches of one surface, and are combined into one part; solids that
+/// touch are not combined.
 ///
 /// \throws std::invalid_argument naming the lowest face with a corner out of range
 /// \cost   O(V log V + F log F), and O(V + F) for each part and column
