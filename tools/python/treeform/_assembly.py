@@ -169,11 +169,11 @@ def closest_pair(a: Body, b: Body, *, move_a: ArrayLike | None = None,
     apart than the radius. Surfaces count, not solids: inside a closed mesh, the distance is that to
     its surface.
 
-    Whether the meshes meet is decided exactly, on the coordinates as given or as moved. If not, the
-    error of the distance is at most 16 u L, where u = 2^-53 and L is the largest distance of two
-    corners of the returned faces. Of several pairs of faces at the same computed distance, the
-    lowest numbers are returned. If the meshes meet, any pair that meets may be returned, but the
-    same one in every run.
+    Whether the meshes meet is decided exactly, on the coordinates as given or as moved. If they do
+    not, the error of the distance is at most 16 u L, where u = 2^-53 and L is the largest distance
+    of two corners of the returned faces. Of several pairs of faces at the same computed distance,
+    the lowest numbers are returned. If the meshes meet, any pair that meets may be returned, but
+    the same one in every run.
 
     A `Mesh` caches tight bounds of its surface, which make later calls several times faster for
     nearly flat surfaces that are not axis-aligned. Transforms other than rotations, uniform
@@ -200,7 +200,7 @@ def closest_pair(a: Body, b: Body, *, move_a: ArrayLike | None = None,
 
 @dataclass(frozen=True, repr=False)
 class PartClash(Result):
-    """Two parts that are not clear of each other.
+    """Two parts that penetrate, touch, or are closer than the clearance.
 
     a: The lower number.
     b: Number of the second part.
@@ -237,7 +237,7 @@ class PartClash(Result):
 class ClashResult(Result):
     """The clashes of all parts of an assembly.
 
-    pairs: Pairs that are not clear, ascending.
+    pairs: Pairs found, ascending.
     counts: Number of tested pairs, by relation.
     clashes: Number of pairs that penetrate or are closer than the clearance; with a clearance, also
         pairs that touch.
@@ -257,9 +257,9 @@ def clash(parts: Iterable[Body], clearance: float = 0.0, *, volumes: bool = True
     """The relations of all pairs of parts of an assembly.
 
     Exact, like `measure`: parts penetrate, touch, or are separate. Boxes only exclude pairs: linked
-    rings are clear if they do not meet, although their boxes overlap. Empty parts are clear of all.
-    Distances are those of `distance`, and only computed with a clearance. A part is only indexed if
-    its box is near that of another.
+    rings that do not meet are separate, although their boxes overlap. Empty parts are separate from
+    all. Distances are those of `distance`, and only computed with a clearance. A part is only
+    indexed if its box is near that of another.
 
     clearance: Parts nearer than this are too close; not squared.
     volumes: Compute the volume of the intersection of closed parts.

@@ -102,8 +102,9 @@ def union(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str = "flo
     fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
-    max_displacement: Where rounding makes faces meet, only points at most this far apart, in the
-        mesh's length unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
+    max_displacement: Where rounding makes faces meet, points are joined, but only if they are at
+        most this far apart, in the mesh's length unit, and at most 2^-10 of the largest coordinate.
+        Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
         between two regions. Uncut faces are not changed.
@@ -124,8 +125,8 @@ def union(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str = "flo
     operands.
 
     Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
-    manifolds that meet in few places: finding these (once for a `Mesh`) and a copy. A `gap` adds
-    O(P) for the P pairs of faces whose boxes are that near.
+    manifolds that meet in few places: a search for these (once if prepared), and a copy. A `gap`
+    adds O(P) for the P pairs of faces whose boxes are that near.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -148,8 +149,9 @@ def intersection(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str
     fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
-    max_displacement: Where rounding makes faces meet, only points at most this far apart, in the
-        mesh's length unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
+    max_displacement: Where rounding makes faces meet, points are joined, but only if they are at
+        most this far apart, in the mesh's length unit, and at most 2^-10 of the largest coordinate.
+        Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
         between two regions. Uncut faces are not changed.
@@ -165,7 +167,7 @@ def intersection(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str
     that is not finite or beyond 2^1000.
 
     Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
-    manifolds that meet in few places: finding these (once for a `Mesh`) and a copy.
+    manifolds that meet in few places: a search for these (once if prepared), and a copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -190,8 +192,9 @@ def difference(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str =
     fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
-    max_displacement: Where rounding makes faces meet, only points at most this far apart, in the
-        mesh's length unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
+    max_displacement: Where rounding makes faces meet, points are joined, but only if they are at
+        most this far apart, in the mesh's length unit, and at most 2^-10 of the largest coordinate.
+        Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
         between two regions. Uncut faces are not changed.
@@ -207,7 +210,7 @@ def difference(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str =
     that is not finite or beyond 2^1000.
 
     Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
-    manifolds that meet in few places: finding these (once for a `Mesh`) and a copy.
+    manifolds that meet in few places: a search for these (once if prepared), and a copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -232,8 +235,9 @@ def symmetric_difference(*meshes: MeshesLike, fill_rule: str = "nonzero",
     fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
-    max_displacement: Where rounding makes faces meet, only points at most this far apart, in the
-        mesh's length unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
+    max_displacement: Where rounding makes faces meet, points are joined, but only if they are at
+        most this far apart, in the mesh's length unit, and at most 2^-10 of the largest coordinate.
+        Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
         between two regions. Uncut faces are not changed.
@@ -249,7 +253,7 @@ def symmetric_difference(*meshes: MeshesLike, fill_rule: str = "nonzero",
     that is not finite or beyond 2^1000.
 
     Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
-    manifolds that meet in few places: finding these (once for a `Mesh`) and a copy.
+    manifolds that meet in few places: a search for these (once if prepared), and a copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -288,8 +292,9 @@ def boolean(expression: str, *operands: MeshesLike, fill_rule: str = "nonzero",
     fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
-    max_displacement: Where rounding makes faces meet, only points at most this far apart, in the
-        mesh's length unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
+    max_displacement: Where rounding makes faces meet, points are joined, but only if they are at
+        most this far apart, in the mesh's length unit, and at most 2^-10 of the largest coordinate.
+        Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
         between two regions. Uncut faces are not changed.
@@ -305,7 +310,7 @@ def boolean(expression: str, *operands: MeshesLike, fill_rule: str = "nonzero",
     that is not finite or beyond 2^1000.
 
     Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
-    manifolds that meet in few places: finding these (once for a `Mesh`) and a copy.
+    manifolds that meet in few places: a search for these (once if prepared), and a copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -329,8 +334,9 @@ def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", fill_rule:
     fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
-    max_displacement: Where rounding makes faces meet, only points at most this far apart, in the
-        mesh's length unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
+    max_displacement: Where rounding makes faces meet, points are joined, but only if they are at
+        most this far apart, in the mesh's length unit, and at most 2^-10 of the largest coordinate.
+        Not negative.
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
         between two regions. Uncut faces are not changed.
@@ -361,8 +367,9 @@ def split(*meshes: MeshesLike, precision: str = "float64", max_displacement: flo
     meshes: each argument is a mesh or a list of meshes.
     precision: 'float32' or 'float64'. Precision of the returned coordinates; use 'float32' for STL
         and GLB.
-    max_displacement: Where rounding makes faces meet, only points at most this far apart, in the
-        mesh's length unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
+    max_displacement: Where rounding makes faces meet, points are joined, but only if they are at
+        most this far apart, in the mesh's length unit, and at most 2^-10 of the largest coordinate.
+        Not negative.
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotCertifiedError if the result could not be certified.
@@ -377,8 +384,8 @@ def split(*meshes: MeshesLike, precision: str = "float64", max_displacement: flo
 
 
 def check_operand(mesh: MeshLike, *, progress: Progress = None) -> Certificate:
-    """Whether a mesh can be an operand of `boolean`: whether it is closed as it is, or after it is
-    cut along itself; else where it is open. `find_solid_defects` is stricter.
+    """Whether a mesh can be an operand of `boolean`: it must be closed, as given or after it is cut
+    along itself. If not, the certificate lists open edges. `find_solid_defects` is stricter.
 
     Raises ValueError as `boolean`.
 

@@ -146,9 +146,9 @@ def read(path: Path | IO[bytes], format: str = "", *, join: bool = True,
     - OBJ: `vt` and `vn` are in `Attributes.corners`. Material files are read if they exist and the
       OBJ has a path: the diffuse colors of its materials become columns red, green, blue and, where
       one is not opaque (`d`), alpha of faces; faces without a material are white.
-    - STL: a binary file with a wrong count of triangles is read if its size is that of whole
-      triangles; bytes after the counted triangles are ignored. ASCII may have zero bytes between
-      words, and words after `endloop` and `endfacet`. `Attributes.warnings` reports all of these.
+    - STL: if the size of a binary file is that of whole triangles, a wrong count is ignored;
+      otherwise, bytes after the counted triangles are. ASCII may have zero bytes between words, and
+      words after `endloop` and `endfacet`. `Attributes.warnings` reports all of these.
     - PLY: triangle strips, the element "tristrips", become faces, also those that repeat a vertex.
     - PLY: the list "texcoord" of faces is in `Attributes.corners` when it has two numbers a corner,
       or none.
@@ -286,9 +286,9 @@ def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: b
     ascii: Write text if the format has text and binary. Binary PLY is little endian, unless the
         file was read from a big-endian file. PCD is compressed only if it was read from a
         compressed file.
-    precision: 'float32' or 'float64'. Precision of the coordinates; None: the stored precision.
-        Binary STL and GLB only hold float32. 3MF holds doubles, but most of its readers convert to
-        float, so None means float32 there.
+    precision: 'float32' or 'float64'. Precision of the coordinates; None: the stored precision, but
+        float32 in 3MF, since most of its readers convert to float. Binary STL and GLB only hold
+        float32.
     drop: Columns of points to omit; "normal", "uv" or "color" for all columns of that kind, also of
         corners.
     rename: new names for columns of points: {'old': 'new'}.

@@ -560,7 +560,8 @@ def align(moving: Body, fixed: Body, *, scale: bool | tuple[float, float] = Fals
         rotations, small ones first, with aligned centers. The best result is returned; of equal
         results the first.
     samples: Use at most this many moving points in the steps, spread evenly over space; 0 is all.
-    start: (4, 4) Applied to the moving points first: any affine map.
+    start: (4, 4) Applied to the moving points first, which gives the "present position"; any affine
+        map.
     precision: 'float32' or 'float64'. Precision of the returned points.
 
     Raises ValueError naming a point that is not finite or a face with a corner out of range; for an

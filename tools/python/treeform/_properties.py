@@ -133,7 +133,7 @@ class Topology(Result):
     faces: Faces with three different corners.
     repeated_corner_faces: Faces that repeat a corner.
     duplicate_faces: Faces with the same three corners as an earlier one.
-    closed: At least one face, no boundary edge, no nonmanifold edge.
+    closed: At least one face, no boundary or nonmanifold edge; any orientation.
     """
 
     edges: int

@@ -181,9 +181,9 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
 
     Holes are filled with triangles between their vertices; large holes in smooth surfaces also with
     new points, which continue the surface smoothly. Sheets are not filled, but reported as open,
-    unless any loss is allowed. A sheet is a part with an area below 1 / 0.6 of the area that would
-    close it, unless its border is in a plane and it is on one side of the plane. In a mesh of more
-    than 1000 faces, no hole is filled if more than one edge for every 10 faces has three or more
+    unless any loss is allowed. A sheet is a part whose fillings would have more than 0.6 times its
+    area, unless its border is in a plane and it is on one side of the plane. In a mesh of more than
+    1000 faces, no hole is filled if more than one edge for every 10 faces has three or more
     inconsistent faces.
 
     steps: the steps to perform. 'join' removes degenerate and duplicate faces and closes cracks;
@@ -194,8 +194,8 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
         bounding box.
     largest_hole: Fill holes of at most this many edges.
     strays: Drops loose open pieces below this share of the area, and loose pieces of one or two
-        faces below 1% of it. If a larger component vanishes because it bounds no solid, the status
-        is `excessive_loss`, unless `max_loss` is 1.
+        faces below 1% of the area. If a larger component vanishes because it bounds no solid, the
+        status is `excessive_loss`, unless `max_loss` is 1.
     fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside. None:
         'positive' if all shells are oriented outward, otherwise 'nonzero'; if faces are
         inconsistent, inside and outside are determined by a minimum cut.

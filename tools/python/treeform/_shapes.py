@@ -140,10 +140,10 @@ def hollow(mesh: MeshLike, wall: float, *, drains: ArrayLike = (), resolution: f
     """Hollows the solid: its points deeper inside than `wall` become cavities; the outer surface
     stays bit for bit. The status is `vanished` if there is no cavity.
 
-    `drains` are holes through the wall: a point and a diameter. Each runs from the nearest point of
-    the surface along the shortest segment to a cavity, as a regular prism of 32 sides; the diameter
-    is that of the circle through its corners. It extends beyond both ends by its diameter, but at
-    most half of the way to the next surface.
+    `drains` are holes through the wall: a point and a diameter. Each runs from the point of the
+    surface nearest to the given one, along the shortest segment to a cavity. It is a regular prism
+    of 32 sides; the diameter is that of the circle through its corners. It extends beyond both ends
+    by its diameter, but at most half of the way to the next surface.
 
     drains: (n, 4) drain holes through the wall: for each, a point and a diameter. The hole is at
         the surface point nearest to that point.

@@ -186,17 +186,17 @@ def weld(mesh_or_points: Body, tolerance: float = 0.0, *, chain: bool = False,
     float32 columns are rounded once more. Averaged normals are not scaled to length 1. A mean with
     a NaN or an infinity is NaN.
 
-    `keep_manifold` merges points of a group only along edges: two edges that would become one edge
-    with at most two faces, or an edge that shrinks to a point. Points of a group linked in this way
-    become one point; other points of the group stay separate. Each linked part has its own first,
-    last or mean; points without faces join the lowest part with faces. So a surface that was cut
-    open closes along its seams, while solids that meet in an edge or a corner stay apart. If
-    merging a group would still make an edge or a point nonmanifold, because a point was nonmanifold
-    before or faces collapse, the group is not merged. Points with equal coordinates are merged
-    first, and the results again; so coincident corners stay merged even if the rest of their group
-    does not. In the result, every edge of more than two faces had more than two before, and every
-    point with several fans contains a point that had several before. Points of one group may stay
-    within the tolerance of each other, and without `chain` a point may move by twice the tolerance.
+    `keep_manifold` merges points of a group only along edges: where two edges become one edge of at
+    most two faces, or where an edge shrinks to a point. Points of a group linked in this way become
+    one point; other points of the group stay separate. Each linked part has its own first, last or
+    mean; points without faces join the lowest part with faces. So a surface that was cut open
+    closes along its seams, while solids that meet in an edge or a corner stay apart. If merging a
+    group would still make an edge or a point nonmanifold, because a point was nonmanifold before or
+    faces collapse, the group is not merged. Points with equal coordinates are merged first, then
+    the results are; so coincident corners stay merged, even if the rest of their group is not. In
+    the result, every edge of more than two faces had more than two before, and every point with
+    several fans contains a point that had several before. Points of one group may stay within the
+    tolerance of each other, and without `chain` a point may move by twice the tolerance.
 
     mesh_or_points: a mesh, points (n, 3), or an object with `points` or `vertices` and no faces.
     tolerance: Euclidean, inclusive; 0: equal coordinates (-0 equals +0).

@@ -72,7 +72,7 @@ struct align_options {
     bool accelerate = true;
     /// Use at most this many moving points in the steps, spread evenly over space; 0 is all.
     std::size_t samples = 100'000;
-    /// Applied to the moving points first: any affine map.
+    /// Applied to the moving points first, which gives the "present position"; any affine map.
     transform<3> start{};
     treeform::precision precision = treeform::precision::float64;  ///< of the points returned
     progress_callback progress{};

@@ -19,9 +19,9 @@ namespace treeform {
 /// A mesh without NaN or infinite coordinates, and the file's number of each face.
 struct usable_mesh {
     treeform::mesh mesh{};
-    /// [F] number of each face's triangle in the file; empty: the same numbers.
+    /// [F] the triangle in the file that each face is; empty: the same numbers.
     std::vector<std::uint32_t> triangle_of_face{};
-    /// [triangles] number of each triangle's face in the file; empty: the same numbers.
+    /// [triangles of the file] the face that each belongs to; empty: the same numbers.
     std::vector<std::uint32_t> stored_face{};
     /// Number of triangles with a coordinate that is not finite; for a cloud, number of such
     /// points.
@@ -112,8 +112,8 @@ TREEFORM_API std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh);
 
 /// One file with all `files` as parts of a scene, with texture coordinates, normals, materials and
 /// textures. Other properties are omitted. `warnings` lists textures that could not be kept.
-/// `format` and `stored_as` are copied from the first file. `names` has, for each file, the name of
-/// its part if it has only one; `labels` has the name of each file in warnings.
+/// `format` and `stored_as` are copied from the first file. For a file
+/// with a single part, `names` has its name. `labels` has the name of each file in warnings.
 ///
 /// \pre  there is at least one file, and one name and one label for each file
 /// \cost O(size of all files)
@@ -121,7 +121,8 @@ TREEFORM_API std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh);
                                               std::span<const std::string> names,
                                               std::span<const std::string> labels);
 
-/// The faces of all `meshes`, one mesh after the other. A point that is not finite becomes 0.
+/// The faces of all `meshes`, one mesh after the other, with equal points joined (unlike
+/// `concatenate`). A point that is not finite becomes 0; in a cloud, it is dropped.
 ///
 /// \pre    no face has a corner that is not finite
 /// \throws std::invalid_argument as `join_equal_points`

@@ -49,8 +49,8 @@ class TREEFORM_API boolean_expression {
     /// \pre `in_operand` has a value for each operand
     [[nodiscard]] bool operator()(std::span<const bool> in_operand) const;
 
-    /// True if no point outside this operand can belong to the result: in `a-b` for a, in `a+b` for
-    /// neither. It may be false for a long formula that needs the operand.
+    /// True if the result is inside this operand for any shapes: in `a-b` for a, in `a+b` for
+    /// neither. For a long formula, it may be false although the result is inside.
     [[nodiscard]] bool needs(std::size_t operand) const;
 
     /// The formula in postfix notation: operands as numbers from 0, and these operations.
@@ -76,8 +76,8 @@ struct boolean_options {
     treeform::fill_rule fill_rule = treeform::fill_rule::nonzero;  ///< what is inside
     /// Precision of the coordinates returned. float32 values are stored as doubles.
     treeform::precision precision = treeform::precision::float64;
-    /// Where rounding makes faces meet, only points at most this far apart, in the mesh's length
-    /// unit, and at most 2^-10 of the largest coordinate, are joined. Not negative.
+    /// Where rounding makes faces meet, points are joined, but only if they are at most this far
+    /// apart, in the mesh's length unit, and at most 2^-10 of the largest coordinate. Not negative.
     double max_displacement = std::numeric_limits<double>::infinity();
     /// Do not merge coplanar faces that were cut, or that overlap. By default they are merged
     /// before rounding, which removes vertices inside a flat region and on straight edges between
@@ -181,7 +181,7 @@ struct TREEFORM_API boolean_result {
 ///         coordinate that is not finite or beyond 2^1000; if the `boolean_expression` has another
 ///         number of operands; for a `gap` if the expression is not a union of all operands
 /// \cost   O(F log F) for the F faces where the result's surface may be. For one or two closed
-///         manifolds that meet in few places: finding these (once for a prepared mesh) and a copy.
+///         manifolds that meet in few places: a search for these (once if prepared), and a copy.
 ///         A `gap` adds O(P) for the P pairs of faces whose boxes are that near
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API boolean_result boolean(const mesh_refs& operands,
@@ -216,7 +216,7 @@ template <std::convertible_to<std::string_view> Text>
 /// piece on the surface of a solid counts as inside, so the sheet minus a solid and the sheet
 /// inside that solid together are the sheet.
 ///
-/// The sheet may end anywhere, overlap itself, and even be closed. A piece is oriented as the
+/// The sheet may have borders, overlap itself, or even be closed. A piece is oriented as the
 /// lowest face of the sheet that it lies in. The certificate does not check edges, since the result
 /// is open. If another operand is open, the status is `open_input` and the mesh is empty.
 ///
@@ -239,8 +239,8 @@ template <std::convertible_to<std::string_view> Text>
 [[nodiscard]] TREEFORM_API boolean_result split(const mesh_refs& operands,
                                                 const boolean_options& options = {});
 
-/// Whether a mesh can be an operand of `boolean`: whether it is closed as it is, or after it is cut
-/// along itself; else where it is open. `find_solid_defects` is stricter.
+/// Whether a mesh can be an operand of `boolean`: it must be closed, as given or after it is cut
+/// along itself. If not, the certificate lists open edges. `find_solid_defects` is stricter.
 ///
 /// \throws std::invalid_argument as `boolean`
 /// \same   on any number of threads

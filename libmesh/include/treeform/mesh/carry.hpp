@@ -48,7 +48,7 @@ struct carry_source {
     TREEFORM_API void texture_caps(mesh_file& piece, std::span<const std::uint32_t> cap) const;
 };
 
-/// The inputs of an operation, whose attributes its result gets. Files are not copied; they must
+/// The inputs of an operation; its result gets their attributes. Files are not copied; they must
 /// outlive this object.
 class carry_sources {
   public:
@@ -86,7 +86,7 @@ class carry_sources {
                             std::span<const std::uint32_t> corner_source = {}) const;
 
     /// [3 F] Groups for `simplify_options::corner_groups`, of a single input. Two corners at a
-    /// point are in one group if neighboring faces link them. These must have one material and
+    /// point are in one group if neighboring faces link them. Such faces must have one material and
     /// equal values in all transferred columns; at both ends of each edge between them, texture
     /// coordinates and normals must be equal. Normals of two flat-shaded faces count as equal.
     /// Empty if all corners at each point would be in one group.

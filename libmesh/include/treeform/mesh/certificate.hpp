@@ -81,8 +81,8 @@ struct operand_element {
     friend bool operator==(const operand_element&, const operand_element&) = default;
 };
 
-/// The outcome of checking a mesh that an operation (`boolean`, `resolve_self_intersections`,
-/// `slide`, `pack`) returns or places: with exact predicates, on the returned coordinates.
+/// The outcome of checking the mesh that an operation (`boolean`, `repair`, `slide`, `pack`, ...)
+/// returns or places. The check is exact, on the returned coordinates.
 struct TREEFORM_API certificate {
     treeform::status status = treeform::status::ok;
     /// Number of pairs of faces that meet beyond common corners and edges. A face paired with

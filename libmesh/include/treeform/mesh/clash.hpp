@@ -52,7 +52,7 @@ struct contact_region {
     std::vector<std::uint32_t> faces_b{};
 };
 
-/// Two parts that are not clear of each other.
+/// Two parts that penetrate, touch, or are closer than the clearance.
 struct part_clash {
     std::uint32_t a = 0;  ///< the lower number
     std::uint32_t b = 0;  ///< number of the second part
@@ -73,9 +73,9 @@ struct part_clash {
     search_effort depth_effort{};  ///< of `depth`, as in `penetration_depth_result`
 };
 
-/// All pairs that are not clear of each other.
+/// The result of `clash`.
 struct clash_result {
-    std::vector<part_clash> pairs{};       ///< pairs that are not clear, ascending
+    std::vector<part_clash> pairs{};       ///< pairs found, ascending
     counts_by<mesh_relation, 5> counts{};  ///< number of tested pairs, by `mesh_relation`
     std::uint64_t boxes_apart = 0;         ///< pairs excluded by their boxes
     std::uint64_t ignored = 0;             ///< ignored pairs that boxes do not exclude
@@ -90,8 +90,8 @@ struct clash_result {
 /// The relations of all pairs of parts of an assembly.
 ///
 /// Exact, like `relation`: parts penetrate, touch, or are separate. Boxes only exclude pairs:
-/// linked rings are clear if they do not meet, although their boxes overlap. Empty parts
-/// are clear of all. Distances are those of `distance`, and only computed with a clearance. A part
+/// linked rings that do not meet are separate, although their boxes overlap. Empty parts are
+/// separate from all. Distances are those of `distance`, and only computed with a clearance. A part
 /// is only indexed if its box is near that of another.
 ///
 /// \throws std::invalid_argument naming the part and its lowest face with a corner out of range or
@@ -125,7 +125,7 @@ struct clash_result {
 [[nodiscard]] TREEFORM_API std::vector<double> distance(const mesh_ref& a, const mesh_ref& b,
                                                         std::span<const mesh_positions> positions);
 
-/// Two parts that are not clear of each other in a pose.
+/// Two parts that penetrate, touch, or are closer than the clearance in a pose.
 struct pose_clash {
     std::uint32_t a = 0;  ///< the lower number
     std::uint32_t b = 0;
@@ -137,7 +137,7 @@ struct pose_clash {
 
 /// The clashes in each pose.
 struct pose_result {
-    /// [P] for each pose the pairs that are not clear, ascending. With `first_only` at most one:
+    /// [P] the pairs of each pose, ascending. With `first_only` at most one:
     /// the lowest pair that penetrates, is too close or, with a clearance, touches; without a
     /// clearance, pairs that touch are omitted.
     std::vector<std::vector<pose_clash>> poses{};

@@ -40,11 +40,11 @@ struct closest_pair_result {
 /// apart than the radius. Surfaces count, not solids: inside a closed mesh, the distance is that to
 /// its surface.
 ///
-/// Whether the meshes meet is decided exactly, on the coordinates as given or as moved. If not, the
-/// error of the distance is at most 16 u L, where u = 2^-53 and L is the largest distance of two
-/// corners of the returned faces. Of several pairs of faces at the same computed distance, the
-/// lowest numbers are returned. If the meshes meet, any pair that meets may be returned, but the
-/// same one in every run.
+/// Whether the meshes meet is decided exactly, on the coordinates as given or as moved. If they do
+/// not, the error of the distance is at most 16 u L, where u = 2^-53 and L is the largest distance
+/// of two corners of the returned faces. Of several pairs of faces at the same computed distance,
+/// the lowest numbers are returned. If the meshes meet, any pair that meets may be returned, but
+/// the same one in every run.
 ///
 /// Prepared meshes cache tight bounds of their surfaces, which make later calls several times
 /// faster for nearly flat surfaces that are not axis-aligned. Transforms other than rotations,

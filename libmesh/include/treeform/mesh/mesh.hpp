@@ -207,7 +207,7 @@ class mesh_ref {
     /// The mesh as given: a cloud has no faces.
     [[nodiscard]] mesh_view view() const { return view_; }
     [[nodiscard]] bool is_cloud() const { return view_.faces.empty() && !view_.points.empty(); }
-    /// Null if the mesh is not prepared, or a cloud.
+    /// Null for a mesh that is not prepared, and for a cloud.
     [[nodiscard]] const prepared_mesh* prepared() const { return is_cloud() ? nullptr : prepared_; }
 
   private:

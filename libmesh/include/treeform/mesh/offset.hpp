@@ -97,10 +97,10 @@ struct TREEFORM_API offset_result {
 /// Hollows the solid: its points deeper inside than `wall` become cavities; the outer surface stays
 /// bit for bit. The status is `vanished` if there is no cavity.
 ///
-/// `drains` are holes through the wall: a point and a diameter. Each runs from the nearest point of
-/// the surface along the shortest segment to a cavity, as a regular prism of 32 sides; the diameter
-/// is that of the circle through its corners. It extends beyond both ends by its diameter, but at
-/// most half of the way to the next surface.
+/// `drains` are holes through the wall: a point and a diameter. Each runs from the point of the
+/// surface nearest to the given one, along the shortest segment to a cavity. It is a regular prism
+/// of 32 sides; the diameter is that of the circle through its corners. It extends beyond both ends
+/// by its diameter, but at most half of the way to the next surface.
 ///
 /// \throws std::invalid_argument as `offset`; for a wall that is not positive; for a drain that is
 ///         not finite, or with a diameter that is not positive

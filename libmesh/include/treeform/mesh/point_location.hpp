@@ -44,7 +44,7 @@ struct point_location {
 [[nodiscard]] TREEFORM_API std::optional<std::array<std::uint32_t, 2>> find_open_edge(
     mesh_view mesh);
 
-/// The index of the first of `tolerances` that closes `mesh` if points are joined as by
+/// The number (from 0) of the first of `tolerances` that closes `mesh` if points are joined as by
 /// `usable_part`: at least one face with three corners is left, and no edge is open. None if
 /// joining equal points already closes the mesh, or if no tolerance does.
 ///

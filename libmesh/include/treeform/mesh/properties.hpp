@@ -53,7 +53,7 @@ struct topology_counts {
     std::uint64_t repeated_corner_faces = 0;  ///< faces that repeat a corner
     /// Faces with the same three corners as an earlier one.
     std::uint64_t duplicate_faces = 0;
-    bool closed = false;  ///< at least one face, no boundary edge, no nonmanifold edge
+    bool closed = false;  ///< at least one face, no boundary or nonmanifold edge; any orientation
 };
 
 /// Counts edges, components and defects of a mesh. Only corner numbers matter, so corners with
@@ -137,7 +137,7 @@ struct mass_properties {
 /// \cost O(F); with `any_order` O(F log F)
 [[nodiscard]] TREEFORM_API bool same_triangles(mesh_view a, mesh_view b, bool any_order);
 
-/// The kind of a region.
+/// The kind of a feature.
 enum class feature_kind : std::uint8_t { plane, axis };
 
 /// A plane or an axis, fitted to faces by least squares.

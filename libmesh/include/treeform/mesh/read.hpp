@@ -31,9 +31,9 @@ namespace treeform {
 /// - OBJ: `vt` and `vn` are in `attributes::corners`. Material files are read if they exist and the
 ///   OBJ has a path: the diffuse colors of its materials become columns red, green, blue and, where
 ///   one is not opaque (`d`), alpha of faces; faces without a material are white.
-/// - STL: a binary file with a wrong count of triangles is read if its size is that of whole
-///   triangles; bytes after the counted triangles are ignored. ASCII may have zero bytes between
-///   words, and words after `endloop` and `endfacet`. `mesh_file::warnings` reports all of these.
+/// - STL: if the size of a binary file is that of whole triangles, a wrong count is ignored;
+///   otherwise, bytes after the counted triangles are. ASCII may have zero bytes between words, and
+///   words after `endloop` and `endfacet`. `mesh_file::warnings` reports all of these.
 /// - PLY: triangle strips, the element "tristrips", become faces, also those that repeat a vertex.
 /// - PLY: the list "texcoord" of faces is in `attributes::corners` when it has two numbers a
 ///   corner, or none. Lines `comment TextureFile NAME` are in `attributes::texture_files`.

@@ -57,8 +57,8 @@ struct repair_options {
     /// Fill holes of at most this many edges.
     std::uint64_t largest_hole = std::numeric_limits<std::uint64_t>::max();
     /// Drops loose open pieces below this share of the area, and loose pieces of one or two faces
-    /// below 1% of it. If a larger component vanishes because it bounds no solid, the status is
-    /// `excessive_loss`, unless `max_loss` is 1.
+    /// below 1% of the area. If a larger component vanishes because it bounds no solid, the status
+    /// is `excessive_loss`, unless `max_loss` is 1.
     double strays = 0.001;
     /// The rule that defines the inside. By default `positive` if each shell is outward after
     /// `orient`, else `nonzero` or the labels of cells (see `repair`).
@@ -185,10 +185,10 @@ resolve_self_intersections(const mesh_ref& mesh, resolve_mode mode = resolve_mod
 ///
 /// Holes are filled with triangles between their vertices; large holes in smooth surfaces also with
 /// new points, which continue the surface smoothly. Sheets are not filled, but reported as open,
-/// unless any loss is allowed. A sheet is a part with an area below 1 / 0.6 of the area that would
-/// close it, unless its border is in a plane and it is on one side of the plane. In a mesh of
-/// more than 1000 faces, no hole is filled if more than one edge for every 10 faces has three or
-/// more inconsistent faces.
+/// unless any loss is allowed. A sheet is a part whose fillings would have more than 0.6 times its
+/// area, unless its border is in a plane and it is on one side of the plane. In a mesh of more than
+/// 1000 faces, no hole is filled if more than one edge for every 10 faces has three or more
+/// inconsistent faces.
 ///
 /// \throws std::invalid_argument as `boolean`; if a gap or share is negative or not finite
 /// \cost   O(V log V + F log F), plus `resolve_self_intersections` if faces meet; for a hole of n

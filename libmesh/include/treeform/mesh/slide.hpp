@@ -30,8 +30,8 @@ struct placement_options {
     std::size_t max_steps = 20'000;                                ///< `turn`
     treeform::precision precision = treeform::precision::float64;  ///< of the points returned
     /// `slide` and `drop`: z of a bed, which also stops the mesh. Points that rest on it have
-    /// exactly its z (with float32, the least one not below it), and no point is below. `drop`
-    /// without fixed meshes has one at 0.
+    /// exactly its z (with float32, the least float not below it), and no point is below. By
+    /// default none, but 0 for `drop` without fixed meshes.
     std::optional<double> bed{};
     /// `slide`: close a gap that rounding leaves at a contact, by units in the last place.
     bool close_in = true;

@@ -75,7 +75,7 @@ struct weld_result {
     treeform::attributes
         attributes{};       ///< rows of "vertex", "face" and corners match points and faces
     point_groups groups{};  ///< of the input points; group numbers are points of `mesh`
-    /// [G] input point whose properties each point has
+    /// [G] the input point from which each point has its properties
     std::vector<std::uint32_t> vertex_source{};
     std::vector<std::uint32_t> face_source{};  ///< [F'] input face of each face
     weld_statistics statistics{};
@@ -86,7 +86,7 @@ struct weld_result {
 struct file_weld_result {
     mesh_file file{};       ///< like the input, with the kept points and faces
     point_groups groups{};  ///< of the input points; group numbers are points of `file`
-    /// [G] input point whose properties each point has
+    /// [G] the input point from which each point has its properties
     std::vector<std::uint32_t> vertex_source{};
     std::vector<std::uint32_t> face_source{};  ///< [F'] input triangle of each triangle
     weld_statistics statistics{};              ///< of triangles
@@ -121,15 +121,15 @@ struct file_weld_result {
 /// float32 columns are rounded once more. Averaged normals are not scaled to length 1. A mean with
 /// a NaN or an infinity is NaN.
 ///
-/// `keep_manifold` merges points of a group only along edges: two edges that would become one edge
-/// with at most two faces, or an edge that shrinks to a point. Points of a group linked in this way
-/// become one point; other points of the group stay separate. Each linked part has its own first,
+/// `keep_manifold` merges points of a group only along edges: where two edges become one edge of at
+/// most two faces, or where an edge shrinks to a point. Points of a group linked in this way become
+/// one point; other points of the group stay separate. Each linked part has its own first,
 /// last or mean; points without faces join the lowest part with faces. So a surface that was cut
 /// open closes along its seams, while solids that meet in an edge or a corner stay apart. If
 /// merging a group would still make an edge or a point nonmanifold, because a point was nonmanifold
 /// before or faces collapse, the group is not merged. Points with equal coordinates are merged
-/// first, and the results again; so coincident corners stay merged even if the rest of their group
-/// does not. In the result, every edge of more than two faces had more than two before, and every
+/// first, then the results are; so coincident corners stay merged, even if the rest of their group
+/// is not. In the result, every edge of more than two faces had more than two before, and every
 /// point with several fans contains a point that had several before. Points of one group may stay
 /// within the tolerance of each other, and without `chain` a point may move by twice the tolerance.
 ///

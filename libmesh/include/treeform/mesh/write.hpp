@@ -26,9 +26,8 @@ struct write_options {
     /// was read from a big-endian file. PCD is compressed only if it was read from a compressed
     /// file.
     bool ascii = false;
-    /// Precision of the coordinates; none: the stored precision. Binary STL and GLB only hold
-    /// float32. 3MF holds doubles, but most of its readers convert to float, so none means float32
-    /// there.
+    /// Precision of the coordinates; none: the stored precision, but float32 in 3MF, since most of
+    /// its readers convert to float. Binary STL and GLB only hold float32.
     std::optional<treeform::precision> precision{};
     /// Keep names and types of columns of points as in `file`, even if the format has its own.
     bool keep_names = false;

@@ -128,7 +128,7 @@ class tree {
 /// the same results as on a tree over all their primitives.
 ///
 /// `top()` is a tree over boxes around the parts; its `ids()` are the numbers of parts. `part(n)`
-/// is the tree of part n. The tree may be built at the first call, which may come from several
+/// is the tree of part n, which may be built at the first call; calls may come from several
 /// threads at once. Its `ids()` are primitives of the whole set, each in one part, or 0xFFFFFFFF
 /// for an empty slot. The leaf order of the whole is that of the top, then that within each part.
 template <class T>

@@ -84,7 +84,7 @@ typedef struct treeform_contact_region {
     size_t face_count_b;
 } treeform_contact_region;
 
-/// Two parts that are not clear of each other.
+/// Two parts that penetrate, touch, or are closer than the clearance.
 typedef struct treeform_part_clash {
     uint32_t a;                       ///< the lower number
     uint32_t b;                       ///< number of the second part
@@ -107,10 +107,10 @@ typedef struct treeform_part_clash {
     treeform_search_effort depth_effort;
 } treeform_part_clash;
 
-/// All pairs that are not clear of each other.
+/// The result of `treeform_clash`.
 typedef struct treeform_clashes {
     void* owner;
-    const treeform_part_clash* pairs;  ///< [count] pairs that are not clear, ascending
+    const treeform_part_clash* pairs;  ///< [count] pairs found, ascending
     size_t count;
     uint64_t counts[5];    ///< number of tested pairs, by `treeform_mesh_relation`
     uint64_t boxes_apart;  ///< pairs excluded by their boxes
@@ -124,8 +124,8 @@ typedef struct treeform_clashes {
 /// The relations of all pairs of parts of an assembly.
 ///
 /// Exact, like `treeform_relate`: parts penetrate, touch, or are separate. Boxes only exclude
-/// pairs: linked rings are clear if they do not meet, although their boxes overlap. Empty parts
-/// are clear of all. Distances are those of `treeform_distance`, and only computed with a
+/// pairs: linked rings that do not meet are separate, although their boxes overlap. Empty parts
+/// are separate from all. Distances are those of `treeform_distance`, and only computed with a
 /// clearance. A part is only indexed if its box is near that of another.
 TREEFORM_C_API treeform_code treeform_clash(const treeform_mesh* const* parts, size_t count,
                                             const treeform_clash_options* options,
@@ -138,7 +138,7 @@ TREEFORM_C_API treeform_code treeform_pairs_named(const char* const* names, size
                                                   const char* first, const char* second,
                                                   treeform_indices** indices);
 
-/// Two parts that are not clear of each other in a pose.
+/// Two parts that penetrate, touch, or are closer than the clearance in a pose.
 typedef struct treeform_pose_clash {
     uint32_t a;  ///< the lower number
     uint32_t b;

@@ -220,9 +220,9 @@ enum {
 /// The name of a value, as in reports: "ok"; "unknown" for others.
 TREEFORM_C_API const char* treeform_status_name(treeform_status value);
 
-/// The outcome of checking a mesh that an operation (`treeform_boolean`,
-/// `treeform_resolve_self_intersections`, `treeform_slide`, `treeform_pack`) returns or places:
-/// with exact predicates, on the returned coordinates.
+/// The outcome of checking the mesh that an operation (`treeform_boolean`, `treeform_repair`,
+/// `treeform_slide`, `treeform_pack`, ...) returns or places. The check is exact, on the returned
+/// coordinates.
 typedef struct treeform_certificate {
     void* owner;
     treeform_status status;

@@ -229,9 +229,9 @@ typedef struct treeform_write_options {
     /// was read from a big-endian file. PCD is compressed only if it was read from a compressed
     /// file.
     int32_t ascii;
-    /// Precision of the coordinates (a `treeform_precision`); -1: the stored precision. Binary STL
-    /// and GLB only hold float32. 3MF holds doubles, but most of its readers convert to float, so
-    /// -1 means float32 there.
+    /// Precision of the coordinates (a `treeform_precision`); -1: the stored precision, but
+    /// float32 in 3MF, since most of its readers convert to float. Binary STL and GLB only hold
+    /// float32.
     int32_t precision;
     /// Called with 0 at the start and during the writing, and with 1 before the file is renamed.
     /// If it returns other than 0, nothing is written, and an existing file is unchanged.

@@ -237,7 +237,8 @@ typedef struct treeform_align_options {
     /// Use at most this many moving points in the steps, spread evenly over space; 0 is all;
     /// default 100000
     uint64_t samples;
-    /// [12] Applied to the moving points first: any affine map; or null
+    /// [12] Applied to the moving points first, which gives the "present position"; any affine
+    /// map; or null
     const double* start;
     /// of the points returned; default `TREEFORM_FLOAT64`
     treeform_precision precision;

@@ -129,8 +129,8 @@ typedef struct treeform_placement_options {
     /// of the points returned; default `TREEFORM_FLOAT64`
     treeform_precision precision;
     /// `treeform_slide` and `treeform_drop`: z of a bed, which also stops the mesh. Points that
-    /// rest on it have exactly its z (with float32, the least one not below it), and no point is
-    /// below. `treeform_drop` without fixed meshes has one at 0; NaN: not given
+    /// rest on it have exactly its z (with float32, the least float not below it), and no point is
+    /// below. By default none, but 0 for `treeform_drop` without fixed meshes; NaN: not given
     double bed;
     /// `treeform_slide`: close a gap that rounding leaves at a contact, by units in the last
     /// place; default 1

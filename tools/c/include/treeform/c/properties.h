@@ -39,8 +39,9 @@ TREEFORM_C_API treeform_code treeform_bounds(const treeform_mesh* mesh, treeform
 /// Whether the mesh is a solid: closed, oriented, manifold, free of self-intersections.
 TREEFORM_C_API treeform_code treeform_is_solid(const treeform_mesh* mesh, int32_t* result);
 
-/// Whether a mesh can be an operand of `treeform_boolean`: whether it is closed as it is, or after
-/// it is cut along itself; else where it is open. `treeform_find_solid_defects` is stricter.
+/// Whether a mesh can be an operand of `treeform_boolean`: it must be closed, as given or after it
+/// is cut along itself. If not, the certificate lists open edges. `treeform_find_solid_defects` is
+/// stricter.
 TREEFORM_C_API treeform_code treeform_check_operand(const treeform_mesh* mesh,
                                                     treeform_progress progress, void* progress_data,
                                                     treeform_certificate** certificate);
@@ -61,7 +62,8 @@ typedef struct treeform_topology {
     uint64_t faces;                  ///< faces with three different corners
     uint64_t repeated_corner_faces;  ///< faces that repeat a corner
     uint64_t duplicate_faces;        ///< Faces with the same three corners as an earlier one.
-    int32_t closed;                  ///< at least one face, no boundary edge, no nonmanifold edge
+    /// at least one face, no boundary or nonmanifold edge; any orientation
+    int32_t closed;
 } treeform_topology;
 
 /// Counts edges, components and defects. Join equal points first (`treeform_join_equal_points`).
@@ -115,7 +117,7 @@ TREEFORM_C_API treeform_code treeform_closing_tolerance(const treeform_mesh* mes
 TREEFORM_C_API treeform_code treeform_same_triangles(const treeform_mesh* a, const treeform_mesh* b,
                                                      int32_t any_order, int32_t* result);
 
-/// The kind of a region.
+/// The kind of a feature.
 typedef int32_t treeform_feature_kind;
 enum { TREEFORM_PLANE = 0, TREEFORM_AXIS = 1 };
 

@@ -31,9 +31,9 @@ typedef struct treeform_boolean_options {
     /// Precision of the coordinates returned. float32 values are stored as doubles; default
     /// `TREEFORM_FLOAT64`
     treeform_precision precision;
-    /// Where rounding makes faces meet, only points at most this far apart, in the mesh's length
-    /// unit, and at most 2^-10 of the largest coordinate, are joined. Not negative; default
-    /// infinite
+    /// Where rounding makes faces meet, points are joined, but only if they are at most this far
+    /// apart, in the mesh's length unit, and at most 2^-10 of the largest coordinate. Not
+    /// negative; default infinite
     double max_displacement;
     /// Do not merge coplanar faces that were cut, or that overlap. By default they are merged
     /// before rounding, which removes vertices inside a flat region and on straight edges between
@@ -336,8 +336,8 @@ typedef struct treeform_repair_options {
     double gap;
     uint64_t largest_hole;  ///< Fill holes of at most this many edges; default all
     /// Drops loose open pieces below this share of the area, and loose pieces of one or two faces
-    /// below 1% of it. If a larger component vanishes because it bounds no solid, the status is
-    /// `TREEFORM_STATUS_EXCESSIVE_LOSS`, unless `max_loss` is 1; default 0.001
+    /// below 1% of the area. If a larger component vanishes because it bounds no solid, the status
+    /// is `TREEFORM_STATUS_EXCESSIVE_LOSS`, unless `max_loss` is 1; default 0.001
     double strays;
     /// The rule that defines the inside. By default `TREEFORM_POSITIVE` if each shell is outward
     /// after `orient`, else `TREEFORM_NONZERO` or the labels of cells (see `treeform_repair`); a
@@ -375,8 +375,8 @@ TREEFORM_C_API void treeform_repair_options_init(treeform_repair_options* option
 ///
 /// Holes are filled with triangles between their vertices; large holes in smooth surfaces also
 /// with new points, which continue the surface smoothly. Sheets are not filled, but reported as
-/// open, unless any loss is allowed. A sheet is a part with an area below 1 / 0.6 of the area that
-/// would close it, unless its border is in a plane and it is on one side of the plane. In a mesh
+/// open, unless any loss is allowed. A sheet is a part whose fillings would have more than 0.6
+/// times its area, unless its border is in a plane and it is on one side of the plane. In a mesh
 /// of more than 1000 faces, no hole is filled if more than one edge for every 10 faces has three
 /// or more inconsistent faces.
 TREEFORM_C_API treeform_code treeform_repair(const treeform_mesh* mesh,

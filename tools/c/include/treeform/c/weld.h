@@ -87,7 +87,8 @@ typedef struct treeform_weld_result {
     size_t point_count;
     /// [G] the first point of each group, ascending: the lowest-numbered, unless `order_by` is set
     const uint32_t* first_of_group;
-    const uint32_t* vertex_source;  ///< [G] input point whose properties each point has
+    /// [G] the input point from which each point has its properties
+    const uint32_t* vertex_source;
     size_t group_count;
     const uint32_t* face_source;  ///< [F'] input face of each face
     uint64_t merged_groups;       ///< groups of two points or more
@@ -126,18 +127,18 @@ typedef struct treeform_weld_result {
 /// float32 columns are rounded once more. Averaged normals are not scaled to length 1. A mean with
 /// a NaN or an infinity is NaN.
 ///
-/// `keep_manifold` merges points of a group only along edges: two edges that would become one edge
-/// with at most two faces, or an edge that shrinks to a point. Points of a group linked in this
-/// way become one point; other points of the group stay separate. Each linked part has its own
-/// first, last or mean; points without faces join the lowest part with faces. So a surface that
-/// was cut open closes along its seams, while solids that meet in an edge or a corner stay apart.
-/// If merging a group would still make an edge or a point nonmanifold, because a point was
+/// `keep_manifold` merges points of a group only along edges: where two edges become one edge of
+/// at most two faces, or where an edge shrinks to a point. Points of a group linked in this way
+/// become one point; other points of the group stay separate. Each linked part has its own first,
+/// last or mean; points without faces join the lowest part with faces. So a surface that was cut
+/// open closes along its seams, while solids that meet in an edge or a corner stay apart. If
+/// merging a group would still make an edge or a point nonmanifold, because a point was
 /// nonmanifold before or faces collapse, the group is not merged. Points with equal coordinates
-/// are merged first, and the results again; so coincident corners stay merged even if the rest of
-/// their group does not. In the result, every edge of more than two faces had more than two
-/// before, and every point with several fans contains a point that had several before. Points of
-/// one group may stay within the tolerance of each other, and without `chain` a point may move by
-/// twice the tolerance.
+/// are merged first, then the results are; so coincident corners stay merged, even if the rest of
+/// their group is not. In the result, every edge of more than two faces had more than two before,
+/// and every point with several fans contains a point that had several before. Points of one group
+/// may stay within the tolerance of each other, and without `chain` a point may move by twice the
+/// tolerance.
 TREEFORM_C_API treeform_code treeform_weld(const treeform_mesh* mesh,
                                            const treeform_weld_options* options,
                                            treeform_weld_result** result);
