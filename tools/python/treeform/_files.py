@@ -113,8 +113,8 @@ def split_parts(mesh: MeshLike, *, combine_patches: bool = False,
     file. Each has its own vertices and faces, and their attributes. Parts without a name are "1",
     "2", ... For the connected parts of any mesh, see `components`.
 
-    combine_patches: combine parts whose open edges coincide, the patches of one surface. Solids
-        that touch are not combined.
+    combine_patches: combine parts with a common vertex, or whose open edges coincide: the patches
+        of one surface.
 
     Raises ValueError naming the lowest face with a corner out of range.
 

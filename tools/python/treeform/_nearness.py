@@ -210,8 +210,8 @@ def raycast(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_min:
     vertex of six faces it has six hits at equal t, each with the vertex as a corner of its face.
     Faces include their edges and are hit from both sides.
 
-    origins: (n, 3) the start points of the rays.
-    directions: (n, 3) of any length; (1, 3) for all rays.
+    origins: (n, 3) the start points of the rays; (1, 3) for all.
+    directions: (n, 3) of any length; (1, 3) for all.
     t_min: ignore hits before origin + t_min * direction.
     t_max: ignore hits beyond origin + t_max * direction.
 
@@ -235,8 +235,8 @@ def raycast_all(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
                 t_max: float = np.inf, progress: Progress = None) -> AllRayHits:
     """All faces that each ray hits, in the exact order along the ray, then by number.
 
-    origins: (n, 3) the start points of the rays.
-    directions: (n, 3) of any length; (1, 3) for all rays.
+    origins: (n, 3) the start points of the rays; (1, 3) for all.
+    directions: (n, 3) of any length; (1, 3) for all.
     t_min: ignore hits before origin + t_min * direction.
     t_max: ignore hits beyond origin + t_max * direction.
 
@@ -253,8 +253,8 @@ def raycast_any(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, *, t_
                 t_max: float = np.inf, progress: Progress = None) -> NDArray[np.bool_]:
     """(n,) bool: whether each ray hits any face. Exact.
 
-    origins: (n, 3) the start points of the rays.
-    directions: (n, 3) of any length; (1, 3) for all rays.
+    origins: (n, 3) the start points of the rays; (1, 3) for all.
+    directions: (n, 3) of any length; (1, 3) for all.
     t_min: ignore hits before origin + t_min * direction.
     t_max: ignore hits beyond origin + t_max * direction.
 

@@ -372,7 +372,7 @@ typedef struct treeform_scene_parts {
 // made of the headers of C++:
 //   split_parts()
 /// The parts of a file, by its objects, groups or nodes, each as a file of its own. With
-/// `combine_patches`, parts whose open edges coincide are patches of one surface, and combined.
+/// `combine_patches`, parts with a common point, or whose open edges coincide, are combined.
 TREEFORM_C_API treeform_code treeform_split_parts(const treeform_file* file,
                                                   int32_t combine_patches,
                                                   treeform_scene_parts** parts);
