@@ -15,10 +15,14 @@ namespace treeform::detail::base {
     return name;
 }
 
-/// For messages: "operand b"; beyond the third, where letters must be counted, "operand 31 (ae)".
+/// For messages: "operand b"; beyond the third, where letters must be counted, "operand ae (the
+/// 31st)".
 [[nodiscard]] inline std::string operand_in_words(std::size_t operand) {
-    const std::string name = operand_name(operand);
-    return "operand " + (operand < 3 ? name : std::to_string(operand + 1) + " (" + name + ")");
+    const std::string name = "operand " + operand_name(operand);
+    if (operand < 3) return name;
+    const std::size_t rank = operand + 1, last = rank / 10 % 10 == 1 ? 0 : rank % 10;
+    const char* const ending = last == 1 ? "st" : last == 2 ? "nd" : last == 3 ? "rd" : "th";
+    return name + " (the " + std::to_string(rank) + ending + ")";
 }
 
 }  // namespace treeform::detail::base

@@ -217,7 +217,7 @@ near_result split_of(std::span<const mesh_view> views, boolean_options options) 
     detail::boolean::chosen_surface chosen{
         {cut.arranged.cut.faces, std::move(pieces)},
         detail::boolean::dispositions_of(operands.all(), cut.near, disposition::kept)};
-    options.simplify = false;
+    options.merge_coplanar = false;
     options.keep_cuts = true;
     near_result made = surface_of(operands.all(), cut, std::move(chosen), options, false, nullptr);
     made.result.statistics.covered = covered;
@@ -410,10 +410,10 @@ boolean_result intersection(const mesh_refs& meshes, const boolean_options& opti
                     boolean_expression::intersection_of(meshes.size()), options);
 }
 
-boolean_result subtract(const mesh_ref& a, const mesh_refs& b, const boolean_options& options) {
+boolean_result difference(const mesh_ref& a, const mesh_refs& b, const boolean_options& options) {
     std::vector<mesh_ref> all{a};
     all.insert(all.end(), b.begin(), b.end());
-    return evaluate("subtract", all, boolean_expression::difference_of(all.size()), options);
+    return evaluate("difference", all, boolean_expression::difference_of(all.size()), options);
 }
 
 boolean_result symmetric_difference(const mesh_ref& a, const mesh_ref& b,

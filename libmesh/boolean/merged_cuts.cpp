@@ -165,7 +165,7 @@ std::vector<std::uint32_t> merge_cuts(exact_surface& surface, std::vector<std::u
                                       const boolean_options& options, face_origins* origins) {
     if (!merges_faces(options)) return {};
     const std::vector<std::uint32_t> listed =
-        options.simplify ? base::numbers_below(surface.faces.size()) : faces_at_cuts(surface);
+        options.merge_coplanar ? base::numbers_below(surface.faces.size()) : faces_at_cuts(surface);
     // Sources ascend, so that the lowest is that of the first face.
     std::vector<std::uint32_t> source_of_point(surface.constructed.size(), operand_element::none);
     std::vector<std::uint32_t> plane_of(listed.size());
@@ -189,7 +189,7 @@ std::vector<std::uint32_t> merge_cuts(exact_surface& surface, std::vector<std::u
             {.mesh = {surface.given, input},
              .plane_of = plane_of,
              .group_of = group_of,
-             .stays = options.simplify ? std::span<const std::uint8_t>() : certified});
+             .stays = options.merge_coplanar ? std::span<const std::uint8_t>() : certified});
         for_chunks(merged.faces.size(), light_grain,
                    [&](std::size_t begin, std::size_t end, std::size_t) {
                        for (std::size_t f = begin; f < end; ++f)

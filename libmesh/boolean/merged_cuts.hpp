@@ -36,7 +36,7 @@ struct face_origins {
 
 /// Whether any faces are to be merged.
 [[nodiscard]] inline bool merges_faces(const boolean_options& options) {
-    return options.simplify || !options.keep_cuts;
+    return options.merge_coplanar || !options.keep_cuts;
 }
 
 /// `options.face_groups` for the remaining faces of the operands; empty if there are no groups.

@@ -465,7 +465,7 @@ near_result surface_of(const bundles& operands, interaction_zone& near,
         std::count_if(chosen.dispositions.data(),
                       chosen.dispositions.data() + chosen.dispositions.size(), stays));
     work.is_all = work.others == 0;
-    if (options.simplify) work.take_in_all();
+    if (options.merge_coplanar) work.take_in_all();
     work.merge(is_kept != nullptr);
     if (options.precision == precision::float32) work.take_in_all();
     rounded_surface rounded = work.round();

@@ -194,7 +194,7 @@ solid_defects find_solid_defects(const carry_source& input, const progress_callb
     for (const solid_part& part : parts) {
         const solid_defects found = find_solid_defects(part.mesh, part_of.next(part.faces.size()));
         for (const auto count : {&d::unusable_faces, &d::tetrahedra, &d::degenerate, &d::repeated,
-                                 &d::open_edges, &d::nonmanifold_edges, &d::misoriented_edges,
+                                 &d::boundary_edges, &d::nonmanifold_edges, &d::misoriented_edges,
                                  &d::nonmanifold_vertices, &d::meeting_pairs, &d::inverted})
             all.*count += found.*count;
         all.wrongly_nested = all.wrongly_nested || found.wrongly_nested;

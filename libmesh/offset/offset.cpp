@@ -121,7 +121,7 @@ void certify(offset_result& result, progress_callback progress) {
     const solid_defects found = find_solid_defects(result.mesh, std::move(progress));
     certificate& known = result.certificate;
     known.meeting_count = found.meeting_pairs;
-    known.boundary_edges = found.open_edges;
+    known.boundary_edges = found.boundary_edges;
     known.misoriented_edges = found.misoriented_edges;
     if (found.any()) known.status = status::not_certified;
     if (found.status == status::cancelled) known.status = status::cancelled;
@@ -218,8 +218,8 @@ offset_result hollow(const mesh_ref& given, double wall, const offset_options& o
     }
     for (mesh& prism : prisms) gone.push_back(std::move(prism));
     boolean_result made =
-        subtract(outer, concatenate(gone),
-                 {.precision = options.precision, .progress = progress.part(0.9, 1.0)});
+        difference(outer, concatenate(gone),
+                   {.precision = options.precision, .progress = progress.part(0.9, 1.0)});
     result.mesh = std::move(made.mesh);
     result.certificate = std::move(made.certificate);
     if (!result.certificate) return result;

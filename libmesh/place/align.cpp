@@ -382,7 +382,7 @@ align_result alignment::judged() {
     }
     result.converged = result.outcome == align_outcome::converged;
     result.iterations = best_.iterations;
-    result.start = best_start_;
+    result.best_start = best_start_;
     return result;
 }
 

@@ -95,9 +95,6 @@ placement placing::finished() {
         known.max_displacement =
             detail::max_displacement(prepared_.view().points, result_.matrix, result_.points);
     switch (result_.outcome) {
-        case placement_outcome::not_representable:
-            known.status = status::not_certified;
-            break;
         case placement_outcome::out_of_range:
             known.status = status::out_of_range;
             break;

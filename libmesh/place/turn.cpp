@@ -174,11 +174,10 @@ class turning {
     [[nodiscard]] placement ended(placement_outcome end) {
         result_.outcome = cancelled() ? placement_outcome::cancelled : end;
         result_.certificate.precision = options_.precision;
-        result_.certificate.status =
-            cancelled()                                   ? status::cancelled
-            : end == placement_outcome::not_representable ? status::not_certified
-            : end == placement_outcome::out_of_range      ? status::out_of_range
-                                                          : status::no_placement;
+        result_.certificate.status = cancelled() ? status::cancelled
+                                     : end == placement_outcome::out_of_range
+                                         ? status::out_of_range
+                                         : status::no_placement;
         return std::move(result_);
     }
 

@@ -25,7 +25,7 @@ mesh joined_usable(mesh_view given, std::uint64_t unusable) {
 void count_inverted(mesh joined, solid_defects& found) {
     detail::repair::working_mesh parts{std::move(joined.points), std::move(joined.faces), {}};
     parts.source.resize(parts.faces.size());
-    const bool is_solid = found.open_edges + found.nonmanifold_edges + found.misoriented_edges +
+    const bool is_solid = found.boundary_edges + found.nonmanifold_edges + found.misoriented_edges +
                               found.nonmanifold_vertices + found.meeting_pairs ==
                           0;
     using detail::repair::turned_as_one;
@@ -41,7 +41,7 @@ void count_inverted(mesh joined, solid_defects& found) {
 }  // namespace
 
 bool solid_defects::any() const {
-    return nonfinite_vertices + unusable_faces + degenerate + repeated + open_edges +
+    return nonfinite_vertices + unusable_faces + degenerate + repeated + boundary_edges +
                    nonmanifold_edges + misoriented_edges + nonmanifold_vertices + meeting_pairs +
                    inverted >
                0 ||
@@ -60,7 +60,8 @@ std::string solid_defects::message() const {
     if (without_faces) add("there are points, but no faces");
     if (tetrahedra > 0)
         add("faces are " + detail::base::counted(tetrahedra, "tetrahedron", "tetrahedra"));
-    if (open_edges > 0) add("open at " + detail::base::counted(open_edges, "edge", "edges"));
+    if (boundary_edges > 0)
+        add("open at " + detail::base::counted(boundary_edges, "edge", "edges"));
     add_count(nonmanifold_edges, "edge of more than two faces", "edges of more than two faces");
     add_count(misoriented_edges, "edge where faces disagree", "edges where faces disagree");
     add_count(nonmanifold_vertices, "vertex where parts touch", "vertices where parts touch");
@@ -91,7 +92,7 @@ solid_defects find_solid_defects(const mesh_ref& of, const progress_callback& pr
     found.tetrahedra = detail::repair::count_tetrahedra(joined);
     const topology_counts topology = count_topology(joined.points.size(), joined.faces);
     found.repeated = topology.duplicate_faces;
-    found.open_edges = topology.boundary_edges;
+    found.boundary_edges = topology.boundary_edges;
     found.nonmanifold_edges = topology.nonmanifold_edges;
     found.misoriented_edges = topology.misoriented_edges;
     found.nonmanifold_vertices = topology.nonmanifold_points;

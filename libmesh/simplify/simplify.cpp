@@ -16,7 +16,7 @@ namespace {
 
 bool has_more(const solid_defects& after, const solid_defects& before) {
     return after.degenerate > before.degenerate || after.repeated > before.repeated ||
-           after.open_edges > before.open_edges ||
+           after.boundary_edges > before.boundary_edges ||
            after.nonmanifold_edges > before.nonmanifold_edges ||
            after.misoriented_edges > before.misoriented_edges ||
            after.nonmanifold_vertices > before.nonmanifold_vertices ||

@@ -199,7 +199,8 @@ topology_counts count_topology(std::size_t point_count, std::span<const face> fa
     for (const chunk_counts& part : found) add(result, part.counts);
     result.faces = stars.face_count();
     result.repeated_corner_faces = faces.size() - result.faces;
-    result.closed = result.faces > 0 && result.boundary_edges == 0 && result.nonmanifold_edges == 0;
+    result.closed_manifold =
+        result.faces > 0 && result.boundary_edges == 0 && result.nonmanifold_edges == 0;
     result.components_by_edge = count_components(faces, linked);
     for (const chunk_counts& part : found)
         for (const auto& [a, b] : part.fan_links) linked.join(a, b);

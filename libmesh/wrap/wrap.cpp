@@ -108,7 +108,7 @@ certificate checked(mesh_view made, precision of, detail::base::work_progress& p
     known.precision = of;
     const solid_defects found = find_solid_defects(made, progress.part(0.95, 1.0));
     known.meeting_count = found.meeting_pairs;
-    known.boundary_edges = found.open_edges;
+    known.boundary_edges = found.boundary_edges;
     known.misoriented_edges = found.misoriented_edges;
     if (found.any()) known.status = status::not_certified;
     if (found.status == treeform::status::cancelled) known.status = status::cancelled;

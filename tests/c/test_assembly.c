@@ -97,7 +97,7 @@ static void test_bodies(void) {
     treeform_file_view* view = NULL;
     OK(treeform_file_create(low, &files[0]));
     OK(treeform_file_create(high, &files[1]));
-    OK(treeform_scene((const treeform_file* const*)files, names, 2, &scene));
+    OK(treeform_scene_of((const treeform_file* const*)files, names, 2, &scene));
     inputs[0] = scene;
     OK(treeform_bodies_of(inputs, label, 1, TREEFORM_BODY_PARTS, &bodies));
     CHECK(bodies->count == 1);

@@ -106,7 +106,7 @@ class Ctypes(unittest.TestCase):
         self.assertEqual(addressof(seen.points.contents), points.buffer_info()[0])
         for i in range(0, 24, 3):
             points[i] *= 4.0
-        call("treeform_volume", mesh, byref(volume))
+        call("treeform_signed_volume", mesh, byref(volume))
         self.assertEqual(volume.value, 4.0)
 
     def test_self_intersections(self):
@@ -137,7 +137,7 @@ class Ctypes(unittest.TestCase):
         arrays, mesh, volume = made.contents.mesh, c_void_p(), c_double()
         call("treeform_mesh_create", arrays.points, c_size_t(arrays.point_count), arrays.faces,
              c_size_t(arrays.face_count), c_uint32(0), byref(mesh))
-        call("treeform_volume", mesh, byref(volume))
+        call("treeform_signed_volume", mesh, byref(volume))
         self.assertEqual(volume.value, 1.875)
         LIBRARY.treeform_free(mesh)
         LIBRARY.treeform_free(made)
@@ -150,7 +150,7 @@ class Ctypes(unittest.TestCase):
 
         def another():
             others.append(LIBRARY.treeform_last_error())
-            call("treeform_volume", None, None, code=INVALID)
+            call("treeform_signed_volume", None, None, code=INVALID)
             others.append(LIBRARY.treeform_last_error())
 
         thread = threading.Thread(target=another)

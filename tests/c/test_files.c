@@ -215,7 +215,7 @@ static void test_parts(void) {
     treeform_free(joined);
     OK(treeform_file_create(box_mesh, &boxed));
     both[0] = boxed;
-    OK(treeform_scene(both, names, 2, &scene));
+    OK(treeform_scene_of(both, names, 2, &scene));
     OK(treeform_split_parts(scene, 1, &parts));
     CHECK(parts->count == 2);
     if (parts->count == 2) {
@@ -270,7 +270,7 @@ static void test_robots(void) {
     INVALID("null", treeform_link_transforms(robot, joints, &quarter, 1, NULL));
     OK(treeform_robot_parts_of(robot, &parts));
     CHECK(parts->count == 1 && parts->links[0] == 1 && parts->adjacent_count == 0);
-    OK(treeform_bounds(parts->meshes[0], &bounds));
+    OK(treeform_bounding_box(parts->meshes[0], &bounds));
     CHECK(bounds.min[2] == -1.5 && bounds.max[0] == 1.0 && bounds.max[2] == 1.5);
     treeform_free(parts);
     INVALID("robot is null", treeform_robot_parts_of(NULL, &parts));

@@ -43,9 +43,9 @@ static void test_borrowed_and_copied(void) {
     OK(treeform_mesh_arrays(copied, &arrays));
     CHECK(arrays.points != points && arrays.faces != cube_faces);
     for (i = 0; i < 24; ++i) points[i] *= 2.0;
-    OK(treeform_volume(copied, &volume));
+    OK(treeform_signed_volume(copied, &volume));
     CHECK(volume == 1.0);
-    OK(treeform_volume(of_floats, &volume));
+    OK(treeform_signed_volume(of_floats, &volume));
     CHECK(volume == 1.0);
     OK(treeform_mesh_is_cloud(copied, &is_cloud));
     CHECK(is_cloud == 0);
@@ -101,7 +101,7 @@ static void test_clouds_and_sets(void) {
     treeform_free(how);
     INVALID("null", treeform_mesh_of_box(NULL, &boxed));
     OK(treeform_mesh_of_box(&unit, &boxed));
-    OK(treeform_volume(boxed, &volume));
+    OK(treeform_signed_volume(boxed, &volume));
     CHECK(volume == 1.0);
     treeform_free(boxed);
     treeform_free(cloud);
@@ -148,11 +148,11 @@ static void test_rounding(void) {
     int calls = 0, i;
     for (i = 0; i < 24; ++i) points[i] = 0.1 * cube_points[i];
     OK(treeform_mesh_create(points, 8, cube_faces, 12, 0, &mesh));
-    OK(treeform_round(mesh, TREEFORM_FLOAT32, &made));
+    OK(treeform_rounded(mesh, TREEFORM_FLOAT32, &made));
     CHECK(made->mesh.face_count == 12 && made->mesh.points[3] == (double)0.1f);
     treeform_free(made);
-    INVALID("precision is 2", treeform_round(mesh, 2, &made));
-    OK(treeform_round(mesh, TREEFORM_FLOAT32, &made));
+    INVALID("precision is 2", treeform_rounded(mesh, 2, &made));
+    OK(treeform_rounded(mesh, TREEFORM_FLOAT32, &made));
     OK(treeform_coordinate_step(mesh, TREEFORM_FLOAT32, &step));
     CHECK(step == ldexp(1.0, -27));
     OK(treeform_rounding_effects(mesh, NULL, made->mesh.points, TREEFORM_FLOAT64, TREEFORM_FLOAT32,

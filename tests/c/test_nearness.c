@@ -121,9 +121,9 @@ static void test_relations(void) {
     options.progress = stop;
     options.progress_data = &calls;
     ENDS(TREEFORM_CANCELLED, "", treeform_measure(a, b, &options, &relation));
-    OK(treeform_relate(a, b, TREEFORM_BY_COORDINATES, &how));
+    OK(treeform_relation(a, b, TREEFORM_BY_COORDINATES, &how));
     CHECK(how == TREEFORM_RELATION_PENETRATING);
-    INVALID("vertices", treeform_relate(a, b, 2, &how));
+    INVALID("vertices", treeform_relation(a, b, 2, &how));
     treeform_measure_options_init(&options, sizeof options);
     OK(treeform_penetration_depth(a, b, &options, &depth, move, &effort));
     CHECK(effort.pairs > 0 && effort.pairs < effort.bound && effort.skipped_candidates == 0);

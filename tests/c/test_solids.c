@@ -8,7 +8,7 @@ static double volume_of(const treeform_arrays* mesh) {
     double volume = (double)NAN;
     OK(treeform_mesh_create(mesh->points, mesh->point_count, mesh->faces, mesh->face_count,
                             TREEFORM_ONE_USE, &made));
-    OK(treeform_volume(made, &volume));
+    OK(treeform_signed_volume(made, &volume));
     treeform_free(made);
     return volume;
 }
@@ -66,7 +66,7 @@ static void test_booleans(void) {
     treeform_boolean_options_init(&options, sizeof options);
     OK(treeform_unite(a, b, NULL, &result));
     has_volume(result, 1.875);
-    OK(treeform_subtract(a, b, NULL, &result));
+    OK(treeform_difference(a, b, NULL, &result));
     has_volume(result, 0.875);
     OK(treeform_symmetric_difference(a, b, NULL, &result));
     has_volume(result, 1.75);
@@ -82,9 +82,9 @@ static void test_booleans(void) {
     has_volume(result, 0.875 - 0.015625);
     OK(treeform_unite_all(all, 3, NULL, &result));
     has_volume(result, 1.875);
-    OK(treeform_subtract_all(all[0], all + 1, 2, &options, &result));
+    OK(treeform_difference_all(all[0], all + 1, 2, &options, &result));
     has_volume(result, 0.875 - 0.015625);
-    OK(treeform_subtract_all(all[0], NULL, 0, NULL, &result));
+    OK(treeform_difference_all(all[0], NULL, 0, NULL, &result));
     has_volume(result, 1.0);
     options.min_volume = 0.5;
     OK(treeform_intersection(a, b, &options, &result));
@@ -96,7 +96,7 @@ static void test_booleans(void) {
     OK(treeform_unite(a, d, &options, &result));
     CHECK(result->filled_faces == 4);
     has_volume(result, 2.125);
-    INVALID("union of all operands", treeform_subtract(a, d, &options, &result));
+    INVALID("union of all operands", treeform_difference(a, d, &options, &result));
     options.gap = -1.0;
     INVALID("the gap is negative", treeform_unite(a, d, &options, &result));
     options.gap = 0.0;
@@ -109,7 +109,7 @@ static void test_booleans(void) {
     INVALID("position", treeform_boolean(all, 3, "(a-", NULL, &result));
     INVALID("", treeform_boolean(all, 2, "a-c", NULL, &result));
     INVALID("expression is null", treeform_boolean(all, 2, NULL, NULL, &result));
-    options.simplify = 1;
+    options.merge_coplanar = 1;
     options.face_groups = cube_faces;
     options.face_group_count = 5;
     INVALID("face groups", treeform_unite(a, b, &options, &result));
@@ -197,7 +197,7 @@ static void test_repair(void) {
     int calls = 0;
     OK(treeform_read("data/dirty.stl", NULL, &file));
     OK(treeform_find_solid_defects(mesh, NULL, NULL, &defects));
-    CHECK(defects->any == 1 && defects->open_edges > 0 && defects->message[0] != 0);
+    CHECK(defects->any == 1 && defects->boundary_edges > 0 && defects->message[0] != 0);
     treeform_free(defects);
     OK(treeform_find_solid_defects_of_file(file, NULL, NULL, &defects));
     CHECK(defects->any == 1);
@@ -206,7 +206,7 @@ static void test_repair(void) {
     OK(treeform_mesh_create(corners, 4, triangles, 2, TREEFORM_COPY, &broken));
     OK(treeform_find_solid_defects(broken, NULL, NULL, &defects));
     CHECK(defects->any == 1 && defects->nonfinite_vertices == 1 && defects->unusable_faces == 1);
-    CHECK(defects->open_edges == 3 && defects->without_faces == 0);
+    CHECK(defects->boundary_edges == 3 && defects->without_faces == 0);
     treeform_free(defects);
     treeform_free(broken);
     ENDS(TREEFORM_CANCELLED, "", treeform_find_solid_defects(mesh, stop, &calls, &defects));

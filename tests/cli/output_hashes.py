@@ -112,7 +112,7 @@ difference/open        pairs   difference {a} {b} --matrix 2:{m} -o out.ply --ac
 symmetric-difference/off pairs  symmetric-difference {a} {b} --matrix 2:{m} -o out.off
 split/ply              pairs   split {a} {b} --matrix 2:{m} -o out.ply --curves curves.ply
 expr=b-a/glb           pairs   --expr b-a {a} {b} --matrix 2:{m} -o out.glb --source s
-simplify/obj           pairs   union {a} {b} --matrix 2:{m} --simplify -o out.obj
+simplify/obj           pairs   union {a} {b} --matrix 2:{m} --merge-coplanar -o out.obj
 fill-rule=even-odd     pairs   union {a} {b} --matrix 2:{m} --fill-rule even-odd -o out.ply
 fill-rule=positive     pairs   difference {a} {b} --matrix 2:{m} --fill-rule positive -o out.ply \
                                --max-move 0
@@ -127,24 +127,24 @@ self/check             all     --check {f}
 self/check=even-odd    small   --check {f} --fill-rule even-odd
 self/even-odd          small   union {f} --fill-rule even-odd -o out.ply
 self/positive          small   union {f} --fill-rule positive -o out.ply
-self/simplify          all     union {f} --simplify -o out.ply
+self/simplify          all     union {f} --merge-coplanar -o out.ply
 self/split             small   split {f} -o out.ply
 self/open              small   intersection {f} made/box.obj --accept-open -o out.ply
 self/plain             few     union {f} --no-attributes -o out.ply --ascii
-self/simplify-plain    few     union {f} --no-attributes --simplify -o out.obj
+self/simplify-plain    few     union {f} --no-attributes --merge-coplanar -o out.obj
 self/threads           few     union {f} -j 1 -o one.ply ; union {f} -j 5 -o five.ply
 with-box/ply           made    difference {f} made/box.obj -o out.ply --ascii --source s
 with-box/obj           made    union made/box.obj {f} -o out.obj
 with-box/glb           made    symmetric-difference {f} made/box.obj -o out.glb
 with-box/split         made    split {f} made/box.obj -o out.ply --ascii
-with-box/simplify      made    difference {f} made/box.obj -o out.ply --ascii --simplify --source s
+with-box/simplify      made    difference {f} made/box.obj -o out.ply --ascii --merge-coplanar --source s
 with-box/plain         made    difference {f} made/box.obj -o out.ply --ascii --no-attributes
 union                  triples union {a} {b} {c} -o out.ply --source s
 intersection           triples intersection {a} {b} {c} -o out.stl
 difference             triples difference {a} {b} {c} -o out.obj --curves curves.ply
 symmetric-difference   triples symmetric-difference {a} {b} {c} -o out.ply --precision double
 split                  triples split {a} {b} {c} -o out.ply
-expr=(a-b)*c           triples --expr (a-b)*c {a} {b} {c} -o out.stl --simplify
+expr=(a-b)*c           triples --expr (a-b)*c {a} {b} {c} -o out.stl --merge-coplanar
 expr=(a+b)-c           triples --expr (a|b)-c {a} {b} {c} -o out.ply -v
 expr=a^(b*c)           triples --expr a^(b&c) {a} {b} {c} -o out.glb
 many                   one     union models/robot/franka_link0.stl models/robot/franka_link1.stl \
@@ -362,7 +362,7 @@ tf-boolean union made/box.obj --fill-rule even -n | tf-boolean union made/box.ob
 tf-boolean union made/box.obj --matrix 2:m.txt -n
 tf-boolean union made/box.obj --matrix 1:none.txt -n
 tf-boolean union made/box.obj --matrix 1:made/flat.txt -n
-tf-boolean --check made/box.obj -o out.obj | tf-boolean split made/box.obj --simplify -n
+tf-boolean --check made/box.obj -o out.obj | tf-boolean split made/box.obj --merge-coplanar -n
 tf-boolean union made/box.obj --source s -o out.stl
 tf-boolean union made/box.obj --in-place | tf-boolean union made/box.obj -o no/out.stl
 tf-boolean union made/box.obj --curves out.stl -n | tf-boolean union - - -n

@@ -186,7 +186,7 @@ class Solids(BooleanTest):
         head = self.read("second.ply").split("end_header")[0]
         self.assertEqual(head.count("property uint source_mesh"), 1)
         self.assertEqual(head.count("comment source_mesh"), 2)
-        entry = self.made("union", "first.ply", "--simplify", name="third.ply")
+        entry = self.made("union", "first.ply", "--merge-coplanar", name="third.ply")
         self.assertEqual(entry["output"]["faces"], 12)
 
     def test_floats_are_certified_as_floats(self):
@@ -420,18 +420,18 @@ class Solids(BooleanTest):
 
     def test_simplifying_leaves_few_faces(self):
         self.mesh("right.obj", box((2, 0, 0), (3, 2, 2)))
-        entry = self.made("union", "a.obj", "right.obj", "--simplify")
+        entry = self.made("union", "a.obj", "right.obj", "--merge-coplanar")
         self.assertEqual((entry["output"]["faces"], entry["output"]["vertices"]), (12, 8))
         self.assertEqual(volume(*self.solid("out.obj")), 12)
-        entry = self.made("union", "a.obj", "right.obj", "--simplify", "--source", "from",
+        entry = self.made("union", "a.obj", "right.obj", "--merge-coplanar", "--source", "from",
                           name="out.ply")
         self.assertEqual(entry["output"]["faces"], 20)
         # Faces with values of their own stay apart, except for --no-attributes.
         points, faces = box((0, 0, 0), (2, 2, 2))
         self.ply("a.ply", points, faces, [(0, 0, 0)] * 8)
-        entry = self.made("union", "a.ply", "--simplify")
+        entry = self.made("union", "a.ply", "--merge-coplanar")
         self.assertEqual(entry["output"]["faces"], 12)
-        entry = self.made("union", "a.ply", "right.obj", "--simplify", "--no-attributes",
+        entry = self.made("union", "a.ply", "right.obj", "--merge-coplanar", "--no-attributes",
                           name="out.ply")
         self.assertEqual(entry["output"]["faces"], 12)
 

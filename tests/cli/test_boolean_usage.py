@@ -38,7 +38,7 @@ class Usage(BooleanTest):
         self.assertEqual([line for line in run.text.splitlines() if len(line) > 80], [])
         self.assertNotIn("--in-place", run.text)
         for word in ("union", "intersection", "difference", "symmetric-difference", "split",
-                     "--expr", "--matrix", "--fill-rule", "--check", "--accept-open", "--simplify",
+                     "--expr", "--matrix", "--fill-rule", "--check", "--accept-open", "--merge-coplanar",
                      "--max-move",
                      "--source", "--no-attributes", "--curves", "--min-volume", "--gap",
                      "Common options:", "Examples:", "Exit status:"):
@@ -74,7 +74,7 @@ class Usage(BooleanTest):
     def test_what_would_do_nothing_is_refused(self):
         self.refused("--check", "a.obj", "-o", "out.obj")
         self.refused("--check", "a.obj", "--max-move", "1")
-        self.refused("--check", "a.obj", "--simplify")
+        self.refused("--check", "a.obj", "--merge-coplanar")
         self.refused("--check", "a.obj", "--gap", "1")
         self.refused("split", "a.obj", "-o", "out.obj", "--min-volume", "1")
         self.assertIn("only a union", self.refused("--expr", "a+b", "a.obj", "b.obj", "-o",
@@ -82,7 +82,7 @@ class Usage(BooleanTest):
         self.refused("--check", "a.obj", "--accept-open")
         self.refused("--check", "a.obj", "--curves", "out.obj")
         self.refused("split", "a.obj", "--fill-rule", "even-odd")
-        self.refused("split", "a.obj", "--simplify")
+        self.refused("split", "a.obj", "--merge-coplanar")
         self.refused("union", "a.obj", "--curves", "out.stl")
         self.refused("union", "a.obj", "--ascii")
         self.refused("union", "a.obj", "-o", "out.obj", "--source", "from")

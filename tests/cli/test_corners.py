@@ -245,7 +245,7 @@ class Booleans(CornerTest):
 
     def test_simplifying_does_not_merge_what_looks_different(self):
         self.boxes()
-        self.run_tool("union", "a.obj", "b.obj", "--simplify", "-o", "out.obj", status=0)
+        self.run_tool("union", "a.obj", "b.obj", "--merge-coplanar", "-o", "out.obj", status=0)
         self.check_rows(self.parsed("out.obj"))
         # One value on a whole side, and one material: these may go together.
         points, faces = box((0, 0, 0), (2, 2, 2))
@@ -256,9 +256,9 @@ class Booleans(CornerTest):
         self.put("flat.obj", flat)
         self.put("cut.obj", flat.replace("2.0", "1.0"))
         self.mesh("bare.obj", box((1, 1, 1), (3, 3, 3)))
-        run = self.entry("difference", "flat.obj", "bare.obj", "--simplify", "-o", "f.obj",
+        run = self.entry("difference", "flat.obj", "bare.obj", "--merge-coplanar", "-o", "f.obj",
                          status=0)
-        bare = self.entry("difference", "a.obj", "bare.obj", "--simplify", "--no-attributes", "-o",
+        bare = self.entry("difference", "a.obj", "bare.obj", "--merge-coplanar", "--no-attributes", "-o",
                           "g.obj", status=0)
         self.assertEqual(run["output"]["faces"], bare["output"]["faces"])
         colors = {}

@@ -184,7 +184,7 @@ class Mend(ToolTest):
         run = self.run_tool(part, "--check", status=1)
         self.assertEqual(run.text, part + ": open at 6 edges\n")
         entry = self.mended(part, "--check", status=1)
-        self.assertEqual(entry["defects"]["open_edges"], 6)
+        self.assertEqual(entry["defects"]["boundary_edges"], 6)
         self.assertIsNone(entry["repair"])
         write(self.path("two.obj"), TWO_CUBES)
         self.assertIn("pairs of faces meet", self.run_tool("two.obj", "--check", status=1).text)
@@ -199,7 +199,7 @@ class Mend(ToolTest):
                                              list(faces) + [(0, 1, len(points))]))
         defects = self.mended(part, "--check", status=1)["defects"]
         self.assertEqual((defects["non_finite"], defects["non_finite_vertices"]), (1, 1))
-        self.assertEqual(defects["open_edges"], 0)
+        self.assertEqual(defects["boundary_edges"], 0)
         self.assertIn("1 vertex that is not finite, 1 face with a corner that is not finite",
                       self.run_tool(part, "--check", status=1).text)
 

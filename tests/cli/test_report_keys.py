@@ -212,7 +212,7 @@ class Reports(PlaceTest):
                 (["difference", "a.obj", "b.obj", "-o", "out.ply", "--max-move", "0.1"], 0),
                 (["union", "a.obj", "b.obj", "c.obj", "-n"], 0),
                 (["--expr", "a-b", "third.obj", "b.obj", "--matrix", "2:m.txt", "-o", "e.stl"], 0),
-                (["union", "a.obj", "c.obj", "-o", "simple.obj", "--simplify"], 0),
+                (["union", "a.obj", "c.obj", "-o", "simple.obj", "--merge-coplanar"], 0),
                 (["union", "a.obj", "speck.obj", "--min-volume", "1e-9", "--gap", "1%", "-n"], 0),
                 (["split", "a.obj", "open.obj", "-n"], 0),
                 (["union", "a.obj", "open.obj", "--repair", "-n"], 0),

@@ -262,7 +262,7 @@ class Several(TextureTest):
         for name, mesh in (("a", self.LOW), ("b", box((2, 0, 0), (4, 2, 2)))):
             self.put(name + ".ply",
                      textured_ply(mesh, [name + "/a.png"], lambda i: name + "/a.png"))
-        self.run_as(BOOLEAN, "union", "a.ply", "b.ply", "--simplify", "-o", "out.ply")
+        self.run_as(BOOLEAN, "union", "a.ply", "b.ply", "--merge-coplanar", "-o", "out.ply")
         mesh, _ = self.check("out.ply")
         self.assertEqual(mesh.names, ["a/a.png", "b/a.png"])
         for corners, _, number in mesh.faces:

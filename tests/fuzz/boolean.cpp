@@ -83,7 +83,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     options.precision = in.below(2) == 1 ? tf::precision::float32 : tf::precision::float64;
     options.fill_rule = static_cast<tf::fill_rule>(in.below(3));
     const std::size_t more = in.below(8);
-    options.simplify = (more & 1) != 0;
+    options.merge_coplanar = (more & 1) != 0;
     options.volumes = (more & 2) != 0;
     const tf::mesh a = operand(in);
     const tf::mesh b = operand(in);

@@ -158,7 +158,7 @@ TEST_CASE("sections of solids are those of CGAL") {
             const tf::mesh ball =
                 test::moved(test::ball(2 + i % 2, source.in(0.3, 1.0)),
                             {source.in(-2, 2), source.in(-2, 2), source.in(-2, 2)});
-            solid = (i % 2 == 0 ? tf::subtract(solid, ball) : tf::unite(solid, ball)).value();
+            solid = (i % 2 == 0 ? tf::difference(solid, ball) : tf::unite(solid, ball)).value();
         }
         CHECK(check_sections(solid, seed) > 2);
     }

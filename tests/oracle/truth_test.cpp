@@ -71,7 +71,7 @@ void add_topology(const tf::mesh& mesh, counts& found) {
     found["components_vertex"] = of(c.components_by_point);
     found["components_edge"] = of(c.components_by_edge);
     found["euler"] = of(c.points_used) - of(c.edges) + of(c.faces);
-    found["closed"] = c.closed ? 1 : 0;
+    found["closed"] = c.closed_manifold ? 1 : 0;
 }
 
 tf::triangle3 corners(const tf::mesh& mesh, std::uint32_t face) {

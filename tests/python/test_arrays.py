@@ -246,7 +246,7 @@ V, F = CUBE.vertices, CUBE.faces
     (lambda: tf.self_intersections(CUBE, limit=-1),
      "limit: expected a non-negative integer"),
     (lambda: tf.repair(CUBE, gap="a"), "gap: expected a number, not 'a'"),
-    (lambda: tf.union(CUBE, simplify="a"), "simplify: expected True or False, not 'a'"),
+    (lambda: tf.union(CUBE, merge_coplanar="a"), "merge_coplanar: expected True or False, not 'a'"),
     (lambda: tf.union(CUBE, precision=3), "precision: expected a string, not 3"),
     (lambda: tf.deviation(CUBE, CUBE, band=3), "band: expected a pair of numbers, not 3"),
     (lambda: tf.raycast(CUBE, V + 3, V * 0 - 5e-324), "directions: that of ray 0 is too short"),

@@ -31,13 +31,13 @@ def columns(mesh):
 
 @pytest.mark.parametrize("verb, letters", [
     (lambda a, b: tf.union(a, b), "union"), (lambda a, b: tf.difference(a, b), "difference"),
-    (lambda a, b: tf.intersection(a, b, simplify=True), "intersection"),
+    (lambda a, b: tf.intersection(a, b, merge_coplanar=True), "intersection"),
     (lambda a, b: a ^ b, "symmetric-difference")])
 def test_set_operations_carry_what_the_tool_does(tmp_path, verb, letters):
     paths = [tmp_path / f"{name}.ply" for name in ("a", "b", "out")]
     tf.write(paths[0], A)
     tf.write(paths[1], B)
-    simplify = ["--simplify"] if letters == "intersection" else []
+    simplify = ["--merge-coplanar"] if letters == "intersection" else []
     run_tool("tf-boolean", letters, paths[0], paths[1], "-o", paths[2], *simplify)
     theirs = tf.read(paths[2])
     made = verb(A, B)

@@ -116,7 +116,7 @@ def test_sources_name_the_faces_that_each_face_lies_in():
 def test_options():
     b = moved(CUBE, 0.5, 0, 0)
     assert tf.union(CUBE, b, volumes=True).volumes == (1, 1, 1.5, 0.5)
-    assert len(tf.union(CUBE, b, simplify=True).faces) == 12
+    assert len(tf.union(CUBE, b, merge_coplanar=True).faces) == 12
     single = tf.union(CUBE, moved(CUBE, 0.1, 0.1, 0.1), precision="float32")
     assert np.array_equal(single.vertices, single.vertices.astype(np.float32))
     twice = tf.Mesh(np.vstack([CUBE.vertices, CUBE.vertices + 0.5]),
@@ -210,7 +210,7 @@ def test_errors_name_operands_as_they_were_given():
         tf.boolean("body-drill", body=CUBE, drill=SHEET)
     with pytest.raises(tf.NotClosedError, match="of the right operand of -"):
         CUBE - SHEET
-    with pytest.raises(tf.NotClosedError, match=r"of operand 4 \(d\)"):
+    with pytest.raises(tf.NotClosedError, match=r"of operand d \(the 4th\)"):
         tf.union(CUBE, CUBE, CUBE, SHEET)
     with pytest.raises(ValueError, match="at least one mesh"):
         tf.union([])

@@ -146,7 +146,7 @@ def test_defects_and_topology():
     assert defects.nonfinite_points.tolist() == [3] and defects.nonfinite_faces.tolist() == [1]
     assert defects.degenerate_faces.tolist() == [0] and defects.out_of_range_faces.tolist() == [2]
     counts = tf.count_topology(SHEET)
-    assert counts.boundary_edges == 3 and not counts.closed
+    assert counts.boundary_edges == 3 and not counts.closed_manifold
     ball = tf.count_topology(sphere(2))
     assert ball.closed and ball.points_used - ball.edges + ball.faces == 2
     both = tf.Mesh(np.vstack([CUBE.vertices, CUBE.vertices + 5]),
@@ -163,7 +163,7 @@ def test_what_is_not_finite_or_no_face_is_a_defect():
     assert "2 vertices that are not finite" in unused.message
     used = tf.find_solid_defects((np.vstack([CUBE.vertices, nan]),
                                   np.vstack([CUBE.faces, [0, 1, 8]])))
-    assert used.unusable_faces == 1 and used.open_edges == used.degenerate == 0
+    assert used.unusable_faces == 1 and used.boundary_edges == used.degenerate == 0
     beyond = tf.find_solid_defects((CUBE.vertices, np.vstack([CUBE.faces, [0, 1, 99]])))
     assert beyond and beyond.unusable_faces == 1 and beyond.nonfinite_vertices == 0
     for vertices in (CUBE.vertices, nan, np.full((8, 3), np.nan)):

@@ -64,8 +64,8 @@ def test_places_are_those_of_the_tool(folder, mode, moving, fixed, options, verb
     assert made.matrix.tolist() == report["matrix"]
     if mode == "align":
         found = report["align"]
-        assert (made.rms, made.overlap, made.iterations, made.start, made.scale, made.inliers) == (
-            found["rms"], found["overlap"], found["iterations"], found["start"], found["scale"],
+        assert (made.rms, made.overlap, made.iterations, made.best_start, made.scale, made.inliers) == (
+            found["rms"], found["overlap"], found["iterations"], found["best_start"], found["scale"],
             found["inliers"])
     elif mode != "lay":
         assert made.relation.replace("_", "-") == report["status"]

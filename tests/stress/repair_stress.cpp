@@ -134,7 +134,8 @@ bool has_nearly_all(const tf::mesh& mesh, const std::vector<triangle>& wanted) {
 bool is_manifold_in_coordinates(const tf::mesh& mesh) {
     const tf::mesh joined = tf::weld(mesh).mesh;
     const auto counts = tf::count_topology(joined.points.size(), joined.faces);
-    return counts.closed && counts.misoriented_edges == 0 && counts.nonmanifold_points == 0;
+    return counts.closed_manifold && counts.misoriented_edges == 0 &&
+           counts.nonmanifold_points == 0;
 }
 
 /// The largest distance of corners and middles of faces of one mesh from the other.

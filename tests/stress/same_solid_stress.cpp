@@ -168,7 +168,7 @@ question random_question(test::random& source, solid_shape of) {
     constexpr std::array<const char*, 5> kinds = {"+", "-", "++-", "+-*", "+-*^"};
     result.formula = formula_of(source, kinds[source.below(kinds.size())], 0, operands);
     result.options.fill_rule = static_cast<tf::fill_rule>(source.below(3));
-    result.options.simplify = source.below(2) == 0;
+    result.options.merge_coplanar = source.below(2) == 0;
     return result;
 }
 

@@ -24,7 +24,8 @@ inline void turn(tf::face& f) { std::swap(f[1], f[2]); }
 inline bool is_manifold_in_coordinates(const tf::mesh& mesh) {
     const tf::mesh joined = tf::weld(mesh).mesh;
     const auto counts = tf::count_topology(joined.points.size(), joined.faces);
-    return counts.closed && counts.misoriented_edges == 0 && counts.nonmanifold_points == 0;
+    return counts.closed_manifold && counts.misoriented_edges == 0 &&
+           counts.nonmanifold_points == 0;
 }
 
 inline void require_solid(const tf::repair_result& result, double volume) {

@@ -18,9 +18,8 @@ MADE = ROOT / "tools/c/made"
 IN_C = {"operand_element::none": "TREEFORM_NONE", "carry_sources": "treeform_carry",
         "carry_sources::corner_groups": "treeform_corner_groups",
         "shared_search": "treeform_shared_search",
-        "shared_weld": "treeform_shared_weld", "relation": "treeform_relate",
+        "shared_weld": "treeform_shared_weld",
         "convex_hull_result::faces": "treeform_hull::faces", "part.mesh": "mesh",
-        "signed_volume": "treeform_volume", "surface_area": "treeform_area",
         "boolean_statistics": "treeform_boolean_result", "round_to_las": "treeform_file_round_to_las",
         "penetration_depth_result": "treeform_penetration_depth"}
 #: Enumerators in docstrings that mean functions or members there.

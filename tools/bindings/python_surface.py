@@ -16,7 +16,7 @@ WORDS = {"columns as in `las_header`": "columns are the fields of its records",
          "Precision of the coordinates returned. float32 values are stored as doubles.":
              "Precision of the returned coordinates; use 'float32' for STL and GLB.",
          "of the points returned": "Precision of the returned points",
-         "above `plane`": "above a plane", "`relation`": "`measure`", "`subtract`": "`difference`",
+         "above `plane`": "above a plane", "`relation`": "`measure`", "`difference`": "`difference`",
          "`point_count`": "the number of vertices", "a prepared mesh": "a `Mesh`",
          "meshes that are not prepared": "meshes that are not a `Mesh`",
          "Prepared meshes cache tight bounds of their surfaces":

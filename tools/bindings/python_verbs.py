@@ -15,8 +15,8 @@ _PLANE = {"normal": "(3,) the normal of the plane, of any length.",
           "at": "(3,) a point on the plane."}
 _HEIGHTS = {"heights": "(K,) the distances of K parallel planes from this plane, measured along "
                        "its unit normal. None: this plane only."}
-_RAYS = {"origins": "(n, 3) the start points of the rays; (1, 3) for all.", "directions": "(n, 3) of "
-         "any length; (1, 3) for all.",
+_RAYS = {"origins": "(n, 3) the start points of the rays; (1, 3) for all.",
+         "directions": "(n, 3) of any length; (1, 3) for all.",
          "t_min": "ignore hits before origin + t_min * direction.",
          "t_max": "ignore hits beyond origin + t_max * direction."}
 _ALL_RAYS = "rays(origins, directions, t_min, t_max)"
@@ -126,7 +126,7 @@ FUNCTIONS = [
                   "operand face that it lies in; a new vertex on a cut gets interpolated values. "
                   "The value is 0 or NaN if an operand does not have the attribute. Coplanar "
                   "faces are merged only if their values are equal, and if vertices have values, "
-                  "only with `simplify`.",
+                  "only with `merge_coplanar`.",
              docs=_VOLUMES | _FILL_RULE | {
                    "expression": "a formula of `operands`, named `a`, `b`, `c`, ..., and of "
                                  "`meshes` by their names: `+` or `|` for union, `*` or `&` for "
@@ -136,7 +136,7 @@ FUNCTIONS = [
     Function("clip(sheet: Mesh, *solids: Operands, keep: str = \"outside\", options: "
              "boolean_options)"
              " -> BooleanResult", body="clipped(sheet, solids, keep, how, progress)",
-             check="solids", leave="gap min_volume simplify volumes",
+             check="solids", leave="gap min_volume merge_coplanar volumes",
              doc="Trims an open surface with solids, given one by one or as a list: returns the "
                  "parts of `sheet` outside all of them, or inside all of them. The sheet may have"
                  " any border, may intersect itself, and may even be closed. The result is an "
@@ -155,7 +155,7 @@ FUNCTIONS = [
     Function("split(*meshes: Operands, options: boolean_options) -> BooleanResult",
              "tf::split($meshes, options)", "attributes of meshes", check="meshes",
              docs=_MESHES,
-             leave="fill_rule keep_cuts simplify volumes min_volume gap"),
+             leave="fill_rule keep_cuts merge_coplanar volumes min_volume gap"),
     Function("check_operand(mesh: Mesh) -> Certificate",
              'require_faces(mesh, "mesh"), tf::check_operand(mesh.view(), report)'),
     # _cuts

@@ -49,8 +49,7 @@ OBJECTS = [
     Object("freedom_entry", "align_freedom", "", ("align.freedoms[]",)),
     Object("fit_entry", "align_result",
            "rms rms_at_start overlap inliers correlation uncertainty scale converged outcome "
-           "iterations "
-           "start pivot pivot_moved freedoms", ("align",)),
+           "iterations best_start pivot pivot_moved freedoms", ("align",)),
 ]
 
 KINDS = {"double": "number", "bool": "bool", "uint64_t": "count", "uint32_t": "count",

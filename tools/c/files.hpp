@@ -249,8 +249,8 @@ inline tf::mesh_file concatenate_files(const treeform_file* const* files, const 
 }
 
 /// One scene of all files, each under its name, with materials and textures.
-inline tf::mesh_file scene(const treeform_file* const* files, const char* const* names,
-                           std::size_t count) {
+inline tf::mesh_file scene_of(const treeform_file* const* files, const char* const* names,
+                              std::size_t count) {
     const std::span all = array(files, count, "files");
     if (all.empty()) throw std::invalid_argument("no files for the scene");
     const std::vector<std::string> labels = names_of(names, count);

@@ -134,7 +134,7 @@ inline tf::mesh select_faces(const tf::mesh_ref& mesh, std::span<const std::uint
 
 /// The mesh with each coordinate rounded to the nearest number of the precision; infinite beyond
 /// its range. `treeform_rounding_effects` finds the defects that this causes.
-inline tf::mesh round(tf::mesh_view mesh, tf::precision precision) {
+inline tf::mesh rounded(tf::mesh_view mesh, tf::precision precision) {
     return {tf::rounded(mesh.points, precision), {mesh.faces.begin(), mesh.faces.end()}};
 }
 

@@ -24,10 +24,12 @@ inline double of_finite(const treeform_mesh* mesh, double (*value)(const tf::mes
 
 /// The volume inside a closed mesh, in cubic units; negative if it is inside out. For an open mesh,
 /// the sum of the signed volumes of the tetrahedra from the origin to its faces. O(F).
-inline double volume(const treeform_mesh* mesh) { return of_finite(mesh, tf::signed_volume); }
+inline double signed_volume(const treeform_mesh* mesh) {
+    return of_finite(mesh, tf::signed_volume);
+}
 
 /// The sum of the areas of all faces, in square units, rounded. O(F).
-inline double area(const treeform_mesh* mesh) { return of_finite(mesh, tf::surface_area); }
+inline double surface_area(const treeform_mesh* mesh) { return of_finite(mesh, tf::surface_area); }
 
 /// Volume, center of mass and inertia of the solid that a closed mesh bounds. If the volume is 0,
 /// or too small compared with the terms of its sum, it is 0, and the others are NaN. O(F).
@@ -44,7 +46,7 @@ inline treeform_mass_properties find_mass_properties(const tf::mesh_ref& mesh) {
 
 /// The smallest box around all finite points; if there are none, min is +infinity and max
 /// -infinity. O(V).
-inline treeform_box bounds(tf::mesh_view mesh) {
+inline treeform_box bounding_box(tf::mesh_view mesh) {
     constexpr tf::box3 none{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
     return copied(tf::bounding_box(mesh.points).value_or(none));
 }

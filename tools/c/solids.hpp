@@ -34,9 +34,9 @@ inline std::vector<std::string> names_in(const std::string& expression) {
 }
 
 /// Points in `a` but not in `b`.
-inline tf::boolean_result subtract(const tf::mesh_ref& a, const tf::mesh_ref& b,
-                                   const tf::boolean_options& options) {
-    return tf::subtract(a, b, options);
+inline tf::boolean_result difference(const tf::mesh_ref& a, const tf::mesh_ref& b,
+                                     const tf::boolean_options& options) {
+    return tf::difference(a, b, options);
 }
 
 /// The union of all `operands` [count], without a formula.
@@ -46,9 +46,9 @@ inline tf::boolean_result unite_all(const tf::mesh_refs& operands,
 }
 
 /// Points in `a` but in none of `others` [count].
-inline tf::boolean_result subtract_all(const tf::mesh_ref& a, const tf::mesh_refs& others,
-                                       const tf::boolean_options& options) {
-    return tf::subtract(a, others, options);
+inline tf::boolean_result difference_all(const tf::mesh_ref& a, const tf::mesh_refs& others,
+                                         const tf::boolean_options& options) {
+    return tf::difference(a, others, options);
 }
 
 /// An open surface cut by solids: the pieces of operand number `sheet` for which `expression` is

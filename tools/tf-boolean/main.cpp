@@ -46,7 +46,7 @@ void add_options(command_line& line, boolean_settings& s) {
     line.flag(s.keep_cuts, {"--keep-cuts", "",
                             "do not merge coplanar faces that were cut, or\n"
                             "that overlap"});
-    line.flag(s.simplify, {"--simplify", "", "merge all coplanar faces, also those not cut"});
+    line.flag(s.simplify, {"--merge-coplanar", "", "merge all coplanar faces, also those not cut"});
     line.option({"--min-volume", "V", "drop parts and fill voids of the result below V", "0"},
                 [&s](std::string_view v) {
                     s.min_volume = tools::parse_volume("--min-volume", v);
@@ -92,7 +92,7 @@ tf::boolean_result ask(tools::job& work, const boolean_settings& s,
     tf::boolean_options options{.fill_rule = s.fill_rule,
                                 .precision = precision,
                                 .keep_cuts = keeps_cuts(s, solids),
-                                .simplify = s.simplify,
+                                .merge_coplanar = s.simplify,
                                 .min_volume = s.min_volume,
                                 .gap = s.gap ? s.gap->used(tools::diagonal_of(solids)) : 0.0};
     const std::vector<std::uint32_t> groups = groups_of(work, s, solids);

@@ -60,11 +60,12 @@ void refuse_what_does_nothing(const boolean_settings& s, const common_options& o
     if (!mesh && (o.ascii || o.binary || !o.output_format.empty()))
         refuse("--output-format, --ascii and --binary need -o");
     if (s.check && o.precision != "keep") refuse("--precision: --check writes no mesh");
-    if (s.splits() && s.simplify) refuse("--simplify: split keeps every piece");
+    if (s.splits() && s.simplify) refuse("--merge-coplanar: split keeps every piece");
     if (s.splits() && s.keep_cuts) refuse("--keep-cuts: split keeps all cuts");
-    if (s.simplify && s.keep_cuts) refuse("--keep-cuts and --simplify exclude each other");
+    if (s.simplify && s.keep_cuts) refuse("--keep-cuts and --merge-coplanar exclude each other");
     if (s.check && (s.simplify || s.keep_cuts || s.accept_open || s.repair))
-        refuse("--simplify, --keep-cuts, --accept-open and --repair: --check makes no result");
+        refuse(
+            "--merge-coplanar, --keep-cuts, --accept-open and --repair: --check makes no result");
     if (s.check && (s.min_volume_given || s.gap))
         refuse("--min-volume and --gap: --check makes no result");
     if (s.min_volume_given && (s.splits() || s.accept_open))

@@ -85,7 +85,7 @@ void warn_of_surprises(job& work, const boolean_settings& settings,
     if (!settings.splits() && !output["closed"].get<bool>())
         work.warn("open", "the result is open, since it is a part of an open surface");
     if (settings.simplify && !settings.no_attributes && sources_of(solids).has_vertex_values())
-        work.warn("simplified", "the properties of points removed by --simplify are lost");
+        work.warn("simplified", "the properties of points removed by --merge-coplanar are lost");
     if (!settings.no_attributes && sources_of(solids).has_values_left_out())
         work.warn("attributes",
                   "list properties, and properties of elements other than vertices and faces, are "

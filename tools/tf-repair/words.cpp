@@ -96,7 +96,7 @@ void say_defects(job& work, const dirty_mesh& input, const tf::solid_defects& fo
                              {"tetrahedra", found.tetrahedra},
                              {"degenerate", found.degenerate},
                              {"repeated", found.repeated},
-                             {"open_edges", found.open_edges},
+                             {"boundary_edges", found.boundary_edges},
                              {"nonmanifold_edges", found.nonmanifold_edges},
                              {"misoriented_edges", found.misoriented_edges},
                              {"nonmanifold_vertices", found.nonmanifold_vertices},

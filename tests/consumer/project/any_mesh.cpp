@@ -28,7 +28,7 @@ int main() {
                       tf::clip({a, b}, 0, {"a*b", 2}).certificate &&
                       tf::boolean(std::vector<tf::mesh>{a, b}, "a+b").certificate &&
                       std::abs(tf::signed_volume(tf::boolean({a, b, c}, "(a-b)*c").value()) -
-                               tf::signed_volume(tf::subtract(a, b).value())) < 1e-9;
+                               tf::signed_volume(tf::difference(a, b).value())) < 1e-9;
     const bool others = tf::repair(prepared).certificate && tf::distance(a, prepared) == 0.0;
 
     const tf::mesh part{{{0.25, 0.25, 5}, {0.5, 0.25, 5}, {0.25, 0.5, 5}}, {{0, 1, 2}}};

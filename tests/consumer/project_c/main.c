@@ -24,7 +24,7 @@ int main(void) {
     if (treeform_unite(a, b, NULL, &made) == TREEFORM_OK &&
         treeform_mesh_create(made->mesh.points, made->mesh.point_count, made->mesh.faces,
                              made->mesh.face_count, 0, &both) == TREEFORM_OK)
-        treeform_volume(both, &volume);
+        treeform_signed_volume(both, &volume);
     printf("volume %g\n", volume);
     treeform_free(both);
     treeform_free(made);

@@ -37,7 +37,7 @@ TEST_CASE("errors name the function that was called, the operand, and the caller
     const tf::boolean_expression both("a*b", 2);
     const std::vector<std::pair<std::string, std::function<void()>>> calls{
         {named("unite", "operand b: "), [&] { (void)tf::unite(good, wild); }},
-        {named("subtract", "operand a: "), [&] { (void)tf::subtract(wild, good); }},
+        {named("difference", "operand a: "), [&] { (void)tf::difference(wild, good); }},
         {named("intersection", "operand b: "), [&] { (void)tf::intersection(good, wild); }},
         {named("symmetric_difference", "operand b: "),
          [&] { (void)tf::symmetric_difference(good, wild); }},

@@ -506,15 +506,16 @@ TEST_CASE("boolean: functions of two meshes take many, as a list in braces or a 
     CHECK(volume(tf::unite(parts)) == 6.0);
     CHECK(volume(tf::unite({a, b, c})) == 6.0);
     CHECK(volume(tf::unite({a, c})) == 6.0);
-    CHECK(volume(tf::unite({a, b}, {.simplify = true})) == 5.0);
+    CHECK(volume(tf::unite({a, b}, {.merge_coplanar = true})) == 5.0);
     CHECK(tf::unite(a, b).mesh == tf::unite({a, b}).mesh);
-    CHECK(tf::unite(a, b, {.simplify = true}).mesh == tf::unite({a, b}, {.simplify = true}).mesh);
+    CHECK(tf::unite(a, b, {.merge_coplanar = true}).mesh ==
+          tf::unite({a, b}, {.merge_coplanar = true}).mesh);
     CHECK(volume(tf::intersection(parts)) == 2.0);
-    CHECK(volume(tf::subtract(a, {b, c})) == 1.0);
-    CHECK(volume(tf::subtract(a, b)) == 1.0);
-    CHECK(volume(tf::subtract(a, parts[2])) == 2.0);
-    CHECK(tf::subtract(a, parts).mesh.faces.empty());
-    CHECK(volume(tf::subtract(a, {})) == 4.0);
+    CHECK(volume(tf::difference(a, {b, c})) == 1.0);
+    CHECK(volume(tf::difference(a, b)) == 1.0);
+    CHECK(volume(tf::difference(a, parts[2])) == 2.0);
+    CHECK(tf::difference(a, parts).mesh.faces.empty());
+    CHECK(volume(tf::difference(a, {})) == 4.0);
     CHECK(tf::unite(std::vector<tf::mesh>{}).mesh.faces.empty());
     CHECK(volume(tf::unite(a)) == 4.0);
 }

@@ -192,7 +192,7 @@ TEST_CASE("certified operands: a second question about prepared meshes builds no
     const auto built = a.indexes_built() + b.indexes_built();
     CHECK(built ==
           10);  // of each: points without a fan, tree, own pairs, clusters, triangles in leaf order
-    CHECK(tf::subtract(a, b).certificate);
+    CHECK(tf::difference(a, b).certificate);
     CHECK(a.indexes_built() + b.indexes_built() == built);
 }
 

@@ -180,8 +180,8 @@ TEST_CASE("clip: faces of solids that the sheet does not reach are not looked at
 }
 
 TEST_CASE("clip: simplified, what is left of a square has few faces") {
-    const auto result =
-        clipped({sheet(4, 0, 0, 1), moved(box(2, 2, 2), {1, 1, 0})}, "a-b", 0, {.simplify = true});
+    const auto result = clipped({sheet(4, 0, 0, 1), moved(box(2, 2, 2), {1, 1, 0})}, "a-b", 0,
+                                {.merge_coplanar = true});
     CHECK(result.mesh.points.size() == 8);
     CHECK(result.mesh.faces.size() == 8);
 }

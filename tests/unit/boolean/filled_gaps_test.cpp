@@ -110,7 +110,7 @@ TEST_CASE("filled gaps: between faces that lean, that touch, and that meet") {
 
 TEST_CASE("filled gaps: a pin in a hole becomes one with it, without seams, however it is turned") {
     const tf::mesh block = moved(box(4, 4, 2), {-2, -2, 0});
-    const tf::mesh with_hole = tf::subtract(block, moved(prism(24, 1.0, 4), {0, 0, -1})).value();
+    const tf::mesh with_hole = tf::difference(block, moved(prism(24, 1.0, 4), {0, 0, -1})).value();
     const double area = 24 * 0.5 * std::sin(0.2617993877991494);  // of the polygon of radius 1
     for (const double turn : {0.0, 0.1, 0.13}) {
         const tf::mesh pin = moved(turned(prism(24, 0.98, 3), {0, 0, 1}, turn), {0, 0, -0.5});

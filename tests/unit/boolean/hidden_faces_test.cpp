@@ -121,7 +121,7 @@ TEST_CASE("hidden faces: crowds of boxes are what voxels say") {
         std::vector<tf::mesh_view> views;
         for (const crowd& c : crowds) views.emplace_back(c.mesh);
         const tf::boolean_result result =
-            tf::boolean(views, expression, {.fill_rule = rule, .simplify = run % 3 == 0});
+            tf::boolean(views, expression, {.fill_rule = rule, .merge_coplanar = run % 3 == 0});
         REQUIRE(result.certificate);
         CHECK(tf::signed_volume(result.mesh) == voxels);
         CHECK(tf::self_intersections(result.mesh).pairs.empty());

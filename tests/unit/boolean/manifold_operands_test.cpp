@@ -191,17 +191,17 @@ TEST_CASE(
 TEST_CASE("manifold operands: the same bytes on any number of threads, and progress can say stop") {
     const operands pair{together(ball(5, 1.0), moved(ball(1, 0.1), {1, 0.01, 0.02})),
                         moved(together(ball(5, 1.0), ball(4, 0.5)), {0.4, 0.3, 0.2})};
-    const tf::boolean_result all = tf::subtract(pair[0], pair[1]);
+    const tf::boolean_result all = tf::difference(pair[0], pair[1]);
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        const tf::boolean_result result = tf::subtract(pair[0], pair[1]);
+        const tf::boolean_result result = tf::difference(pair[0], pair[1]);
         CHECK(result.mesh == all.mesh);
         CHECK(result.face_source == all.face_source);
         CHECK(result.vertex_source == all.vertex_source);
     }
     for (const double limit : {0.0, 0.3, 0.65, 0.75, 0.85}) {
-        const tf::boolean_result stopped =
-            tf::subtract(pair[0], pair[1], {.progress = [&](double done) { return done < limit; }});
+        const tf::boolean_result stopped = tf::difference(
+            pair[0], pair[1], {.progress = [&](double done) { return done < limit; }});
         CHECK(stopped.certificate.status == tf::status::cancelled);
         CHECK(stopped.mesh.faces.empty());
     }

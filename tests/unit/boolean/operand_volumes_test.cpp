@@ -29,8 +29,9 @@ tf::operand_volumes volumes_of(const mesh& a, const mesh& b, double most) {
         for (const bool simplify : {false, true}) {
             CAPTURE(text);
             CAPTURE(simplify);
-            const auto result = tf::boolean(std::array<tf::mesh_view, 2>{a, b}, {text, 2},
-                                            boolean_options{.simplify = simplify, .volumes = true});
+            const auto result =
+                tf::boolean(std::array<tf::mesh_view, 2>{a, b}, {text, 2},
+                            boolean_options{.merge_coplanar = simplify, .volumes = true});
             REQUIRE(result.volumes);
             if (is_first) first = *result.volumes;
             is_first = false;

@@ -36,7 +36,7 @@ tf::boolean_result result_of(const std::vector<tf::mesh>& meshes, const std::str
 
 /// After a look at whether it is the same solid as without being simplified.
 tf::mesh simplified(const std::vector<tf::mesh>& meshes, const std::string& text) {
-    const tf::boolean_result result = result_of(meshes, text, {.simplify = true});
+    const tf::boolean_result result = result_of(meshes, text, {.merge_coplanar = true});
     const tf::mesh full = result_of(meshes, text, {.keep_cuts = true}).mesh;
     CHECK(result.certificate);
     CHECK(test::is_clean_solid(result.mesh));
@@ -202,7 +202,7 @@ TEST_CASE("simplify: faces of different groups stay apart") {
     std::vector<std::uint32_t> groups(24, 0);
     std::fill(groups.begin() + 12, groups.end(), 1U);
     const tf::boolean_result result =
-        result_of(boxes, "a+b", {.simplify = true, .face_groups = groups});
+        result_of(boxes, "a+b", {.merge_coplanar = true, .face_groups = groups});
     CHECK(result.certificate);
     CHECK(result.mesh.points.size() == 12);
     CHECK(result.mesh.faces.size() == 20);
@@ -213,14 +213,14 @@ TEST_CASE("simplify: faces of different groups stay apart") {
         }
     groups.pop_back();
     CHECK_THROWS_AS(
-        static_cast<void>(result_of(boxes, "a+b", {.simplify = true, .face_groups = groups})),
+        static_cast<void>(result_of(boxes, "a+b", {.merge_coplanar = true, .face_groups = groups})),
         std::invalid_argument);
 }
 
 TEST_CASE("simplify: a face of before holds each point that was cut") {
     const std::vector<tf::mesh> boxes{refined(box(2, 2, 2), 2),
                                       moved(box(2, 2, 2), {1.125, 1.125, 1.125})};
-    const tf::boolean_result result = result_of(boxes, "a+b", {.simplify = true});
+    const tf::boolean_result result = result_of(boxes, "a+b", {.merge_coplanar = true});
     std::size_t cut_points = 0;
     for (std::size_t p = 0; p < result.mesh.points.size(); ++p) {
         const auto [operand, index] = result.face_of_cut_vertex[p];
@@ -295,17 +295,18 @@ TEST_CASE(
 }
 
 TEST_CASE("simplify: nothing, and one thread or many") {
-    CHECK(result_of({tf::mesh{}}, "a", {.simplify = true}).certificate);
-    CHECK(result_of({box(1, 1, 1), box(1, 1, 1)}, "a-b", {.simplify = true}).mesh == tf::mesh{});
+    CHECK(result_of({tf::mesh{}}, "a", {.merge_coplanar = true}).certificate);
+    CHECK(result_of({box(1, 1, 1), box(1, 1, 1)}, "a-b", {.merge_coplanar = true}).mesh ==
+          tf::mesh{});
     test::random source(33);
     std::vector<tf::mesh> boxes;
     for (int k = 0; k < 12; ++k) boxes.push_back(refined(test::lattice_box(source), 3));
     const std::string text = "a+b+c+d-e-f-g+h+i-j+k-l";
-    const tf::boolean_result expected = result_of(boxes, text, {.simplify = true});
+    const tf::boolean_result expected = result_of(boxes, text, {.merge_coplanar = true});
     CHECK(expected.certificate);
     for (const unsigned threads : {1U, 2U, 8U}) {
         const tf::thread_scope scope(threads);
-        const tf::boolean_result found = result_of(boxes, text, {.simplify = true});
+        const tf::boolean_result found = result_of(boxes, text, {.merge_coplanar = true});
         CHECK(found.mesh == expected.mesh);
         CHECK(found.face_source == expected.face_source);
     }

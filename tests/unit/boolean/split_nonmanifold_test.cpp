@@ -87,7 +87,7 @@ TEST_CASE("split_nonmanifold: boxes that touch in a corner or an edge come apart
     CHECK(edge.vertex_of_added.size() == 2);
     CHECK(edge.shared_edges == 0);
     const auto topology = tf::count_topology(edge.surface.points.size(), edge.surface.faces);
-    CHECK(topology.closed);
+    CHECK(topology.closed_manifold);
     CHECK(topology.components_by_point == 2);
     // Along a part of an edge: only the corners that are in it.
     CHECK(separated(union_of({box(1, 1, 4), moved(box(1, 1, 2), {1, 1, 1})}))

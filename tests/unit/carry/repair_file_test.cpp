@@ -104,7 +104,7 @@ TEST_CASE("repair_file: a part that is no solid is named, with the numbers of th
     REQUIRE(made.parts.size() == 3);
     CHECK(made.parts[1].certificate.status == tf::status::open_input);
     CHECK(made.parts[2].certificate);
-    CHECK(tf::find_solid_defects({&file}).open_edges == 4);
+    CHECK(tf::find_solid_defects({&file}).boundary_edges == 4);
 
     const tf::repaired_file cancelled =
         tf::repair_file({&file}, {.progress = [](double) { return false; }});

@@ -134,7 +134,7 @@ TEST_CASE("turned planes, one and many; caps are sections; floats") {
     for (int i = 0; i < 8; ++i) {
         const tf::mesh hole = test::moved(test::ball(2, source.in(0.3, 1.5)),
                                           {source.in(-3, 3), source.in(-3, 3), source.in(-3, 3)});
-        sponge = tf::subtract(sponge, hole).value();
+        sponge = tf::difference(sponge, hole).value();
     }
     for (int i = 0; i < 12; ++i) {
         CAPTURE(i);

@@ -99,7 +99,7 @@ TEST_CASE("a mesh cut along isolines is the mesh, in pieces of its values") {
         REQUIRE(made.pieces.size() == 5);  // four different levels
         CHECK(made.certificate);
         CHECK(area_of(made) == doctest::Approx(tf::surface_area(ball)).epsilon(1e-12));
-        CHECK(counts_of(made).closed);
+        CHECK(counts_of(made).closed_manifold);
         std::sort(levels.begin(), levels.end());
         levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
         for (std::size_t k = 0; k < made.pieces.size(); ++k) {

@@ -328,7 +328,7 @@ TEST_CASE("areas, lengths and nesting are those of segments by themselves") {
     for (int i = 0; i < 12; ++i) {
         tf::mesh hole = test::ball(1 + i % 3, source.in(0.2, 1.5));
         hole = test::moved(hole, {source.in(-3, 3), source.in(-3, 3), source.in(-3, 3)});
-        sponge = (i % 3 == 2 ? tf::unite(sponge, hole) : tf::subtract(sponge, hole)).value();
+        sponge = (i % 3 == 2 ? tf::unite(sponge, hole) : tf::difference(sponge, hole)).value();
     }
     const tf::prepared_mesh prepared = tf::prepared_mesh::borrow(sponge);
     for (int i = 0; i < 60; ++i) {

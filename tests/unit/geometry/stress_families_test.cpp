@@ -272,7 +272,7 @@ TEST_CASE(
     }
     CHECK(same > 0);
     CHECK(same < half);
-    CHECK(tf::count_topology(m.points.size(), m.faces).closed);
+    CHECK(tf::count_topology(m.points.size(), m.faces).closed_manifold);
 }
 
 TEST_CASE("shells are 1 to 10 ulps thin") {

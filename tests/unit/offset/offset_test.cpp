@@ -160,7 +160,7 @@ TEST_CASE("a drain ends in the cavity, and what none leads into is counted") {
     CHECK(half.sealed_cavities == 1);
     // A slot narrower than the drain is wide: the wall across is not drilled.
     const tf::mesh slotted =
-        tf::subtract(test::box(10, 10, 10), test::moved(test::box(12, 12, 1), {-1, -1, 4.5}))
+        tf::difference(test::box(10, 10, 10), test::moved(test::box(12, 12, 1), {-1, -1, 4.5}))
             .value();
     const auto into_slot =
         tf::hollow(slotted, 1, {.resolution = 0.3, .drains = {{{5, 5, 4.6}, 3}}});

@@ -392,13 +392,13 @@ TEST_CASE("align: several starts find what is turned any way, the present one fi
         for (const unsigned starts : {5U, 60U}) {
             const auto found = tf::align(scan.moving, scan.fixed, {.starts = starts});
             CHECK(found.converged);
-            CHECK(found.start > 0);
-            CHECK(found.start < starts);
+            CHECK(found.best_start > 0);
+            CHECK(found.best_start < starts);
             CHECK(test::error_of(scan, found.matrix, false) < 1e-5);
         }
     }
     const auto near = test::scan_of(three_boxes(), {.degrees = 2}, source);
-    CHECK(tf::align(near.moving, near.fixed, {.starts = 20}).start == 0);
+    CHECK(tf::align(near.moving, near.fixed, {.starts = 20}).best_start == 0);
 }
 
 TEST_CASE(

@@ -225,7 +225,7 @@ TEST_CASE("clouds: they bound nothing, and are no operands") {
             CHECK_THROWS_WITH_AS((void)tf::unite(given, other),
                                  doctest::Contains("operand a: a point cloud is no operand"),
                                  std::invalid_argument);
-            CHECK_THROWS_AS((void)tf::subtract(other, given), std::invalid_argument);
+            CHECK_THROWS_AS((void)tf::difference(other, given), std::invalid_argument);
             CHECK_THROWS_AS((void)tf::unite({other, given, other}), std::invalid_argument);
             CHECK_THROWS_AS((void)tf::check_operand(given), std::invalid_argument);
             CHECK(tf::self_intersections(given).pairs.empty());

@@ -97,7 +97,7 @@ TEST_CASE("a hull as a mesh is closed, and has the points that it uses") {
     CHECK(mesh.faces.size() == hull.faces.size());
     CHECK(mesh.points.size() < points.size());
     const auto counts = tf::count_topology(mesh.points.size(), mesh.faces);
-    CHECK(counts.closed);
+    CHECK(counts.closed_manifold);
     CHECK(counts.points_used == mesh.points.size());
     CHECK(tf::signed_volume(mesh) > 0);
 }
@@ -106,7 +106,7 @@ TEST_CASE("wall thickness: a hollow box, a ball, a sheet") {
     const tf::mesh outer = test::box(10, 10, 10);
     tf::mesh inner = test::box(8, 8, 9);
     for (tf::point3& p : inner.points) p = {p.x + 1, p.y + 1, p.z + 0.5};
-    const tf::mesh hollow = tf::subtract(outer, inner).value();
+    const tf::mesh hollow = tf::difference(outer, inner).value();
     const auto walls = tf::wall_thickness(hollow);
     CHECK(walls.least == doctest::Approx(0.5));
     for (const double t : walls.of_face)

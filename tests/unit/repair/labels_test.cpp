@@ -26,7 +26,7 @@ void require_volume(const tf::repair_result& result, double volume) {
     REQUIRE_MESSAGE(result.certificate, result.certificate.message());
     CHECK(tf::self_intersections(result.mesh).pairs.empty());
     const tf::mesh joined = tf::weld(result.mesh).mesh;
-    CHECK(tf::count_topology(joined.points.size(), joined.faces).closed);
+    CHECK(tf::count_topology(joined.points.size(), joined.faces).closed_manifold);
     CHECK(tf::signed_volume(result.mesh) == doctest::Approx(volume));
 }
 

@@ -39,7 +39,7 @@ TEST_CASE("repair: a spike through the other side is removed and its holes are c
     CHECK(result.statistics.filled > 0);
     CHECK(tf::self_intersections(result.mesh).pairs.empty());
     const auto counts = tf::count_topology(result.mesh.points.size(), result.mesh.faces);
-    CHECK(counts.closed);
+    CHECK(counts.closed_manifold);
     CHECK(counts.misoriented_edges == 0);
     CHECK(result.face_source.size() == result.mesh.faces.size());
     CHECK(result.certificate.max_displacement == 0.0);

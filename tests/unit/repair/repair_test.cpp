@@ -332,7 +332,7 @@ TEST_CASE("repair: defects are found as they are") {
     open.faces.pop_back();
     turn(open.faces[0]);
     tf::solid_defects found = tf::find_solid_defects(open);
-    CHECK(found.open_edges == 3);
+    CHECK(found.boundary_edges == 3);
     CHECK(found.misoriented_edges > 0);
     CHECK(found.message().starts_with("open at 3 edges, "));
     const tf::mesh ball = test::ball(2, 1.0);
@@ -370,7 +370,7 @@ TEST_CASE("repair: what cannot be used is a defect, and no error") {
     CHECK(found.nonfinite_vertices == 2);
     CHECK(found.unusable_faces == 2);
     CHECK(found.any());
-    CHECK(found.open_edges + found.degenerate + found.meeting_pairs == 0);
+    CHECK(found.boundary_edges + found.degenerate + found.meeting_pairs == 0);
     CHECK(
         found.message() ==
         "2 vertices that are not finite, 2 faces with a corner that is not finite or not a vertex");

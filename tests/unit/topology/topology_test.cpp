@@ -99,7 +99,7 @@ tf::topology_counts by_definition(const faces& given) {
     c.components_by_edge = groups(list.size(), [&](std::size_t i, std::size_t j) {
         return common(list[i], list[j]).size() >= 2;
     });
-    c.closed = !list.empty() && c.boundary_edges == 0 && c.nonmanifold_edges == 0;
+    c.closed_manifold = !list.empty() && c.boundary_edges == 0 && c.nonmanifold_edges == 0;
     return c;
 }
 
@@ -115,7 +115,7 @@ void check_equal(const tf::topology_counts& a, const tf::topology_counts& b) {
     CHECK(a.faces == b.faces);
     CHECK(a.repeated_corner_faces == b.repeated_corner_faces);
     CHECK(a.duplicate_faces == b.duplicate_faces);
-    CHECK(a.closed == b.closed);
+    CHECK(a.closed_manifold == b.closed_manifold);
 }
 
 tf::topology_counts check(std::size_t point_count, const faces& list) {
@@ -127,36 +127,36 @@ tf::topology_counts check(std::size_t point_count, const faces& list) {
 }  // namespace
 
 TEST_CASE("topology: nothing is not closed") {
-    CHECK_FALSE(check(0, {}).closed);
-    CHECK_FALSE(check(5, {}).closed);
+    CHECK_FALSE(check(0, {}).closed_manifold);
+    CHECK_FALSE(check(5, {}).closed_manifold);
     const auto repeated = check(3, {{1, 1, 2}, {0, 0, 0}});
     CHECK(repeated.repeated_corner_faces == 2);
     CHECK(repeated.edges == 0);
     CHECK(repeated.points_used == 0);
-    CHECK_FALSE(repeated.closed);
+    CHECK_FALSE(repeated.closed_manifold);
 }
 
 TEST_CASE("topology: a tetrahedron is closed until a face goes, turns or comes twice") {
     auto c = check(4, tetrahedron);
-    CHECK(c.closed);
+    CHECK(c.closed_manifold);
     CHECK(c.points_used - c.edges + c.faces == 2);
     CHECK(c.misoriented_edges == 0);
 
     c = check(4, {tetrahedron[0], tetrahedron[1], tetrahedron[2]});
-    CHECK_FALSE(c.closed);
+    CHECK_FALSE(c.closed_manifold);
     CHECK(c.boundary_edges == 3);
 
     faces turned = tetrahedron;
     std::swap(turned[0][0], turned[0][1]);
     c = check(4, turned);
-    CHECK(c.closed);
+    CHECK(c.closed_manifold);
     CHECK(c.misoriented_edges == 3);
 
     faces twice = tetrahedron;
     twice.push_back({1, 0, 2});
     twice.push_back({2, 1, 0});
     c = check(4, twice);
-    CHECK_FALSE(c.closed);
+    CHECK_FALSE(c.closed_manifold);
     CHECK(c.nonmanifold_edges == 3);
     CHECK(c.duplicate_faces == 2);
 }
@@ -169,7 +169,7 @@ TEST_CASE("topology: two tetrahedra at a point are one component by points and t
         two.push_back(other);
     }
     const auto c = check(14, two);
-    CHECK(c.closed);
+    CHECK(c.closed_manifold);
     CHECK(c.nonmanifold_points == 1);
     CHECK(c.components_by_point == 1);
     CHECK(c.components_by_edge == 2);

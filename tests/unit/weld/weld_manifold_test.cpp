@@ -101,7 +101,7 @@ TEST_CASE("keep_manifold: two cubes that share an edge come apart as two closed 
     CHECK(welded.statistics.kept_apart == 2);
     CHECK(welded.mesh.points.size() == 16);
     const auto c = counts(welded.mesh);
-    CHECK(c.closed);
+    CHECK(c.closed_manifold);
     CHECK(c.components_by_point == 2);
     CHECK(welded.statistics.max_displacement == 0.0);
 }
@@ -114,7 +114,7 @@ TEST_CASE("keep_manifold: surfaces cut to pieces close as without it") {
         const auto welded = weld(test::shuffled(source, soup_of(whole)).mesh);
         CHECK(welded.statistics.kept_apart == 0);
         CHECK(welded.mesh.points.size() == whole.points.size());
-        CHECK(counts(welded.mesh).closed);
+        CHECK(counts(welded.mesh).closed_manifold);
     }
     // One cut only: half of the faces take a copy of each point.
     tf::mesh sphere = tf::weld(tf::read(test::data_folder() / "sphere.ply").mesh, {}, {}).mesh;
@@ -126,7 +126,7 @@ TEST_CASE("keep_manifold: surfaces cut to pieces close as without it") {
     const auto welded = weld(sphere);
     CHECK(welded.statistics.kept_apart == 0);
     CHECK(welded.mesh.points.size() == count);
-    CHECK(counts(welded.mesh).closed);
+    CHECK(counts(welded.mesh).closed_manifold);
 }
 
 TEST_CASE("keep_manifold: solids that meet in a corner stay apart, and so do coinciding ones") {

@@ -129,7 +129,7 @@ TEST_CASE("weld: the triangles of a cube become eight points and stay twelve fac
     CHECK(welded.statistics.collapsed + welded.statistics.degenerate == 0);
     CHECK(welded.statistics.max_displacement == 0.0);
     const auto counts = tf::count_topology(8, welded.mesh.faces);
-    CHECK(counts.closed);
+    CHECK(counts.closed_manifold);
     CHECK(counts.misoriented_edges == 0);
 }
 

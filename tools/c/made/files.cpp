@@ -386,11 +386,11 @@ treeform_code treeform_concatenate_files(const treeform_file* const* files,
     });
 }
 
-treeform_code treeform_scene(const treeform_file* const* files, const char* const* names,
-                             size_t count, treeform_file** file) {
+treeform_code treeform_scene_of(const treeform_file* const* files, const char* const* names,
+                                size_t count, treeform_file** file) {
     return glue::guard([&] {
         glue::start(file);
-        return glue::give(glue::scene(files, names, count), file);
+        return glue::give(glue::scene_of(files, names, count), file);
     });
 }
 

@@ -200,7 +200,7 @@ void glue::fill(keeper& kept, const tf::align_result& from, treeform_align_resul
     to.freedom_count = from.freedoms.size();
     to.outcome = static_cast<treeform_align_outcome>(from.outcome);
     to.iterations = from.iterations;
-    to.start = from.start;
+    to.best_start = from.best_start;
     to.message = kept.keep(from.message()).c_str();
     to.undetermined = from.undetermined();
 }

@@ -93,12 +93,12 @@ treeform_code treeform_select_faces(const treeform_mesh* mesh, const uint32_t* f
     });
 }
 
-treeform_code treeform_round(const treeform_mesh* mesh, treeform_precision precision,
-                             treeform_made_mesh** made) {
+treeform_code treeform_rounded(const treeform_mesh* mesh, treeform_precision precision,
+                               treeform_made_mesh** made) {
     return glue::guard([&] {
         glue::start(made);
         return glue::give(
-            glue::round(glue::view(mesh), glue::choice<tf::precision>(precision, 2, "precision")),
+            glue::rounded(glue::view(mesh), glue::choice<tf::precision>(precision, 2, "precision")),
             made);
     });
 }

@@ -214,13 +214,13 @@ treeform_code treeform_measure(const treeform_mesh* a, const treeform_mesh* b,
     });
 }
 
-treeform_code treeform_relate(const treeform_mesh* a, const treeform_mesh* b,
-                              treeform_vertex_identity vertices, treeform_mesh_relation* result) {
+treeform_code treeform_relation(const treeform_mesh* a, const treeform_mesh* b,
+                                treeform_vertex_identity vertices, treeform_mesh_relation* result) {
     return glue::guard([&] {
         (void)glue::need(result, "result");
         *result = static_cast<treeform_mesh_relation>(
-            glue::relate(glue::ref(a, "a"), glue::ref(b, "b"),
-                         glue::choice<tf::vertex_identity>(vertices, 2, "vertices")));
+            glue::relation(glue::ref(a, "a"), glue::ref(b, "b"),
+                           glue::choice<tf::vertex_identity>(vertices, 2, "vertices")));
     });
 }
 

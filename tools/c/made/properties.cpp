@@ -29,7 +29,7 @@ void glue::fill(keeper&, const tf::topology_counts& from, treeform_topology& to)
     to.faces = from.faces;
     to.repeated_corner_faces = from.repeated_corner_faces;
     to.duplicate_faces = from.duplicate_faces;
-    to.closed = from.closed;
+    to.closed_manifold = from.closed_manifold;
 }
 
 void glue::fill(keeper&, const tf::invalid_faces& from, treeform_invalid_faces& to) {
@@ -92,17 +92,17 @@ void glue::fill(keeper& kept, const std::vector<tf::mesh_feature>& from, treefor
     to.count = from.size();
 }
 
-treeform_code treeform_volume(const treeform_mesh* mesh, double* result) {
+treeform_code treeform_signed_volume(const treeform_mesh* mesh, double* result) {
     return glue::guard([&] {
         (void)glue::need(result, "result");
-        *result = glue::volume(mesh);
+        *result = glue::signed_volume(mesh);
     });
 }
 
-treeform_code treeform_area(const treeform_mesh* mesh, double* result) {
+treeform_code treeform_surface_area(const treeform_mesh* mesh, double* result) {
     return glue::guard([&] {
         (void)glue::need(result, "result");
-        *result = glue::area(mesh);
+        *result = glue::surface_area(mesh);
     });
 }
 
@@ -114,10 +114,10 @@ treeform_code treeform_find_mass_properties(const treeform_mesh* mesh,
     });
 }
 
-treeform_code treeform_bounds(const treeform_mesh* mesh, treeform_box* result) {
+treeform_code treeform_bounding_box(const treeform_mesh* mesh, treeform_box* result) {
     return glue::guard([&] {
         (void)glue::need(result, "result");
-        *result = glue::bounds(glue::view(mesh));
+        *result = glue::bounding_box(glue::view(mesh));
     });
 }
 

@@ -23,7 +23,7 @@ tf::boolean_options glue::read(const treeform_boolean_options& o) {
     how.precision = choice<tf::precision>(o.precision, 2, "precision");
     how.max_displacement = o.max_displacement;
     how.keep_cuts = o.keep_cuts != 0;
-    how.simplify = o.simplify != 0;
+    how.merge_coplanar = o.merge_coplanar != 0;
     how.face_groups = array(o.face_groups, o.face_group_count, "face_groups");
 
     how.volumes = o.volumes != 0;
@@ -41,7 +41,7 @@ void treeform_boolean_options_init(treeform_boolean_options* options, size_t siz
     to.precision = static_cast<treeform_precision>(from.precision);
     to.max_displacement = from.max_displacement;
     to.keep_cuts = from.keep_cuts;
-    to.simplify = from.simplify;
+    to.merge_coplanar = from.merge_coplanar;
     to.volumes = from.volumes;
     to.min_volume = from.min_volume;
     to.gap = from.gap;
@@ -217,7 +217,7 @@ void glue::fill(keeper& kept, const tf::solid_defects& from, treeform_solid_defe
     to.tetrahedra = from.tetrahedra;
     to.degenerate = from.degenerate;
     to.repeated = from.repeated;
-    to.open_edges = from.open_edges;
+    to.boundary_edges = from.boundary_edges;
     to.nonmanifold_edges = from.nonmanifold_edges;
     to.misoriented_edges = from.misoriented_edges;
     to.nonmanifold_vertices = from.nonmanifold_vertices;
@@ -271,13 +271,13 @@ treeform_code treeform_unite(const treeform_mesh* a, const treeform_mesh* b,
     });
 }
 
-treeform_code treeform_subtract(const treeform_mesh* a, const treeform_mesh* b,
-                                const treeform_boolean_options* options,
-                                treeform_boolean_result** result) {
+treeform_code treeform_difference(const treeform_mesh* a, const treeform_mesh* b,
+                                  const treeform_boolean_options* options,
+                                  treeform_boolean_result** result) {
     return glue::guard([&] {
         glue::start(result);
-        return glue::give(glue::subtract(glue::ref(a, "a"), glue::ref(b, "b"), glue::read(options)),
-                          result);
+        return glue::give(
+            glue::difference(glue::ref(a, "a"), glue::ref(b, "b"), glue::read(options)), result);
     });
 }
 
@@ -312,14 +312,15 @@ treeform_code treeform_unite_all(const treeform_mesh* const* operands, size_t co
     });
 }
 
-treeform_code treeform_subtract_all(const treeform_mesh* a, const treeform_mesh* const* others,
-                                    size_t count, const treeform_boolean_options* options,
-                                    treeform_boolean_result** result) {
+treeform_code treeform_difference_all(const treeform_mesh* a, const treeform_mesh* const* others,
+                                      size_t count, const treeform_boolean_options* options,
+                                      treeform_boolean_result** result) {
     return glue::guard([&] {
         glue::start(result);
-        return glue::give(glue::subtract_all(glue::ref(a, "a"), glue::refs(others, count, "others"),
-                                             glue::read(options)),
-                          result);
+        return glue::give(
+            glue::difference_all(glue::ref(a, "a"), glue::refs(others, count, "others"),
+                                 glue::read(options)),
+            result);
     });
 }
 

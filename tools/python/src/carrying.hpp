@@ -20,11 +20,11 @@ class carrying {
     explicit carrying(const held_meshes& operands);
 
     /// Sets options so that faces with different values are not merged, nor any faces if vertices
-    /// have values, unless `simplify` is set. The options refer to this object.
+    /// have values, unless `merge_coplanar` is set. The options refer to this object.
     template <class Options>
     void keep_apart(Options& options) {
         if constexpr (std::is_same_v<Options, tf::boolean_options>) {
-            if (!options.simplify && sources_.has_vertex_values()) options.keep_cuts = true;
+            if (!options.merge_coplanar && sources_.has_vertex_values()) options.keep_cuts = true;
             options.face_groups = groups_ = sources_.face_groups(true, false);
         } else if constexpr (requires { options.keep_cuts; }) {
             options.keep_cuts = options.keep_cuts || sources_.merging_mixes_values();

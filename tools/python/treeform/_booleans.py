@@ -92,7 +92,7 @@ class BooleanResult(MeshResult):
 
 
 def union(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str = "float64",
-          max_displacement: float = np.inf, keep_cuts: bool = False, simplify: bool = False,
+          max_displacement: float = np.inf, keep_cuts: bool = False, merge_coplanar: bool = False,
           volumes: bool = False, min_volume: float = 0.0, gap: float = 0.0, check: bool = True,
           progress: Progress = None) -> BooleanResult:
     """The union of solids: `union(a, b, ...)`, or `union([a, b, ...])` as in trimesh. The union of
@@ -108,7 +108,7 @@ def union(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str = "flo
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
         between two regions. Uncut faces are not changed.
-    simplify: Merge all coplanar faces of the result, also those not cut.
+    merge_coplanar: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
         are dropped, and small voids are filled, with all that is in them. A part is connected by
@@ -139,9 +139,9 @@ def union(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str = "flo
 
 
 def intersection(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str = "float64",
-                 max_displacement: float = np.inf, keep_cuts: bool = False, simplify: bool = False,
-                 volumes: bool = False, min_volume: float = 0.0, check: bool = True,
-                 progress: Progress = None) -> BooleanResult:
+                 max_displacement: float = np.inf, keep_cuts: bool = False,
+                 merge_coplanar: bool = False, volumes: bool = False, min_volume: float = 0.0,
+                 check: bool = True, progress: Progress = None) -> BooleanResult:
     """The intersection of solids: the region that all of them share. If a single mesh was read from
     a file with several objects, these are the operands, as in `difference`. See `boolean`.
 
@@ -155,7 +155,7 @@ def intersection(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
         between two regions. Uncut faces are not changed.
-    simplify: Merge all coplanar faces of the result, also those not cut.
+    merge_coplanar: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
         are dropped, and small voids are filled, with all that is in them. A part is connected by
@@ -179,9 +179,9 @@ def intersection(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str
 
 
 def difference(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str = "float64",
-               max_displacement: float = np.inf, keep_cuts: bool = False, simplify: bool = False,
-               volumes: bool = False, min_volume: float = 0.0, check: bool = True,
-               progress: Progress = None) -> BooleanResult:
+               max_displacement: float = np.inf, keep_cuts: bool = False,
+               merge_coplanar: bool = False, volumes: bool = False, min_volume: float = 0.0,
+               check: bool = True, progress: Progress = None) -> BooleanResult:
     """The first solid minus all others: `difference(a, b, c)`, or `difference(a, [b, c])`. If a
     single mesh was read from a file with several objects (`attributes.parts`), the other objects
     are subtracted from the first, as in tf-boolean; `face_source` and `vertex_source` then have the
@@ -198,7 +198,7 @@ def difference(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str =
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
         between two regions. Uncut faces are not changed.
-    simplify: Merge all coplanar faces of the result, also those not cut.
+    merge_coplanar: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
         are dropped, and small voids are filled, with all that is in them. A part is connected by
@@ -224,8 +224,8 @@ def difference(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str =
 
 def symmetric_difference(*meshes: MeshesLike, fill_rule: str = "nonzero",
                          precision: str = "float64", max_displacement: float = np.inf,
-                         keep_cuts: bool = False, simplify: bool = False, volumes: bool = False,
-                         min_volume: float = 0.0, check: bool = True,
+                         keep_cuts: bool = False, merge_coplanar: bool = False,
+                         volumes: bool = False, min_volume: float = 0.0, check: bool = True,
                          progress: Progress = None) -> BooleanResult:
     """The symmetric difference (exclusive or) of solids: the region inside an odd number of them.
     If a single mesh was read from a file with several objects, these are the operands, as in
@@ -241,7 +241,7 @@ def symmetric_difference(*meshes: MeshesLike, fill_rule: str = "nonzero",
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
         between two regions. Uncut faces are not changed.
-    simplify: Merge all coplanar faces of the result, also those not cut.
+    merge_coplanar: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
         are dropped, and small voids are filled, with all that is in them. A part is connected by
@@ -266,7 +266,7 @@ def symmetric_difference(*meshes: MeshesLike, fill_rule: str = "nonzero",
 
 def boolean(expression: str, *operands: MeshesLike, fill_rule: str = "nonzero",
             precision: str = "float64", max_displacement: float = np.inf, keep_cuts: bool = False,
-            simplify: bool = False, volumes: bool = False, min_volume: float = 0.0,
+            merge_coplanar: bool = False, volumes: bool = False, min_volume: float = 0.0,
             check: bool = True, progress: Progress = None, **meshes: MeshLike) -> BooleanResult:
     """The solid that `expression` defines. All operands are cut along each other in one
     arrangement.
@@ -284,7 +284,7 @@ def boolean(expression: str, *operands: MeshesLike, fill_rule: str = "nonzero",
     Attributes of the operands are carried over. A face gets the values of the operand face that it
     lies in; a new vertex on a cut gets interpolated values. The value is 0 or NaN if an operand
     does not have the attribute. Coplanar faces are merged only if their values are equal, and if
-    vertices have values, only with `simplify`.
+    vertices have values, only with `merge_coplanar`.
 
     expression: a formula of `operands`, named `a`, `b`, `c`, ..., and of `meshes` by their names:
         `+` or `|` for union, `*` or `&` for intersection, `-` for difference, `^` for exclusive or,
@@ -298,7 +298,7 @@ def boolean(expression: str, *operands: MeshesLike, fill_rule: str = "nonzero",
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
         between two regions. Uncut faces are not changed.
-    simplify: Merge all coplanar faces of the result, also those not cut.
+    merge_coplanar: Merge all coplanar faces of the result, also those not cut.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
         are dropped, and small voids are filled, with all that is in them. A part is connected by

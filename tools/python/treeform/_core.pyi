@@ -231,7 +231,7 @@ class BooleanOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
     def __init__(self, *, fill_rule: str = ..., precision: str = ..., max_displacement: float = ...,
-                 keep_cuts: bool = ..., simplify: bool = ..., volumes: bool = ...,
+                 keep_cuts: bool = ..., merge_coplanar: bool = ..., volumes: bool = ...,
                  min_volume: float = ..., gap: float = ...) -> None: ...
 
 class CutOptions:

@@ -483,11 +483,11 @@ class Alignment(MeshResult):
     scale: The scale found, in addition to that of `start`.
     converged: Whether `outcome` is 'converged'.
     iterations: Steps from the best start.
-    start: Number of the best start; 0 is the present position.
     undetermined: Number of independent motions that the data do not determine, such as a plane
         sliding on a plane.
     message: The outcome as a clause for people, without a full stop.
     outcome: 'converged', 'out_of_iterations', 'doubtful' or 'nothing_to_align'.
+    best_start: Number of the best start; 0 is the present position.
     """
 
     matrix: Floats
@@ -501,10 +501,10 @@ class Alignment(MeshResult):
     scale: float
     converged: bool
     iterations: int
-    start: int
     undetermined: int
     message: str
     outcome: str
+    best_start: int
 
     def __bool__(self) -> bool:
         return self.converged

@@ -31,7 +31,6 @@ class SolidDefects(Result):
     tetrahedra: Tetrahedra whose sides are faces, as in a volume mesh.
     degenerate: Faces without area.
     repeated: Faces with the same corners as another.
-    open_edges: Edges of one face.
     nonmanifold_edges: Edges of more than two faces.
     misoriented_edges: Edges of two inconsistently oriented faces.
     nonmanifold_vertices: With more than one fan of faces.
@@ -40,6 +39,7 @@ class SolidDefects(Result):
     wrongly_nested: Disjoint closed components are nested, but not as a solid and its cavities.
     message: The defects in words, such as 'open at 37 edges, 2 pairs of faces meet', or 'no
         defects'.
+    boundary_edges: Edges of one face.
     """
 
     nonfinite_vertices: int
@@ -48,7 +48,6 @@ class SolidDefects(Result):
     tetrahedra: int
     degenerate: int
     repeated: int
-    open_edges: int
     nonmanifold_edges: int
     misoriented_edges: int
     nonmanifold_vertices: int
@@ -56,6 +55,7 @@ class SolidDefects(Result):
     inverted: int
     wrongly_nested: bool
     message: str
+    boundary_edges: int
 
     def __bool__(self) -> bool:
         return self.message != "no defects"
@@ -133,7 +133,7 @@ class Topology(Result):
     faces: Faces with three different corners.
     repeated_corner_faces: Faces that repeat a corner.
     duplicate_faces: Faces with the same three corners as an earlier one.
-    closed: At least one face, no boundary or nonmanifold edge; any orientation.
+    closed_manifold: Every edge has two faces.
     """
 
     edges: int
@@ -147,7 +147,7 @@ class Topology(Result):
     faces: int
     repeated_corner_faces: int
     duplicate_faces: int
-    closed: bool
+    closed_manifold: bool
 
 
 def count_topology(mesh: MeshLike, *, progress: Progress = None) -> Topology:

@@ -72,7 +72,7 @@ json fit_entry(const tf::align_result& from) {
             {"converged", from.converged},
             {"outcome", tf::name_of(from.outcome)},
             {"iterations", from.iterations},
-            {"start", from.start},
+            {"best_start", from.best_start},
             {"pivot", from.pivot},
             {"pivot_moved", from.pivot_moved},
             {"freedoms", list_of(from.freedoms, freedom_entry)}};

@@ -137,7 +137,7 @@ struct align_result {
     align_outcome outcome = align_outcome::nothing_to_align;  ///< how the search ended
     bool converged = false;                                   ///< `outcome` is `converged`
     unsigned iterations = 0;                                  ///< steps from the best start
-    unsigned start = 0;  ///< number of the best start; 0 is the present position
+    unsigned best_start = 0;  ///< number of the best start; 0 is the present position
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is invalid
 
     /// Number of `freedoms` with a stiffness below 1e-4; these come first. The data do not

@@ -83,7 +83,7 @@ struct boolean_options {
     /// before rounding, which removes vertices inside a flat region and on straight edges between
     /// two regions. Uncut faces are not changed.
     bool keep_cuts = false;
-    bool simplify = false;  ///< merge all coplanar faces of the result, also those not cut
+    bool merge_coplanar = false;  ///< merge all coplanar faces of the result, also those not cut
     /// [faces of all operands in order] or empty: only faces with equal numbers are merged.
     std::span<const std::uint32_t> face_groups{};
     /// Compute `boolean_result::volumes`; only for two operands, without filled gaps.
@@ -201,8 +201,8 @@ template <std::convertible_to<std::string_view> Text>
 [[nodiscard]] TREEFORM_API boolean_result intersection(const mesh_ref& a, const mesh_ref& b,
                                                        const boolean_options& options = {});
 /// Difference: points in `a`, but in none of `b`.
-[[nodiscard]] TREEFORM_API boolean_result subtract(const mesh_ref& a, const mesh_refs& b,
-                                                   const boolean_options& options = {});
+[[nodiscard]] TREEFORM_API boolean_result difference(const mesh_ref& a, const mesh_refs& b,
+                                                     const boolean_options& options = {});
 /// Symmetric difference: points in exactly one of `a` and `b`.
 [[nodiscard]] TREEFORM_API boolean_result symmetric_difference(const mesh_ref& a, const mesh_ref& b,
                                                                const boolean_options& options = {});

@@ -104,7 +104,7 @@ struct TREEFORM_API offset_result {
 ///
 /// \throws std::invalid_argument as `offset`; for a wall that is not positive; for a drain that is
 ///         not finite, or with a diameter that is not positive
-/// \cost   as `offset` and `subtract`
+/// \cost   as `offset` and `difference`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API offset_result hollow(const mesh_ref& mesh, double wall,
                                                 const offset_options& options = {});

@@ -88,8 +88,7 @@ struct placed_mesh {
 /// one if it does not move.
 struct placement {
     /// ok: the mesh has a place, and `points` were checked exactly. Otherwise `no_placement`,
-    /// `not_certified` (`placement_outcome::not_representable`), `out_of_range` or `cancelled`. It
-    /// lists no faces.
+    /// `out_of_range` or `cancelled`. It lists no faces.
     treeform::certificate certificate{};
     placement_outcome outcome = placement_outcome::unchanged;
     std::vector<point3> points{};  ///< [V] at the place, as they are to be written

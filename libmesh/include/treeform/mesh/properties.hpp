@@ -53,7 +53,7 @@ struct topology_counts {
     std::uint64_t repeated_corner_faces = 0;  ///< faces that repeat a corner
     /// Faces with the same three corners as an earlier one.
     std::uint64_t duplicate_faces = 0;
-    bool closed = false;  ///< at least one face, no boundary or nonmanifold edge; any orientation
+    bool closed_manifold = false;  ///< every edge has two faces
 };
 
 /// Counts edges, components and defects of a mesh. Only corner numbers matter, so corners with

@@ -205,7 +205,7 @@ struct TREEFORM_API solid_defects {
     std::uint64_t tetrahedra = 0;         ///< tetrahedra whose sides are faces, as in a volume mesh
     std::uint64_t degenerate = 0;         ///< faces without area
     std::uint64_t repeated = 0;           ///< faces with the same corners as another
-    std::uint64_t open_edges = 0;         ///< edges of one face
+    std::uint64_t boundary_edges = 0;     ///< edges of one face
     std::uint64_t nonmanifold_edges = 0;  ///< edges of more than two faces
     std::uint64_t misoriented_edges = 0;  ///< edges of two inconsistently oriented faces
     std::uint64_t nonmanifold_vertices = 0;  ///< with more than one fan of faces

@@ -34,7 +34,7 @@ void each_field(tf::boolean_options& how, const Visit& visit) {
     visit("precision", how.precision);
     visit("max_displacement", how.max_displacement);
     visit("keep_cuts", how.keep_cuts);
-    visit("simplify", how.simplify);
+    visit("merge_coplanar", how.merge_coplanar);
     visit("volumes", how.volumes);
     visit("min_volume", how.min_volume);
     visit("gap", how.gap);

@@ -165,7 +165,7 @@ py::object object(of_result, tf::align_result&& from, const held_mesh& moving) {
     made["outcome"] = as_python(std::move(from.outcome));
     made["converged"] = as_python(std::move(from.converged));
     made["iterations"] = as_python(std::move(from.iterations));
-    made["start"] = as_python(std::move(from.start));
+    made["best_start"] = as_python(std::move(from.best_start));
     return object_of("treeform._placement", "Alignment", made);
 }
 

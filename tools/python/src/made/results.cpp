@@ -206,7 +206,7 @@ py::object object(of_result, tf::solid_defects&& from) {
     made["tetrahedra"] = as_python(std::move(from.tetrahedra));
     made["degenerate"] = as_python(std::move(from.degenerate));
     made["repeated"] = as_python(std::move(from.repeated));
-    made["open_edges"] = as_python(std::move(from.open_edges));
+    made["boundary_edges"] = as_python(std::move(from.boundary_edges));
     made["nonmanifold_edges"] = as_python(std::move(from.nonmanifold_edges));
     made["misoriented_edges"] = as_python(std::move(from.misoriented_edges));
     made["nonmanifold_vertices"] = as_python(std::move(from.nonmanifold_vertices));
@@ -238,7 +238,7 @@ py::object object(of_result, tf::topology_counts&& from) {
     made["faces"] = as_python(std::move(from.faces));
     made["repeated_corner_faces"] = as_python(std::move(from.repeated_corner_faces));
     made["duplicate_faces"] = as_python(std::move(from.duplicate_faces));
-    made["closed"] = as_python(std::move(from.closed));
+    made["closed_manifold"] = as_python(std::move(from.closed_manifold));
     return object_of("treeform._properties", "Topology", made);
 }
 

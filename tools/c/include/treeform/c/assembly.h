@@ -123,7 +123,7 @@ typedef struct treeform_clashes {
 
 /// The relations of all pairs of parts of an assembly.
 ///
-/// Exact, like `treeform_relate`: parts penetrate, touch, or are separate. Boxes only exclude
+/// Exact, like `treeform_relation`: parts penetrate, touch, or are separate. Boxes only exclude
 /// pairs: linked rings that do not meet are separate, although their boxes overlap. Empty parts
 /// are separate from all. Distances are those of `treeform_distance`, and only computed with a
 /// clearance. A part is only indexed if its box is near that of another.

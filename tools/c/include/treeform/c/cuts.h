@@ -189,8 +189,8 @@ typedef struct treeform_mesh_part {
     const uint32_t* face_source;  ///< [F] the number of each face in the given mesh
     /// [V] the number of each point in the given mesh; ascending
     const uint32_t* vertex_source;
-    double volume;  ///< as `treeform_volume`
-    double area;    ///< as `treeform_area`
+    double volume;  ///< as `treeform_signed_volume`
+    double area;    ///< as `treeform_surface_area`
 } treeform_mesh_part;
 
 /// Parts of a mesh.

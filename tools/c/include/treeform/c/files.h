@@ -291,7 +291,7 @@ typedef struct treeform_bytes {
 
 // made of the headers of C++:
 //   write_memory() usable_mesh part_options usable_part() as_mesh() concatenate_files()
-//   scene()
+//   scene_of()
 /// The bytes of the file, in the format in `options`.
 TREEFORM_C_API treeform_code treeform_write_memory(const treeform_file* file,
                                                    const treeform_write_options* options,
@@ -349,9 +349,9 @@ TREEFORM_C_API treeform_code treeform_concatenate_files(const treeform_file* con
                                                         treeform_file** file);
 
 /// One scene of all files, each under its name, with materials and textures.
-TREEFORM_C_API treeform_code treeform_scene(const treeform_file* const* files,
-                                            const char* const* names, size_t count,
-                                            treeform_file** file);
+TREEFORM_C_API treeform_code treeform_scene_of(const treeform_file* const* files,
+                                               const char* const* names, size_t count,
+                                               treeform_file** file);
 // end
 
 /// A part of a scene.

@@ -319,7 +319,7 @@ typedef struct treeform_align_result {
     size_t undetermined;             ///< number of `freedoms` that the data do not determine
     treeform_align_outcome outcome;  ///< how the search ended
     uint32_t iterations;             ///< steps from the best start
-    uint32_t start;                  ///< number of the best start; 0 is the present position
+    uint32_t best_start;             ///< number of the best start; 0 is the present position
     const char* message;             ///< the outcome as a clause for people, without a full stop
     /// Estimated standard deviation of the position, as a root mean square over the points, from
     /// the residuals and the stiffness of the motions. Motions that `undetermined` counts are left

@@ -65,7 +65,7 @@ typedef struct treeform_made_mesh {
 } treeform_made_mesh;
 
 // made of the headers of C++:
-//   join_equal_points() join_meshes() select_faces() round() coordinate_step()
+//   join_equal_points() join_meshes() select_faces() rounded() coordinate_step()
 //   rounding_effects rounding_effects()
 /// The mesh with points of equal coordinates joined (-0 equals +0), in the order in which they
 /// first appear; faces keep their order. `index` [V] is the new number of each point. O(V + F).
@@ -84,8 +84,9 @@ TREEFORM_C_API treeform_code treeform_select_faces(const treeform_mesh* mesh, co
 
 /// The mesh with each coordinate rounded to the nearest number of the precision; infinite beyond
 /// its range. `treeform_rounding_effects` finds the defects that this causes.
-TREEFORM_C_API treeform_code treeform_round(const treeform_mesh* mesh, treeform_precision precision,
-                                            treeform_made_mesh** made);
+TREEFORM_C_API treeform_code treeform_rounded(const treeform_mesh* mesh,
+                                              treeform_precision precision,
+                                              treeform_made_mesh** made);
 
 /// The unit in the last place, in precision `of`, of the finite coordinate of largest magnitude.
 /// The least positive number of that precision if no coordinate is finite, or all are 0.

@@ -134,7 +134,7 @@ typedef struct treeform_hits {
 } treeform_hits;
 
 // made of the headers of C++:
-//   raycast_all() mesh_relation mesh_measure measure_options measure() relate()
+//   raycast_all() mesh_relation mesh_measure measure_options measure() relation()
 //   penetration_depth() count_inside_out() count_sides() deviation_options deviation_result
 //   deviation()
 /// All faces that each ray hits, in the exact order along the ray, then by number.
@@ -142,7 +142,7 @@ TREEFORM_C_API treeform_code treeform_raycast_all(const treeform_mesh* mesh,
                                                   const treeform_ray* rays, size_t count,
                                                   treeform_hits** hits);
 
-/// The relation of two meshes; see `treeform_relate`. The last two occur only with a clearance.
+/// The relation of two meshes; see `treeform_relation`. The last two occur only with a clearance.
 typedef int32_t treeform_mesh_relation;
 enum {
     TREEFORM_RELATION_SEPARATE = 0,
@@ -180,8 +180,8 @@ typedef struct treeform_mesh_measure {
     double barycentric_b[3];  ///< barycentric coordinates of `on_b` in that face
 } treeform_mesh_measure;
 
-/// Options of `treeform_relate`, `treeform_measure` and `treeform_penetration_depth`. Each ignores
-/// those that do not concern it.
+/// Options of `treeform_relation`, `treeform_measure` and `treeform_penetration_depth`. Each
+/// ignores those that do not concern it.
 typedef struct treeform_measure_options {
     size_t struct_size;
     /// For `treeform_measure`: ignore meshes farther apart than this; inclusive, not squared;
@@ -204,17 +204,17 @@ TREEFORM_C_API void treeform_measure_options_init(treeform_measure_options* opti
 /// The relation of `a` and `b`, their distance and their nearest points. Null, with `TREEFORM_OK`,
 /// if one is empty, or if they are separate and further apart than `options->radius`.
 ///
-/// The relation is exact (see `treeform_relate`), and so is whether a distance is 0. Other
-/// distances are rounded as in `treeform_distance`. If the two faces named by `treeform_relate`
+/// The relation is exact (see `treeform_relation`), and so is whether a distance is 0. Other
+/// distances are rounded as in `treeform_distance`. If the two faces named by `treeform_relation`
 /// meet, the points are on them.
 TREEFORM_C_API treeform_code treeform_measure(const treeform_mesh* a, const treeform_mesh* b,
                                               const treeform_measure_options* options,
                                               treeform_mesh_measure** measure);
 
 /// Only the relation, exactly: separate, touching or penetrating.
-TREEFORM_C_API treeform_code treeform_relate(const treeform_mesh* a, const treeform_mesh* b,
-                                             treeform_vertex_identity vertices,
-                                             treeform_mesh_relation* result);
+TREEFORM_C_API treeform_code treeform_relation(const treeform_mesh* a, const treeform_mesh* b,
+                                               treeform_vertex_identity vertices,
+                                               treeform_mesh_relation* result);
 
 /// `depth` is the length of a short translation `move` that separates `a` from `b`, verified
 /// exactly: an upper bound of the penetration depth. Both are 0 if the meshes do not penetrate
@@ -227,7 +227,7 @@ TREEFORM_C_API treeform_code treeform_penetration_depth(const treeform_mesh* a,
 
 /// The number of components of a closed mesh that are inside out (of negative volume) without
 /// being cavities, that is, inside no other component. Components are faces linked by edges, with
-/// corners of equal coordinates joined. 0 for an open mesh and for a cloud. `treeform_relate`,
+/// corners of equal coordinates joined. 0 for an open mesh and for a cloud. `treeform_relation`,
 /// `treeform_clash` and `treeform_locate` treat such a component as the solid that it bounds;
 /// `treeform_repair` flips it.
 TREEFORM_C_API treeform_code treeform_count_inside_out(const treeform_mesh* mesh, uint64_t* result);

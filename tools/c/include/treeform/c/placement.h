@@ -65,8 +65,7 @@ typedef struct treeform_contact {
 typedef struct treeform_placement {
     void* owner;
     /// ok: the mesh has a place, and `points` were checked exactly. Otherwise
-    /// `TREEFORM_STATUS_NO_PLACEMENT`, `TREEFORM_STATUS_NOT_CERTIFIED`
-    /// (`TREEFORM_OUTCOME_NOT_REPRESENTABLE`), `TREEFORM_STATUS_OUT_OF_RANGE` or
+    /// `TREEFORM_STATUS_NO_PLACEMENT`, `TREEFORM_STATUS_OUT_OF_RANGE` or
     /// `TREEFORM_STATUS_CANCELLED`. It lists no faces.
     const treeform_certificate* certificate;
     treeform_placement_outcome outcome;

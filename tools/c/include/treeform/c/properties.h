@@ -6,17 +6,17 @@
 #include <treeform/c/mesh.h>
 
 // made of the headers of C++:
-//   volume() area() mass_properties find_mass_properties() bounds() is_solid() check_operand()
-//   topology_counts count_topology() face_components() invalid_faces find_invalid_faces()
-//   find_open_edge() closing_tolerance() same_triangles() feature_kind mesh_feature features
-//   feature_options find_features() feature_at_face() feature_at_point() fit_feature()
-//   hull_side
+//   signed_volume() surface_area() mass_properties find_mass_properties() bounding_box()
+//   is_solid() check_operand() topology_counts count_topology() face_components()
+//   invalid_faces find_invalid_faces() find_open_edge() closing_tolerance() same_triangles()
+//   feature_kind mesh_feature features feature_options find_features() feature_at_face()
+//   feature_at_point() fit_feature() hull_side
 /// The volume inside a closed mesh, in cubic units; negative if it is inside out. For an open
 /// mesh, the sum of the signed volumes of the tetrahedra from the origin to its faces. O(F).
-TREEFORM_C_API treeform_code treeform_volume(const treeform_mesh* mesh, double* result);
+TREEFORM_C_API treeform_code treeform_signed_volume(const treeform_mesh* mesh, double* result);
 
 /// The sum of the areas of all faces, in square units, rounded. O(F).
-TREEFORM_C_API treeform_code treeform_area(const treeform_mesh* mesh, double* result);
+TREEFORM_C_API treeform_code treeform_surface_area(const treeform_mesh* mesh, double* result);
 
 /// Mass properties of a solid of density 1.
 typedef struct treeform_mass_properties {
@@ -34,7 +34,7 @@ TREEFORM_C_API treeform_code treeform_find_mass_properties(const treeform_mesh* 
 
 /// The smallest box around all finite points; if there are none, min is +infinity and max
 /// -infinity. O(V).
-TREEFORM_C_API treeform_code treeform_bounds(const treeform_mesh* mesh, treeform_box* result);
+TREEFORM_C_API treeform_code treeform_bounding_box(const treeform_mesh* mesh, treeform_box* result);
 
 /// Whether the mesh is a solid: closed, oriented, manifold, free of self-intersections.
 TREEFORM_C_API treeform_code treeform_is_solid(const treeform_mesh* mesh, int32_t* result);
@@ -62,8 +62,7 @@ typedef struct treeform_topology {
     uint64_t faces;                  ///< faces with three different corners
     uint64_t repeated_corner_faces;  ///< faces that repeat a corner
     uint64_t duplicate_faces;        ///< Faces with the same three corners as an earlier one.
-    /// at least one face, no boundary or nonmanifold edge; any orientation
-    int32_t closed;
+    int32_t closed_manifold;         ///< every edge has two faces
 } treeform_topology;
 
 /// Counts edges, components and defects. Join equal points first (`treeform_join_equal_points`).

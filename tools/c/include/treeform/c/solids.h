@@ -9,10 +9,10 @@
 
 // made of the headers of C++:
 //   fill_rule boolean_options operand_volumes boolean_result boolean() boolean_named()
-//   names_in() unite() subtract() intersection() symmetric_difference() unite_all()
-//   subtract_all() clip() split() resolve_mode resolve_options repair_statistics repair_result
-//   resolve_self_intersections() repair_options repair() repair_file() solid_defects
-//   find_solid_defects() find_solid_defects_of_file()
+//   names_in() unite() difference() intersection() symmetric_difference() unite_all()
+//   difference_all() clip() split() resolve_mode resolve_options repair_statistics
+//   repair_result resolve_self_intersections() repair_options repair() repair_file()
+//   solid_defects find_solid_defects() find_solid_defects_of_file()
 /// Which points are inside an operand, by how often its surface winds around them.
 typedef int32_t treeform_fill_rule;
 enum {
@@ -39,7 +39,8 @@ typedef struct treeform_boolean_options {
     /// before rounding, which removes vertices inside a flat region and on straight edges between
     /// two regions. Uncut faces are not changed.
     int32_t keep_cuts;
-    int32_t simplify;  ///< merge all coplanar faces of the result, also those not cut
+    /// merge all coplanar faces of the result, also those not cut
+    int32_t merge_coplanar;
     /// Compute `treeform_boolean_result::volumes`; only for two operands, without filled gaps.
     int32_t volumes;
     /// [faces of all operands in order] or empty: only faces with equal numbers are merged; or
@@ -64,8 +65,8 @@ TREEFORM_C_API void treeform_boolean_options_init(treeform_boolean_options* opti
 
 /// The volumes of two operands, their union and intersection: first + second = either + both.
 typedef struct treeform_volumes {
-    /// The magnitude of `treeform_volume`, for an operand that winds once around its inside. For
-    /// others the sum over the cells inside, like the volumes below.
+    /// The magnitude of `treeform_signed_volume`, for an operand that winds once around its
+    /// inside. For others the sum over the cells inside, like the volumes below.
     double first;
     double second;
     double either;  ///< in the first or the second
@@ -145,9 +146,9 @@ TREEFORM_C_API treeform_code treeform_unite(const treeform_mesh* a, const treefo
                                             treeform_boolean_result** result);
 
 /// Points in `a` but not in `b`.
-TREEFORM_C_API treeform_code treeform_subtract(const treeform_mesh* a, const treeform_mesh* b,
-                                               const treeform_boolean_options* options,
-                                               treeform_boolean_result** result);
+TREEFORM_C_API treeform_code treeform_difference(const treeform_mesh* a, const treeform_mesh* b,
+                                                 const treeform_boolean_options* options,
+                                                 treeform_boolean_result** result);
 
 /// Intersection: points in `a` and in `b`.
 TREEFORM_C_API treeform_code treeform_intersection(const treeform_mesh* a, const treeform_mesh* b,
@@ -166,10 +167,11 @@ TREEFORM_C_API treeform_code treeform_unite_all(const treeform_mesh* const* oper
                                                 treeform_boolean_result** result);
 
 /// Points in `a` but in none of `others` [count].
-TREEFORM_C_API treeform_code treeform_subtract_all(const treeform_mesh* a,
-                                                   const treeform_mesh* const* others, size_t count,
-                                                   const treeform_boolean_options* options,
-                                                   treeform_boolean_result** result);
+TREEFORM_C_API treeform_code treeform_difference_all(const treeform_mesh* a,
+                                                     const treeform_mesh* const* others,
+                                                     size_t count,
+                                                     const treeform_boolean_options* options,
+                                                     treeform_boolean_result** result);
 
 /// An open surface cut by solids: the pieces of operand number `sheet` for which `expression` is
 /// true.
@@ -400,7 +402,7 @@ typedef struct treeform_solid_defects {
     uint64_t tetrahedra;            ///< tetrahedra whose sides are faces, as in a volume mesh
     uint64_t degenerate;            ///< faces without area
     uint64_t repeated;              ///< faces with the same corners as another
-    uint64_t open_edges;            ///< edges of one face
+    uint64_t boundary_edges;        ///< edges of one face
     uint64_t nonmanifold_edges;     ///< edges of more than two faces
     uint64_t misoriented_edges;     ///< edges of two inconsistently oriented faces
     uint64_t nonmanifold_vertices;  ///< with more than one fan of faces
