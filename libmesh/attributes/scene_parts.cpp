@@ -48,8 +48,7 @@ std::vector<std::uint32_t> names_of_faces(std::size_t faces, std::span<const par
 }  // namespace
 
 std::vector<scene_part> scene_parts(mesh_view mesh, std::span<const part> names,
-                                    std::span<const std::uint32_t> number,
-                                    bool joined_at_points) {
+                                    std::span<const std::uint32_t> number, bool joined_at_points) {
     if (!number.empty() && number.size() != mesh.faces.size())
         throw std::invalid_argument("treeform::scene_parts: expected one number for each face");
     detail::base::check_faces("scene_parts", mesh.points.size(), mesh.faces);

@@ -38,8 +38,8 @@ class Usage(BooleanTest):
         self.assertEqual([line for line in run.text.splitlines() if len(line) > 80], [])
         self.assertNotIn("--in-place", run.text)
         for word in ("union", "intersection", "difference", "symmetric-difference", "split",
-                     "--expr", "--matrix", "--fill-rule", "--check", "--accept-open", "--merge-coplanar",
-                     "--max-move",
+                     "--expr", "--matrix", "--fill-rule", "--check", "--accept-open",
+                     "--merge-coplanar", "--max-move",
                      "--source", "--no-attributes", "--curves", "--min-volume", "--gap",
                      "Common options:", "Examples:", "Exit status:"):
             self.assertIn(word, run.text)

@@ -258,8 +258,8 @@ class Booleans(CornerTest):
         self.mesh("bare.obj", box((1, 1, 1), (3, 3, 3)))
         run = self.entry("difference", "flat.obj", "bare.obj", "--merge-coplanar", "-o", "f.obj",
                          status=0)
-        bare = self.entry("difference", "a.obj", "bare.obj", "--merge-coplanar", "--no-attributes", "-o",
-                          "g.obj", status=0)
+        bare = self.entry("difference", "a.obj", "bare.obj", "--merge-coplanar",
+                          "--no-attributes", "-o", "g.obj", status=0)
         self.assertEqual(run["output"]["faces"], bare["output"]["faces"])
         colors = {}
         mesh = self.parsed("f.obj")

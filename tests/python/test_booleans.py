@@ -200,7 +200,7 @@ def test_a_list_may_stand_among_operands():
     assert tf.symmetric_difference(plate, cutters[:1]).mesh.volume == 3.5 + 4
     sheet = ([[-1, 0.5, 0.5], [9, 0.5, 0.5], [-1, 0.75, 0.5]], [[0, 1, 2]])
     assert tf.clip(sheet, cutters).mesh.area == tf.clip(sheet, *cutters).mesh.area
-    for wrong in ([plate, 3], "plate", [[cutters]], {"a": plate}):
+    for wrong in ([plate, 3], "plate", [[cutters]], {"a": 3}):
         with pytest.raises(ValueError, match="mesh"):
             tf.difference(plate, wrong)
 

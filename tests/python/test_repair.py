@@ -148,7 +148,7 @@ def test_defects_and_topology():
     counts = tf.count_topology(SHEET)
     assert counts.boundary_edges == 3 and not counts.closed_manifold
     ball = tf.count_topology(sphere(2))
-    assert ball.closed and ball.points_used - ball.edges + ball.faces == 2
+    assert ball.closed_manifold and ball.points_used - ball.edges + ball.faces == 2
     both = tf.Mesh(np.vstack([CUBE.vertices, CUBE.vertices + 5]),
                    np.vstack([CUBE.faces, CUBE.faces + 8]))
     assert tf.face_components(both).tolist() == [0] * 12 + [1] * 12

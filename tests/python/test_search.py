@@ -199,8 +199,10 @@ def test_a_ray_through_a_corner_names_it():
     assert hit.t[0] == 1 and hit.at[0] in (0, 1, 2) and hit.face[0] == min(
         np.flatnonzero((CUBE.vertices[CUBE.faces] == 0).all(axis=2).any(axis=1)))
     assert not tf.raycast_any(CUBE, [[-1.0, 0, 0]], [[1, 0, 0]], t_max=0.5)[0]
-    with pytest.raises(ValueError, match="directions: 2 for 1"):
-        tf.raycast(CUBE, [[0, 0, 0]], [[1, 0, 0], [0, 1, 0]])
+    both = tf.raycast(CUBE, [[0.25, 0.5, 0.75]], [[1, 0, 0], [0, 1, 0]])
+    assert both.t.tolist() == [0.75, 0.5]
+    with pytest.raises(ValueError, match="directions: 2 for 3"):
+        tf.raycast(CUBE, np.zeros((3, 3)), [[1, 0, 0], [0, 1, 0]])
 
 
 def test_deviation():

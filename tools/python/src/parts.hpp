@@ -44,8 +44,8 @@ class rays {
     [[nodiscard]] std::vector<tf::ray3> piece(std::size_t begin, std::size_t end) const {
         std::vector<tf::ray3> some;
         for (std::size_t i = begin; i < end; ++i)
-            some.push_back(
-                {numbers(from_[i]), numbers(along_[along_.size() == 1 ? 0 : i]), t_min_, t_max_});
+            some.push_back({numbers(from_[from_.size() == 1 ? 0 : i]),
+                            numbers(along_[along_.size() == 1 ? 0 : i]), t_min_, t_max_});
         return some;
     }
 

@@ -164,7 +164,7 @@ def count_topology(mesh: MeshLike, *, progress: Progress = None) -> Topology:
 
     >>> import treeform
     >>> counts = treeform.count_topology(treeform.read("data/cube.stl"))
-    >>> counts.closed, counts.points_used - counts.edges + counts.faces
+    >>> counts.closed_manifold, counts.points_used - counts.edges + counts.faces
     (True, 2)
     """
     return _core.count_topology(held(mesh), progress=progress)
