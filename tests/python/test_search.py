@@ -201,6 +201,8 @@ def test_a_ray_through_a_corner_names_it():
     assert not tf.raycast_any(CUBE, [[-1.0, 0, 0]], [[1, 0, 0]], t_max=0.5)[0]
     both = tf.raycast(CUBE, [[0.25, 0.5, 0.75]], [[1, 0, 0], [0, 1, 0]])
     assert both.t.tolist() == [0.75, 0.5]
+    every = tf.raycast_all(CUBE, [[-1, 0.5, 0.25], [-2, 0.25, 0.5]], [[1, 0, 0]])
+    assert every.point.tolist() == [[0, 0.5, 0.25], [1, 0.5, 0.25], [0, 0.25, 0.5], [1, 0.25, 0.5]]
     with pytest.raises(ValueError, match="directions: 2 for 3"):
         tf.raycast(CUBE, np.zeros((3, 3)), [[1, 0, 0], [0, 1, 0]])
 

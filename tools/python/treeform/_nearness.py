@@ -73,7 +73,8 @@ def all_hits(mesh: MeshLike, origins: ArrayLike, directions: ArrayLike, t_min: f
     start, along = _arrays.points(origins, "origins"), _arrays.points(directions, "directions")
     t, ray, face = _core.raycast_all(held(mesh), start, along, _arrays.number(t_min, "t_min"),
                                      _arrays.number(t_max, "t_max"), progress=progress)
-    return AllRayHits(start[ray] + t[:, None] * along[ray], ray, face)
+    from_, to = (one[ray] if len(one) != 1 else one for one in (start, along))
+    return AllRayHits(from_ + t[:, None] * to, ray, face)
 
 
 # made of headers:
