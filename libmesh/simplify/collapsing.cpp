@@ -138,6 +138,7 @@ simplifying::simplifying(mesh_view given, connected_faces&& mesh, double distanc
       points_(std::move(mesh.points)),
       faces_(std::move(mesh.faces)),
       star_(std::move(mesh.star)) {
+    result_.fixed_vertices = chains_.locked();
     // Squares of distances have to be doubles, and what is lost of small ones no more than u.
     if (!(largest_ > 0x1p-400 && largest_ < 0x1p400)) distance_ = 0.0;
     quadric_.resize(points_.size());

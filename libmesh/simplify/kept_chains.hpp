@@ -6,6 +6,7 @@
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/simplify.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -18,6 +19,10 @@ class kept_chains {
   public:
     kept_chains(const connected_faces& mesh, const simplify_options& options);
 
+    /// Number of vertices that must stay.
+    [[nodiscard]] std::uint64_t locked() const {
+        return static_cast<std::uint64_t>(std::ranges::count(locked_, 1));
+    }
     [[nodiscard]] bool is_free(std::uint32_t p) const { return !locked_[p] && at_[p].empty(); }
     /// Whether `p` may be collapsed into `q`.
     [[nodiscard]] bool may_join(std::uint32_t p, std::uint32_t q) const {

@@ -264,6 +264,7 @@ TEST_CASE("Edges of three faces and touching cones stay") {
     const tf::simplify_result made = tf::simplify(sheets, 1e-9);
     CHECK(made.certificate);
     CHECK(tf::find_solid_defects(made.mesh).nonmanifold_edges == 8);
+    CHECK(made.fixed_vertices == 9);
     CHECK(made.mesh.faces.size() < sheets.faces.size() / 4);
     check_distances(sheets, made);
 }

@@ -86,6 +86,7 @@ void glue::fill(keeper& kept, const tf::simplify_result& from, treeform_simplify
     to.face_of_new_vertex = or_null(from.face_of_new_vertex);
     to.corner_source = or_null(from.corner_source);
     to.collapses = from.collapses;
+    to.fixed_vertices = from.fixed_vertices;
     to.refused_by_topology = from.refused_by_topology;
     to.refused_by_turning = from.refused_by_turning;
     to.refused_by_distance = from.refused_by_distance;

@@ -138,7 +138,8 @@ def hollow(mesh: MeshLike, wall: float, *, drains: ArrayLike = (), resolution: f
            precision: str = "float64", check: bool = True,
            progress: Progress = None) -> OffsetResult:
     """Hollows the solid: its points deeper inside than `wall` become cavities; the outer surface
-    stays bit for bit. The status is `vanished` if there is no cavity.
+    stays bit for bit. The cavities are made of flat faces, so walls may be thinner:
+    `OffsetResult.least_distance`. The status is `vanished` if there is no cavity.
 
     `drains` are holes through the wall: a point and a diameter. Each runs from the point of the
     surface nearest to the given one, along the shortest segment to a cavity. It is a regular prism
@@ -265,6 +266,7 @@ class SimplifyResult(MadeMesh):
         `NONE`.
     corner_source: (3 F,) for each corner, an input corner (3 f + i for corner i of face f) at its
         vertex, on the same side of seams; none at new vertices.
+    fixed_vertices: That stay: at nonmanifold edges and vertices.
     """
 
     face_source: Ids
@@ -278,6 +280,7 @@ class SimplifyResult(MadeMesh):
     vertex_source: Ids
     face_of_new_vertex: Ids
     corner_source: Ids
+    fixed_vertices: int
 
 
 def simplify(mesh: MeshLike, max_distance: float, *, face_groups: ArrayLike | None = None,

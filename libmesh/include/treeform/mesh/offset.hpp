@@ -95,7 +95,8 @@ struct TREEFORM_API offset_result {
                                                 const offset_options& options = {});
 
 /// Hollows the solid: its points deeper inside than `wall` become cavities; the outer surface stays
-/// bit for bit. The status is `vanished` if there is no cavity.
+/// bit for bit. The cavities are made of flat faces, so walls may be thinner:
+/// `offset_result::least_distance`. The status is `vanished` if there is no cavity.
 ///
 /// `drains` are holes through the wall: a point and a diameter. Each runs from the point of the
 /// surface nearest to the given one, along the shortest segment to a cavity. It is a regular prism

@@ -47,6 +47,7 @@ struct simplify_result {
     /// the same side of seams; none at new vertices
     std::vector<std::uint32_t> corner_source;
     std::uint64_t collapses = 0;            ///< edges collapsed
+    std::uint64_t fixed_vertices = 0;       ///< that stay: at nonmanifold edges and vertices
     std::uint64_t refused_by_topology = 0;  ///< edges whose collapse would change the topology
     std::uint64_t refused_by_turning = 0;   ///< edges whose collapse would turn a face too far
     /// Edges whose collapse was not proven within the distance.

@@ -128,6 +128,7 @@ py::object object(of_result, tf::simplify_result&& from, const carrying& attribu
     made["face_of_new_vertex"] = as_python(std::move(from.face_of_new_vertex));
     made["corner_source"] = as_python(std::move(from.corner_source));
     made["collapses"] = as_python(std::move(from.collapses));
+    made["fixed_vertices"] = as_python(std::move(from.fixed_vertices));
     made["refused_by_topology"] = as_python(std::move(from.refused_by_topology));
     made["refused_by_turning"] = as_python(std::move(from.refused_by_turning));
     made["refused_by_distance"] = as_python(std::move(from.refused_by_distance));

@@ -164,6 +164,7 @@ typedef struct treeform_simplify_result {
     double input_to_result_bound;
     /// Bound of the distance from any point of the result to the input.
     double result_to_input_bound;
+    uint64_t fixed_vertices;  ///< that stay: at nonmanifold edges and vertices
 } treeform_simplify_result;
 
 /// The mesh with fewer faces, by edge collapses in the order of their quadric error.
