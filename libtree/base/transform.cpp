@@ -8,8 +8,8 @@
 
 namespace treeform {
 
-template <>
-transform<3> transform<3>::rotation(const std::array<double, 3>& about, double degrees) {
+std::array<std::array<double, 4>, 3> detail::rotation_rows(const std::array<double, 3>& about,
+                                                           double degrees) {
     std::array<double, 3> axis = about;
     const double length = std::hypot(axis[0], axis[1], axis[2]);
     if (!(length > 0.0 && std::isfinite(length) && std::isfinite(degrees)))
@@ -20,14 +20,14 @@ transform<3> transform<3>::rotation(const std::array<double, 3>& about, double d
     const std::array<double, 4> turns{std::cos(rest), -std::sin(rest), -std::cos(rest),
                                       std::sin(rest)};
     const double c = turns[quarters & 3], s = turns[(quarters + 3) & 3];
-    transform result;
+    std::array<std::array<double, 4>, 3> rows{};
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-        result.rows[i][i] = axis[i] * axis[i] + c * (axis[j] * axis[j] + axis[k] * axis[k]);
-        result.rows[i][j] = (1.0 - c) * axis[i] * axis[j] - s * axis[k];
-        result.rows[i][k] = (1.0 - c) * axis[i] * axis[k] + s * axis[j];
+        rows[i][i] = axis[i] * axis[i] + c * (axis[j] * axis[j] + axis[k] * axis[k]);
+        rows[i][j] = (1.0 - c) * axis[i] * axis[j] - s * axis[k];
+        rows[i][k] = (1.0 - c) * axis[i] * axis[k] + s * axis[j];
     }
-    return result;
+    return rows;
 }
 
 }  // namespace treeform

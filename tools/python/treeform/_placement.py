@@ -183,8 +183,8 @@ def slide(moving: Body, fixed: Any, direction: ArrayLike, clearance: float = 0.0
         float32, the smallest value not below it), and no point is below it.
 
     Raises ValueError for a direction that is zero or not finite; a clearance that is negative or
-    not finite; a bed that is not finite or beyond float32; naming the operand and its lowest face
-    with a corner out of range or not finite.
+    not finite; a bed that is not finite or beyond float32, or with a direction that does not lead
+    down to it; naming the operand and its lowest face with a corner out of range or not finite.
 
     Cost: O(V + F) of all meshes to check the input; the search in motion; for each attempt at
     rounding a tree over `moving` and a `measure` to the meshes nearby.

@@ -61,8 +61,9 @@ struct placement_options {
 /// Only fixed meshes on the way are tested and indexed. For many calls, pass prepared meshes.
 ///
 /// \throws std::invalid_argument for a direction that is zero or not finite; a clearance that is
-///         negative or not finite; a bed that is not finite or beyond float32; naming the operand
-///         and its lowest face with a corner out of range or not finite
+///         negative or not finite; a bed that is not finite or beyond float32, or with a direction
+///         that does not lead down to it; naming the operand and its lowest face with a corner out
+///         of range or not finite
 /// \cost   O(V + F) of all meshes to check the input; the search in motion; for each attempt at
 ///         rounding a tree over `moving` and a `relation` to the meshes nearby
 /// \same   on any number of threads

@@ -102,6 +102,11 @@ template <class T, std::size_t D>
     return common;
 }
 
+namespace detail {
+[[nodiscard]] TREEFORM_API std::array<std::array<double, 4>, 3> rotation_rows(
+    const std::array<double, 3>& about, double degrees);
+}  // namespace detail
+
 /// The affine map that takes a point x to M x + t. Row k of `rows` is [M[k][0] ... M[k][D-1],
 /// t[k]]. By default the identity. M may be any matrix: a rotation, a mirror, a shear, even
 /// singular.
@@ -141,7 +146,9 @@ struct transform {
     ///
     /// \throws std::invalid_argument if the axis is zero, or it or the angle is not finite
     [[nodiscard]] static transform rotation(const std::array<double, 3>& axis,
-                                            double degrees) requires(D == 3);
+                                            double degrees) requires(D == 3) {
+        return {detail::rotation_rows(axis, degrees)};
+    }
 
     /// The composition: the map that applies `inner` first, then this map. Entries are rounded.
     [[nodiscard]] constexpr transform after(const transform& inner) const {
@@ -195,9 +202,6 @@ struct transform {
         return result;
     }
 };
-
-template <>
-TREEFORM_API transform<3> transform<3>::rotation(const std::array<double, 3>& axis, double degrees);
 
 namespace detail {
 
