@@ -237,7 +237,7 @@ class tool_test {
         const tf::solid_defects found = tf::find_solid_defects(tf::carry_source{&written, {}});
         require(found.degenerate == 0, "wrote a degenerate face");
         require(found.meeting_pairs == 0, "wrote faces that meet");
-        require(found.open_edges == 0, "wrote an open edge");
+        require(found.boundary_edges == 0, "wrote an open edge");
     }
 
     void check_surface(const tf::mesh& written) const {
