@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Whether a mesh bounds a solid.
+/// Whether a mesh can be an operand: whether it is closed.
 
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh.hpp>

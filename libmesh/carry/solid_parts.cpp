@@ -71,11 +71,10 @@ std::vector<scene_part> named_parts(const carry_source& input, bool joined_at_po
     return scene_parts(input.file->mesh, input.file->attributes.parts, stored, joined_at_points);
 }
 
-/// The same, except that two parts are merged if a
-/// border edge of one (an edge with one face of the part) has the same coordinates as a border edge
-/// of the other: they are patches of one surface. Solids that touch are not merged. Parts are in
-/// the order of their lowest faces; faces in a part ascend. The box of a merged part is that of its
-/// first part.
+/// The same, joined at points; also two parts are merged if a border edge of one (an edge with one
+/// face of the part) has the same coordinates as a border edge of the other: they are patches of
+/// one surface. Solids that touch are not merged. Parts are in the order of their lowest faces;
+/// faces in a part ascend. The box of a merged part is that of its first part.
 ///
 /// \cost O(V log V + F log F)
 std::vector<scene_part> surface_parts(const carry_source& input) {
