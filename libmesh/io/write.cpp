@@ -188,11 +188,10 @@ class writing {
         if (!may_round && result_.max_displacement > 0.0)
             throw io_error(name_ + ": " + result_.format +
                            " would round certified coordinates; compute the result with "
-                           "precision float32, write " +
+                           "precision float32, or write " +
                            (format_.single_unless_asked && options.precision != precision::float32
                                 ? "with precision float64"
-                                : "a format that holds doubles") +
-                           ", or allow rounding (option round)");
+                                : "a format that holds doubles"));
         if (file.mesh.faces.empty() && !file.mesh.points.empty() &&
             (format_.extension == "stl" || format_.extension == "glb" ||
              format_.extension == "3mf"))

@@ -23,7 +23,9 @@ std::string in_python(std::string message) {
     if (tells(" is not finite") && (tells("point ") || tells("corner ")))
         message += "; read(..., drop_non_finite=True) drops such points";
     if (tells("precision float32, "))
-        message += "; for a - b: treeform.boolean(\"a-b\", a, b, precision=\"float32\")";
+        message +=
+            "; or set round=True; for a - b: treeform.boolean(\"a-b\", a, b, "
+            "precision=\"float32\")";
     return message;
 }
 
