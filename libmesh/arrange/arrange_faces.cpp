@@ -114,7 +114,7 @@ struct clusters {
 bool spares(const meeting& m, std::uint32_t f) {
     if (m.count >= 3) return false;
     for (std::size_t k = 0; k < m.count; ++k)
-        if ((m.a == f ? m.ends[k].on_a : m.ends[k].on_b) > feature::v2) return false;
+        if ((m.a == f ? m.ends[k].on_a : m.ends[k].on_b) > triangle_feature::v2) return false;
     return true;
 }
 
@@ -390,7 +390,7 @@ arrange_faces_result arrange_faces(mesh_view mesh, const arrange_faces_options& 
             }
         usable.faces = kept;
     }
-    intersection_result found = detail::intersect::pairs_by_tree(
+    face_pair_result found = detail::intersect::pairs_by_tree(
         usable, detail::base::checked_face_tree(usable),
         {.vertices = vertex_identity::by_index, .progress = part_of(options.progress, 0.0, 0.5)});
     if (found.status == treeform::status::cancelled) return cancelled_result(std::move(degenerate));

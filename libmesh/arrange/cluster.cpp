@@ -110,7 +110,7 @@ class cutter {
                 const std::uint32_t other = first ? m.b : m.a;
                 for (std::size_t k = 0; k < m.count; ++k) {
                     const intersect::meeting_end& end = m.ends[k];
-                    const feature here = first ? end.on_a : end.on_b;
+                    const triangle_feature here = first ? end.on_a : end.on_b;
                     if (geometry::is_edge(here))
                         on.push_back({end.point,
                                       {false, intersect::edge_of(corners(f),

@@ -138,7 +138,7 @@ class pair_inspection {
         }
         found.relation = how.relation == mesh_relation::touching ? mesh_relation::touching
                                                                  : mesh_relation::penetrating;
-        intersection_options all;
+        face_pair_options all;
         all.progress = asking_;
         const auto meeting =
             detail::intersect::mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(), all);
@@ -209,7 +209,7 @@ void check_parts(std::span<const prepared_mesh> parts, const clash_options& opti
     if (!(options.clearance >= 0.0) || !std::isfinite(options.clearance))
         throw std::invalid_argument("treeform::clash: the clearance is negative or not finite");
     for (std::size_t i = 0; i < parts.size(); ++i)
-        detail::place::check_operand("clash", "part " + std::to_string(i), parts[i].view());
+        detail::place::check_operand("clash", "part " + std::to_string(i), parts[i].indexed_view());
 }
 
 void count(clash_result& result, const part_clash& one, double clearance) {

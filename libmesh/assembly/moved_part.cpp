@@ -67,8 +67,9 @@ bool is_motion(const transform<3>& move) {
 
 std::vector<std::optional<box3>> boxes_of(std::span<const prepared_mesh> parts) {
     std::vector<std::optional<box3>> boxes(parts.size());
-    base::for_numbers(parts.size(), 16,
-                      [&](std::size_t i) { boxes[i] = place::box_of_faces(parts[i].view()); });
+    base::for_numbers(parts.size(), 16, [&](std::size_t i) {
+        boxes[i] = place::box_of_faces(parts[i].indexed_view());
+    });
     return boxes;
 }
 
@@ -113,7 +114,7 @@ std::vector<part_pair> sorted_pairs(const char* function, std::span<const part_p
 
 resting_part::resting_part(const prepared_mesh& mesh, vertex_identity vertices)
     : shape_(mesh, vertices),
-      box_(place::box_of_faces(mesh.view())),
+      box_(place::box_of_faces(mesh.indexed_view())),
       solid_(box_ && shape_.closed()) {
     if (!box_) return;
     const mesh_view joined = shape_.joined();
@@ -210,9 +211,9 @@ std::optional<bool> moved_part::holds_part_of(const moved_part& other) const {
 part_relation moved_part::relation_to(const moved_part& other, double clearance) const {
     const place::shape &a = part_->shape(), &b = other.part_->shape();
     if (intersects(a.prepared(), b.prepared(), {move_, other.move_})) {
-        intersection_options crossing;
-        crossing.move_a = move_;
-        crossing.move_b = other.move_;
+        face_pair_options crossing;
+        crossing.transform_a = move_;
+        crossing.transform_b = other.move_;
         crossing.first_only = true;
         crossing.kinds = pair_kind::crossing;
         const auto through = mesh_intersections(a.prepared(), b.prepared(), crossing);

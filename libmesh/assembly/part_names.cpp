@@ -54,13 +54,13 @@ std::vector<part_pair> pairs_named(std::span<const std::string> names, std::stri
 
 body_file& body_set::add_named_parts(mesh_file content, std::string label, std::string name) {
     body_file& file = add(std::move(content), std::move(label), std::move(name));
-    const std::vector<part>& names = file.content.attributes.parts;
+    const std::vector<named_faces>& names = file.content.attributes.parts;
     if (!file.box || file.cloud || names.empty()) return file;
-    const std::size_t whole = bodies_.size() - 1, count = shapes[whole].view().faces.size();
+    const std::size_t whole = bodies_.size() - 1, count = shapes[whole].indexed_view().faces.size();
     std::vector<std::uint32_t> triangle, stored;
     for (std::uint32_t f = 0; f < count; ++f) {
         triangle.push_back(this->triangle(whole, f));
-        stored.push_back(stored_face(whole, f));
+        stored.push_back(face_in_file(whole, f));
     }
     const auto parts = scene_parts(select_faces(file.content.mesh, triangle), names, stored, false);
     shapes.pop_back();

@@ -90,7 +90,7 @@ void check_pose_input(std::span<const prepared_mesh> parts, std::span<const tran
 /// What `ask` says of the meshes at each of the positions.
 template <class Answer, class Ask>
 std::vector<Answer> at_positions(const mesh_ref& given_a, const mesh_ref& given_b,
-                                 std::span<const mesh_positions> positions, const Ask& ask) {
+                                 std::span<const mesh_pair_options> positions, const Ask& ask) {
     const detail::base::prepared_ref a(given_a);
     const detail::base::prepared_ref b(given_b);
     std::vector<Answer> found(positions.size());
@@ -134,14 +134,14 @@ pose_result check_poses(const mesh_refs& given_parts, std::span<const transform<
 }
 
 std::vector<bool> intersects(const mesh_ref& a, const mesh_ref& b,
-                             std::span<const mesh_positions> positions) {
+                             std::span<const mesh_pair_options> positions) {
     const auto found = at_positions<std::uint8_t>(
         a, b, positions, [](const auto&... at) { return std::uint8_t{intersects(at...)}; });
     return {found.begin(), found.end()};
 }
 
 std::vector<double> distance(const mesh_ref& a, const mesh_ref& b,
-                             std::span<const mesh_positions> positions) {
+                             std::span<const mesh_pair_options> positions) {
     return at_positions<double>(a, b, positions, [](const auto&... at) { return distance(at...); });
 }
 

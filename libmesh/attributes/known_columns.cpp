@@ -168,12 +168,12 @@ void look_at_ranges(const element& rows, std::vector<value_range>& seen) {
         auto at = std::ranges::find(seen, c.name, &value_range::column);
         if (at == seen.end()) {
             constexpr double far = std::numeric_limits<double>::infinity();
-            at = seen.insert(at, {.column = c.name, .least = far, .greatest = -far});
+            at = seen.insert(at, {.column = c.name, .min = far, .max = -far});
         }
         for (std::size_t i = 0; i < c.size(); ++i) {
             const double value = c.number(i);
-            at->least = std::min(at->least, std::isnan(value) ? at->least : value);
-            at->greatest = std::max(at->greatest, std::isnan(value) ? at->greatest : value);
+            at->min = std::min(at->min, std::isnan(value) ? at->min : value);
+            at->max = std::max(at->max, std::isnan(value) ? at->max : value);
             at->whole = at->whole && value == std::floor(value);
         }
     }
@@ -308,7 +308,7 @@ void translation::choose_scale(const std::vector<const column*>& channels) {
         double greatest = -1.0;
         for (const column* c : channels) {
             const value_range* const r = range_of(c->name);
-            greatest = std::max(greatest, r == nullptr ? otherwise : r->greatest);
+            greatest = std::max(greatest, r == nullptr ? otherwise : r->max);
         }
         return greatest;
     };
@@ -382,13 +382,13 @@ void translation::plan_intensity(target& t, const column& c) {
     t.how = way::scaled;
     t.declared.type = uint16;
     const value_range* const r = range_of(c.name);
-    if (r != nullptr && r->least >= 0.0 && r->greatest <= 1.0 && !r->whole) {
+    if (r != nullptr && r->min >= 0.0 && r->max <= 1.0 && !r->whole) {
         t.factor = 65535.0;
         return say("scaled", c.name +
                                  " is from 0 to 1 and is multiplied by 65535, since LAS has whole "
                                  "numbers");
     }
-    if (r == nullptr || !r->whole || r->least < 0.0 || r->greatest > 65535.0)
+    if (r == nullptr || !r->whole || r->min < 0.0 || r->max > 65535.0)
         say("scaled", c.name + " is rounded to whole numbers from 0 to 65535, as LAS stores it");
 }
 

@@ -11,27 +11,27 @@ namespace treeform {
 
 namespace {
 
-bool fits_single(double x) { return !std::isfinite(x) || detail::base::nearest_float(x) == x; }
+bool fits_float32(double x) { return !std::isfinite(x) || detail::base::nearest_float(x) == x; }
 
 }  // namespace
 
-bool fits_single(std::span<const point3> points) {
+bool fits_float32(std::span<const point3> points) {
     return std::all_of(points.begin(), points.end(), [](const point3& p) {
-        return fits_single(p.x) && fits_single(p.y) && fits_single(p.z);
+        return fits_float32(p.x) && fits_float32(p.y) && fits_float32(p.z);
     });
 }
 
 void mesh_file::split_polygons() {
     mesh_file& file = *this;
-    if (file.stored_face.empty()) return;
+    if (file.face_of_triangle.empty()) return;
     for (element& e : file.attributes.elements)
-        if (e.name == "face") e = e.gathered(file.stored_face);
-    for (part& p : file.attributes.parts) {
-        const auto at =
-            std::lower_bound(file.stored_face.begin(), file.stored_face.end(), p.first_face);
-        p.first_face = static_cast<std::uint32_t>(at - file.stored_face.begin());
+        if (e.name == "face") e = e.gathered(file.face_of_triangle);
+    for (named_faces& p : file.attributes.parts) {
+        const auto at = std::lower_bound(file.face_of_triangle.begin(), file.face_of_triangle.end(),
+                                         p.first_face);
+        p.first_face = static_cast<std::uint32_t>(at - file.face_of_triangle.begin());
     }
-    file.stored_face = {};
+    file.face_of_triangle = {};
     file.stored_faces = file.mesh.faces.size();
 }
 
@@ -49,9 +49,10 @@ std::size_t mesh_file::drop_non_finite() {
     const std::size_t dropped = m.points.size() - kept.size();
     if (dropped == 0) return 0;
     const auto stored_of = [&](std::uint32_t f) {
-        return file.stored_face.empty() ? f : file.stored_face[f];
+        return file.face_of_triangle.empty() ? f : file.face_of_triangle[f];
     };
-    std::vector<bool> is_bad(file.stored_face.empty() ? m.faces.size() : file.stored_faces, false);
+    std::vector<bool> is_bad(file.face_of_triangle.empty() ? m.faces.size() : file.stored_faces,
+                             false);
     for (std::uint32_t f = 0; f < m.faces.size(); ++f)
         for (const std::uint32_t corner : m.faces[f])
             if (new_of_old[corner] == none) is_bad[stored_of(f)] = true;
@@ -67,20 +68,20 @@ std::size_t mesh_file::drop_non_finite() {
         if (e.name == "face") e = e.gathered(rows);
     }
     file.attributes.corners = file.attributes.corners.gathered(triangles);
-    for (part& p : file.attributes.parts) p.first_face = new_row[p.first_face];
+    for (named_faces& p : file.attributes.parts) p.first_face = new_row[p.first_face];
     std::vector<std::uint32_t> stored;
     std::vector<face> faces;
     for (const std::uint32_t f : triangles) {
         face corners = m.faces[f];
         for (std::uint32_t& corner : corners) corner = new_of_old[corner];
         faces.push_back(corners);
-        if (!file.stored_face.empty()) stored.push_back(new_row[file.stored_face[f]]);
+        if (!file.face_of_triangle.empty()) stored.push_back(new_row[file.face_of_triangle[f]]);
     }
     std::vector<point3> points;
     for (const std::uint32_t p : kept) points.push_back(m.points[p]);
     m = {std::move(points), std::move(faces)};
-    file.stored_face = std::move(stored);
-    file.stored_faces = file.stored_face.empty() ? m.faces.size() : rows.size();
+    file.face_of_triangle = std::move(stored);
+    file.stored_faces = file.face_of_triangle.empty() ? m.faces.size() : rows.size();
     return dropped;
 }
 

@@ -20,9 +20,9 @@ struct name_table {
     std::vector<std::string> names{std::string()};
     std::vector<std::uint32_t> of_part{};
 
-    explicit name_table(std::span<const part> parts) {
+    explicit name_table(std::span<const named_faces> parts) {
         std::map<std::pair<std::string_view, std::string_view>, std::uint32_t> known{{{}, 0}};
-        for (const part& p : parts) {
+        for (const named_faces& p : parts) {
             const auto [at, is_new] =
                 known.try_emplace({p.object, p.group}, static_cast<std::uint32_t>(names.size()));
             if (is_new) names.push_back(part_name(p));
@@ -32,7 +32,7 @@ struct name_table {
 };
 
 /// [F] The name of each face.
-std::vector<std::uint32_t> names_of_faces(std::size_t faces, std::span<const part> parts,
+std::vector<std::uint32_t> names_of_faces(std::size_t faces, std::span<const named_faces> parts,
                                           std::span<const std::uint32_t> number,
                                           const name_table& table) {
     std::vector<std::uint32_t> name(faces, 0);
@@ -47,7 +47,7 @@ std::vector<std::uint32_t> names_of_faces(std::size_t faces, std::span<const par
 
 }  // namespace
 
-std::vector<scene_part> scene_parts(mesh_view mesh, std::span<const part> names,
+std::vector<scene_part> scene_parts(mesh_view mesh, std::span<const named_faces> names,
                                     std::span<const std::uint32_t> number, bool joined_at_points) {
     if (!number.empty() && number.size() != mesh.faces.size())
         throw std::invalid_argument("treeform::scene_parts: expected one number for each face");

@@ -22,7 +22,7 @@ struct scene_part {
 };
 
 /// "object", "object/group", "group" or empty.
-[[nodiscard]] inline std::string part_name(const part& p) {
+[[nodiscard]] inline std::string part_name(const named_faces& p) {
     return p.object.empty() || p.group.empty() ? p.object + p.group : p.object + "/" + p.group;
 }
 
@@ -41,7 +41,7 @@ struct scene_part {
 ///         corner out of range
 /// \cost   O(F + P log P) for P of `names`
 [[nodiscard]] TREEFORM_API std::vector<scene_part> scene_parts(
-    mesh_view mesh, std::span<const part> names, std::span<const std::uint32_t> number = {},
+    mesh_view mesh, std::span<const named_faces> names, std::span<const std::uint32_t> number = {},
     bool joined_at_points = true);
 
 }  // namespace treeform

@@ -22,7 +22,7 @@ tree<3> build_face_tree(mesh_view mesh, const char* function) {
 const tree<3>& build_face_tree(const prepared_mesh& mesh, const char* function) {
     constexpr detail::base::slot<tree<3>> slot{detail::base::slot_name::face_tree};
     return detail::base::prepared_slots::get(
-        mesh, slot, [&] { return build_face_tree(mesh.view(), function); });
+        mesh, slot, [&] { return build_face_tree(mesh.indexed_view(), function); });
 }
 
 tree<3> detail::base::checked_face_tree(mesh_view mesh) {

@@ -22,7 +22,7 @@ class prepared_ref {
         return given_ != nullptr ? *given_ : *own_;
     }
     operator const prepared_mesh&() const { return **this; }  // NOLINT: meant to be implicit
-    [[nodiscard]] mesh_view view() const { return (**this).view(); }
+    [[nodiscard]] mesh_view view() const { return (**this).indexed_view(); }
     [[nodiscard]] bool is_cloud() const { return (**this).is_cloud(); }
 
   private:

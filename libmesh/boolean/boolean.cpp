@@ -268,7 +268,7 @@ near_result clip_of(std::span<const mesh_view> views, std::uint32_t sheet,
     check_expression("clip", views, expression);
     if (sheet >= views.size())
         throw std::invalid_argument("treeform::clip: the sheet is not an operand");
-    if (!expression.needs(sheet))
+    if (!expression.is_inside(sheet))
         throw std::invalid_argument(
             "treeform::clip: the expression must be false outside of the sheet");
     bundled_operands operands(views, sheet);

@@ -104,9 +104,9 @@ constexpr base::slot<known_pairs> first_found{base::slot_name::few_own_pairs};
 
 known_pairs find_pairs(const prepared_mesh& mesh, const progress_callback& progress,
                        std::size_t most, const intersect::wanted_pairs* wanted = nullptr) {
-    if (mesh.view().faces.empty()) return {};
-    intersection_result met = intersect::pairs_by_tree(
-        mesh.view(), build_face_tree(mesh),
+    if (mesh.indexed_view().faces.empty()) return {};
+    face_pair_result met = intersect::pairs_by_tree(
+        mesh.indexed_view(), build_face_tree(mesh),
         {.vertices = vertex_identity::by_index, .progress = progress}, most, wanted);
     if (met.status == treeform::status::cancelled) throw stopped{};
     if (met.pairs.size() > most) return {{}, false};
@@ -135,7 +135,7 @@ cut_operand cut_operand_of(joined_operands&& joined, bool is_closed) {
 const cut_operand& cut_operand_of(const prepared_mesh& mesh) {
     constexpr base::slot<cut_operand> slot{base::slot_name::cut_operand};
     return base::prepared_slots::get(mesh, slot, [&] {
-        const mesh_view view = mesh.view();
+        const mesh_view view = mesh.indexed_view();
         const auto join = [&] { return cut_operand_of(join_operands(std::array{view}), false); };
         // Points that none uses may be anything.
         if (base::used_points(view.points.size(), view.faces).size() != view.points.size())
@@ -155,7 +155,7 @@ const cut_operand& cut_operand_of(const prepared_mesh& mesh) {
 
 std::optional<std::span<const face_pair>> few_own_pairs(const prepared_mesh& mesh,
                                                         const progress_callback& progress) {
-    const std::size_t most = mesh.view().faces.size() / faces_of_a_pair;
+    const std::size_t most = mesh.indexed_view().faces.size() / faces_of_a_pair;
     const known_pairs& known = base::prepared_slots::get(
         mesh, first_found, [&] { return find_pairs(mesh, progress, most); });
     if (!known.are_all || known.pairs.size() > most) return std::nullopt;

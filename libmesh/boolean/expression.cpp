@@ -258,7 +258,7 @@ bool boolean_expression::operator()(std::span<const bool> in_operand) const {
     return !values.empty() && values.back();
 }
 
-bool boolean_expression::needs(std::size_t operand) const {
+bool boolean_expression::is_inside(std::size_t operand) const {
     std::vector<outlook> values;
     for (const std::int32_t token : postfix_) {
         if (token >= 0) {

@@ -78,7 +78,7 @@ class lot_reader {
 };
 
 face_clusters find_clusters(const prepared_mesh& mesh) {
-    const std::span<const face> faces = mesh.view().faces;
+    const std::span<const face> faces = mesh.indexed_view().faces;
     const auto face_at = build_face_tree(mesh).ids();
     face_clusters result;
     result.of_place.resize(faces.size());
@@ -97,7 +97,7 @@ face_clusters find_clusters(const prepared_mesh& mesh) {
     });
     std::partial_sum(first.begin(), first.end(), first.begin());
     result.first_place.resize(first.back());
-    buffer<std::uint32_t> lowest(mesh.view().points.size());  // cluster at each point
+    buffer<std::uint32_t> lowest(mesh.indexed_view().points.size());  // cluster at each point
     for_chunks(lowest.size(), light_grain, [&](std::size_t begin, std::size_t end, std::size_t) {
         std::fill(lowest.data() + begin, lowest.data() + end, no_number);
     });
@@ -138,7 +138,7 @@ const face_clusters& clusters_of(const prepared_mesh& mesh) {
 
 far_faces::far_faces(const prepared_mesh& mesh, std::span<const std::uint8_t> is_near)
     : face_at_(build_face_tree(mesh).ids()),
-      mesh_(mesh.view()),
+      mesh_(mesh.indexed_view()),
       clusters_(clusters_of(mesh)),
       is_near_(is_near),
       is_mixed_(clusters_.first_place.size(), 0) {

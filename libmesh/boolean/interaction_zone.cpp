@@ -150,7 +150,7 @@ void keep_pairs(std::vector<face_pair>&& across, const bundles& operands, intera
 
 void find_own_pairs_of_second(interaction_zone& near) {
     const std::span<const face> faces = near.local.faces;
-    const intersection_result found =
+    const face_pair_result found =
         self_intersections({near.local.points, faces.subspan(near.first_of_b)},
                            {.vertices = vertex_identity::by_index});
     for (const auto& [a, b, kind] : found.pairs)
@@ -160,9 +160,10 @@ void find_own_pairs_of_second(interaction_zone& near) {
 
 std::vector<face_pair> pairs_across(const bundles& operands, bool single_use) {
     const prepared_mesh &a = *operands[0].mesh, &b = *operands[1].mesh;
-    if (a.view().faces.empty() || b.view().faces.empty()) return {};
+    if (a.indexed_view().faces.empty() || b.indexed_view().faces.empty()) return {};
     if (!single_use) return treeform::mesh_intersections(a, b).pairs;
-    return intersect::mesh_intersections(a.view(), build_face_tree(a), b.view(), build_face_tree(b))
+    return intersect::mesh_intersections(a.indexed_view(), build_face_tree(a), b.indexed_view(),
+                                         build_face_tree(b))
         .pairs;
 }
 

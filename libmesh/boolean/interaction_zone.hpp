@@ -25,7 +25,7 @@ struct bundle {
     /// [F] operand of each face, if there are several
     std::vector<std::uint32_t> operand_of_face{};
 
-    [[nodiscard]] mesh_view view() const { return mesh->view(); }
+    [[nodiscard]] mesh_view view() const { return mesh->indexed_view(); }
     [[nodiscard]] std::uint32_t operand_of(std::size_t face) const {
         return operand_of_face.empty() ? operand : operand_of_face[face];
     }

@@ -358,9 +358,9 @@ void keep_counts(const bundles& operands, const arrange_faces_result& arranged,
     result.statistics.cut_faces = arranged.cut_faces;
     result.statistics.degenerate = operands[0].known->degenerate + operands[1].known->degenerate;
     result.statistics.rounding_rounds = rounded.rounds;
-    result.statistics.slivers = rounded.slivers;
+    result.statistics.rounding_repairs = rounded.slivers;
     result.vanished_components = rounded.vanished_components;
-    result.vanished_reach = rounded.vanished_reach;
+    result.vanished_distance = rounded.vanished_distance;
     result.vanished_at = std::move(rounded.vanished_at);
 }
 

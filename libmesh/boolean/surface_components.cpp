@@ -235,8 +235,8 @@ component_windings surface_components::windings_of(const component& c) const {
             return component_windings(*range);
     std::vector<face> faces(count);
     for (std::size_t i = 0; i < count; ++i) faces[i] = mesh_.faces[own[i]];
-    const intersection_result met = intersect::pairs_by_tree(
-        {mesh_.points, faces}, c.index, {.vertices = vertex_identity::by_index});
+    const face_pair_result met = intersect::pairs_by_tree({mesh_.points, faces}, c.index,
+                                                          {.vertices = vertex_identity::by_index});
     const int sign = sign_of(count, corners_of);
     const winding_range by_sign{sign < 0 ? -1 : 0, sign > 0 ? 1 : 0};
     // What edges link is on the boundary of one region on each of its sides, and the outer one has

@@ -48,7 +48,7 @@ void keep_faces(usable_mesh& part, std::vector<std::uint32_t> faces) {
     part.triangle_of_face = std::move(faces);
 }
 
-void join_points(usable_mesh& part, const part_options& options) {
+void join_points(usable_mesh& part, const usable_options& options) {
     if (options.vertices == vertex_identity::by_coordinates || options.tolerance > 0.0) {
         part.mesh = join_equal_points(part.mesh);
         part.distinct = part.mesh.points.size();
@@ -100,13 +100,13 @@ usable_mesh as_mesh(mesh_file file) {
     for (point3& p : file.mesh.points)  // behind the join, or a 0 of ours might stand for another
         if (!detail::base::is_finite(p)) p = {};
     result.mesh = std::move(file.mesh);
-    result.stored_face = std::move(file.stored_face);
+    result.face_of_triangle = std::move(file.face_of_triangle);
     return result;
 }
 
-usable_mesh usable_part(mesh given, std::vector<std::uint32_t> stored_face,
-                        const part_options& options) {
-    usable_mesh part{.mesh = std::move(given), .stored_face = std::move(stored_face)};
+usable_mesh usable_faces(mesh given, std::vector<std::uint32_t> face_of_triangle,
+                         const usable_options& options) {
+    usable_mesh part{.mesh = std::move(given), .face_of_triangle = std::move(face_of_triangle)};
     if (part.mesh.faces.empty()) {
         part.non_finite = drop_non_finite_points(part.mesh);
         return part;

@@ -3,8 +3,8 @@
 /// What sources of this room share: what of the inputs is carried to what is made of them, and
 /// where in a face a point is.
 
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/attributes.hpp>
-#include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 
@@ -40,7 +40,7 @@ struct carried_elements {
 /// at a common point. With `corner_source`, values are those of these corners, or interpolated in
 /// the face of a new vertex; a face whose source has a single normal gets its own normal. Texture
 /// coordinates that a PLY file had as double are written as double to PLY.
-void carry_corners(mesh_file& file, std::span<const carry_source> inputs,
+void carry_corners(mesh_file& file, std::span<const attribute_source> inputs,
                    const carried_elements& made);
 
 /// Whether two triangles with a common edge have equal values at both of its ends; for normals, it
@@ -51,14 +51,14 @@ void carry_corners(mesh_file& file, std::span<const carry_source> inputs,
                               const std::array<std::array<std::size_t, 2>, 2>& at_ends);
 
 /// The material of face `face` of an input; empty if it has none.
-[[nodiscard]] const std::string& material_of(const carry_source& input, std::uint32_t face);
+[[nodiscard]] const std::string& material_of(const attribute_source& input, std::uint32_t face);
 
 /// Sets the parts of `file`, with the materials of the source faces, and the material files of all
 /// inputs. With a single input, parts also keep their names; with several, names would only tell
 /// the origin of each piece. A face without a source is put into the part of a face with a common
 /// corner. Texture files are those of the first input: with several inputs, `unite_textures` must
 /// have made one list before.
-void carry_materials(mesh_file& file, std::span<const carry_source> inputs,
+void carry_materials(mesh_file& file, std::span<const attribute_source> inputs,
                      const carried_elements& made);
 
 struct shares_of_corners {
@@ -91,7 +91,7 @@ struct property {
 };
 
 /// The properties of an element that have one value a row, except for the normals of points.
-[[nodiscard]] std::vector<property> properties_of(std::span<const carry_source> inputs,
+[[nodiscard]] std::vector<property> properties_of(std::span<const attribute_source> inputs,
                                                   const char* name);
 
 /// The header of the first file, if it is LAS; otherwise empty. Scale and offset are changed so
@@ -111,7 +111,7 @@ struct solid_part {
     std::vector<std::uint32_t> points{};  ///< [V] point numbers in the file, ascending
 };
 
-/// The parts of a file, as of `split_parts`, with their points; empty where there is but one.
-[[nodiscard]] std::vector<solid_part> solid_parts(const carry_source& input);
+/// The parts of a file, as of `file_parts`, with their points; empty where there is but one.
+[[nodiscard]] std::vector<solid_part> solid_parts(const attribute_source& input);
 
 }  // namespace treeform::detail::carry

@@ -30,7 +30,7 @@ struct row_source {
 };
 
 template <class Row>
-row_source<Row> source_of(const carry_source& input) {
+row_source<Row> source_of(const attribute_source& input) {
     const corner_values& corners = input.file->attributes.corners;
     if constexpr (std::is_same_v<Row, point3>)
         return {corners.normals, corners.normal_of_corner};
@@ -92,7 +92,7 @@ place_in_face place_of(const point3& p, const mesh& mesh, const face& corners) {
 }
 
 /// A point as it was before it was rounded, where it is one of an input.
-const point3& place_before(std::span<const carry_source> inputs, const mesh& surface,
+const point3& place_before(std::span<const attribute_source> inputs, const mesh& surface,
                            const carried_elements& made, std::uint32_t p) {
     const operand_element source = made.vertex_source[p];
     return source == operand_element{} ? surface.points[p]
@@ -103,8 +103,8 @@ const point3& place_before(std::span<const carry_source> inputs, const mesh& sur
 template <class Row>
 class row_carrier {
   public:
-    row_carrier(std::span<const carry_source> inputs, std::size_t points) : made_(points) {
-        for (const carry_source& input : inputs) {
+    row_carrier(std::span<const attribute_source> inputs, std::size_t points) : made_(points) {
+        for (const attribute_source& input : inputs) {
             sources_.push_back(source_of<Row>(input));
             copies_.push_back({});
             for (auto& copies : copies_.back()) copies.assign(sources_.back().rows.size(), none);
@@ -183,8 +183,9 @@ class row_carrier {
 
 /// Gives corner `k` of face `f` of a simplified surface its value.
 template <class Row>
-std::uint32_t simplified(row_carrier<Row>& carrier, const carry_source& input, const mesh& surface,
-                         const carried_elements& made, std::size_t f, std::size_t k) {
+std::uint32_t simplified(row_carrier<Row>& carrier, const attribute_source& input,
+                         const mesh& surface, const carried_elements& made, std::size_t f,
+                         std::size_t k) {
     if (const std::uint32_t corner = made.corner_source[3 * f + k]; corner != none)
         return carrier.carry_simplified(surface.faces[f][k], input.triangle(corner / 3),
                                         {.corner = corner % 3});
@@ -196,9 +197,9 @@ std::uint32_t simplified(row_carrier<Row>& carrier, const carry_source& input, c
 
 /// [F] the numbers of the corners of the result; empty where no input has such values.
 template <class Row>
-std::vector<face> carried(std::span<const carry_source> inputs, const mesh& surface,
+std::vector<face> carried(std::span<const attribute_source> inputs, const mesh& surface,
                           const carried_elements& made, std::vector<Row>& rows) {
-    const bool any = std::any_of(inputs.begin(), inputs.end(), [](const carry_source& input) {
+    const bool any = std::any_of(inputs.begin(), inputs.end(), [](const attribute_source& input) {
         return !source_of<Row>(input).of_corner.empty();
     });
     if (!any) return {};
@@ -207,7 +208,7 @@ std::vector<face> carried(std::span<const carry_source> inputs, const mesh& surf
     for (std::size_t f = 0; f < all.size(); ++f) {
         const operand_element source = made.face_source[f];
         if (source == operand_element{}) continue;
-        const carry_source& input = inputs[source.operand];
+        const attribute_source& input = inputs[source.operand];
         const face numbers = carrier.numbers_of(source.operand, input.triangle(source.index));
         if (numbers == face{none, none, none}) continue;
         if (!made.corner_source.empty()) {
@@ -237,8 +238,8 @@ std::vector<face> carried(std::span<const carry_source> inputs, const mesh& surf
 
 /// The list of a PLY that texture coordinates are to be written to, so that doubles stay doubles;
 /// null where floats will do.
-const column* double_list(std::span<const carry_source> inputs) {
-    for (const carry_source& input : inputs)
+const column* double_list(std::span<const attribute_source> inputs) {
+    for (const attribute_source& input : inputs)
         if (const element* faces = input.file->attributes.find("face"))
             for (const column& c : faces->columns)
                 if (c.role == column_role::texture && c.type == scalar_type::float64) return &c;
@@ -280,14 +281,14 @@ point3 with_length_one(const point3& v) {
 
 bool is_turned(const point3& normal, const point3& other) { return dot(normal, other) < 0.0; }
 
-void carry_corners(mesh_file& file, std::span<const carry_source> inputs,
+void carry_corners(mesh_file& file, std::span<const attribute_source> inputs,
                    const carried_elements& made) {
     corner_values& corners = file.attributes.corners;
     corners.texture_of_corner = carried(inputs, file.mesh, made, corners.texture);
     if (const column* list = double_list(inputs); list && !corners.texture_of_corner.empty())
         file.attributes.find_or_add("face", file.mesh.faces.size()).columns.push_back(*list);
     corners.normal_of_corner = carried(inputs, file.mesh, made, corners.normals);
-    corners.has_w = std::any_of(inputs.begin(), inputs.end(), [](const carry_source& input) {
+    corners.has_w = std::any_of(inputs.begin(), inputs.end(), [](const attribute_source& input) {
         return input.file->attributes.corners.has_w;
     });
 }

@@ -2,7 +2,7 @@
 #include <libmesh/carry/carried.hpp>
 #include <libmesh/weld/edge_uses.hpp>
 #include <libmesh/weld/equal_points.hpp>
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 
 #include <algorithm>
 #include <array>
@@ -86,24 +86,24 @@ class distinct_rows {
 
 /// The criteria for faces of a group.
 struct common_of_group {
-    bool values = true;   ///< as for `carry_sources::face_groups`
-    bool input = false;   ///< as for `carry_sources::face_groups`
+    bool values = true;   ///< as for `attribute_sources::face_groups`
+    bool input = false;   ///< as for `attribute_sources::face_groups`
     bool corners = true;  ///< with `values`, also corner values
 };
 
-/// As `carry_sources::face_groups`.
-std::vector<std::uint32_t> groups_of_faces(std::span<const carry_source> inputs,
+/// As `attribute_sources::face_groups`.
+std::vector<std::uint32_t> groups_of_faces(std::span<const attribute_source> inputs,
                                            const common_of_group& by) {
     std::vector<property> properties;
     std::map<std::string, double> materials;  // numbers from 1
     bool has_corner_values = false;
     if (by.values) properties = properties_of(inputs, "face");
-    for (const carry_source& input : inputs.first(by.values ? inputs.size() : 0)) {
+    for (const attribute_source& input : inputs.first(by.values ? inputs.size() : 0)) {
         const attributes& all = input.file->attributes;
         has_corner_values =
             has_corner_values || (by.corners && (!all.corners.texture_of_corner.empty() ||
                                                  !all.corners.normal_of_corner.empty()));
-        for (const part& p : all.parts)
+        for (const named_faces& p : all.parts)
             if (!p.material.empty())
                 materials.try_emplace(p.material, static_cast<double>(materials.size() + 1));
     }
@@ -117,7 +117,7 @@ std::vector<std::uint32_t> groups_of_faces(std::span<const carry_source> inputs,
             values.assign(1, by.input ? static_cast<double>(k) : 0.0);
             for (const property& p : properties) {
                 const column* column = p.of_input[k];
-                const double value = column ? column->number(inputs[k].stored_face(f)) : nothing;
+                const double value = column ? column->number(inputs[k].face_in_file(f)) : nothing;
                 values.push_back(std::isnan(value) ? nothing : value);
             }
             if (!materials.empty()) {
@@ -138,12 +138,12 @@ std::vector<std::uint32_t> groups_of_faces(std::span<const carry_source> inputs,
 }  // namespace
 }  // namespace detail::carry
 
-std::vector<std::uint32_t> carry_sources::face_groups(bool by_values, bool by_input) const {
+std::vector<std::uint32_t> attribute_sources::face_groups(bool by_values, bool by_input) const {
     return detail::carry::groups_of_faces(all_, {.values = by_values, .input = by_input});
 }
 
-std::vector<std::uint32_t> carry_sources::corner_groups() const {
-    const carry_source& input = all_.front();
+std::vector<std::uint32_t> attribute_sources::corner_groups() const {
+    const attribute_source& input = all_.front();
     const mesh& mesh = input.file->mesh;
     const corner_values& values = input.file->attributes.corners;
     const auto groups = detail::carry::groups_of_faces(all_, {.corners = false});

@@ -2,7 +2,7 @@
 #include <libmesh/carry/carried.hpp>
 #include <libmesh/io/vertex_columns.hpp>
 #include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -154,7 +154,7 @@ class joiner {
         for (std::size_t i = 0; i < files_.size(); ++i) {
             const mesh_file& file = files_[i];
             all_.indexed = all_.indexed && file.indexed;
-            polygons_ = polygons_ || !file.stored_face.empty();
+            polygons_ = polygons_ || !file.face_of_triangle.empty();
             parts_ = parts_ || !file.attributes.parts.empty();
             if (file.stored_as == precision::float64) all_.stored_as = precision::float64;
             for (const io_warning& w : file.warnings) warn(w.code, names_[i] + ": " + w.text);
@@ -257,7 +257,7 @@ class joiner {
         const auto& parts = file.attributes.parts;
         if (parts_ && file.stored_faces > 0 && (parts.empty() || parts.front().first_face > 0))
             all_.attributes.parts.push_back({.first_face = offset});
-        for (part part : parts) {
+        for (named_faces part : parts) {
             part.first_face += offset;
             all_.attributes.parts.push_back(std::move(part));
         }
@@ -271,9 +271,9 @@ class joiner {
             for (std::uint32_t& corner : corners) corner += first_point;
             all_.mesh.faces.push_back(corners);
             if (polygons_)
-                all_.stored_face.push_back(first_face + (file.stored_face.empty()
-                                                             ? static_cast<std::uint32_t>(f)
-                                                             : file.stored_face[f]));
+                all_.face_of_triangle.push_back(first_face + (file.face_of_triangle.empty()
+                                                                  ? static_cast<std::uint32_t>(f)
+                                                                  : file.face_of_triangle[f]));
         }
         all_.mesh.points.insert(all_.mesh.points.end(), file.mesh.points.begin(),
                                 file.mesh.points.end());

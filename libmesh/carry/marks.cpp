@@ -1,6 +1,6 @@
 #include <libmesh/attributes/class_colors.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/attributes.hpp>
-#include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/weld.hpp>
 
 #include <algorithm>
@@ -60,7 +60,7 @@ void face_marks::color(mesh_file& file, const usable_mesh& searched) const {
         kinds[t] = classes[t] = kind[f];
         regions[t] = region[f];
     }
-    if (!file.stored_face.empty()) file.split_polygons();
+    if (!file.face_of_triangle.empty()) file.split_polygons();
     if (!file.indexed) {  // a soup becomes a mesh; where vertices have numbers they keep them
         file.mesh = join_equal_points(file.mesh);
         file.attributes = {};

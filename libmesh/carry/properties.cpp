@@ -1,7 +1,7 @@
 #include <libmesh/carry/carried.hpp>
 #include <libmesh/io/vertex_columns.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/attributes.hpp>
-#include <treeform/mesh/carry.hpp>
 
 #include <algorithm>
 #include <array>
@@ -58,7 +58,7 @@ struct mixture {
 };
 
 /// Between the corners of a face of an input.
-mixture mixture_at(const point3& p, std::span<const carry_source> inputs,
+mixture mixture_at(const point3& p, std::span<const attribute_source> inputs,
                    const operand_element& in) {
     const mesh& mesh = inputs[in.operand].file->mesh;
     const face& corners = mesh.faces[in.index];
@@ -67,7 +67,7 @@ mixture mixture_at(const point3& p, std::span<const carry_source> inputs,
         shares_at(p, mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]])};
 }
 
-std::vector<mixture> mixtures_of(std::span<const carry_source> inputs, const mesh& surface,
+std::vector<mixture> mixtures_of(std::span<const attribute_source> inputs, const mesh& surface,
                                  const carried_elements& made) {
     std::vector<mixture> all(surface.points.size());
     std::vector<std::uint8_t> known(all.size(), 0);
@@ -106,7 +106,7 @@ double value_of(const property& p, const mixture& m) {
 }
 
 /// The normal of a point where face `f` of the surface has it.
-point3 carried_normal(std::span<const carry_source> inputs, const mesh& surface,
+point3 carried_normal(std::span<const attribute_source> inputs, const mesh& surface,
                       const carried_elements& made, const mixture& m, std::uint32_t f) {
     const element* points = inputs[m.input].file->attributes.find("vertex");
     const point3 flat = normal_of(surface, surface.faces[f]);
@@ -127,7 +127,7 @@ point3 carried_normal(std::span<const carry_source> inputs, const mesh& surface,
 
 /// A point's normal is seen from the lowest of its faces that come from the same input as the
 /// point, or else from the lowest.
-void carry_normals(element& rows, std::span<const carry_source> inputs, const mesh& surface,
+void carry_normals(element& rows, std::span<const attribute_source> inputs, const mesh& surface,
                    const carried_elements& made, const std::vector<mixture>& mixtures) {
     constexpr auto none = operand_element::none;
     std::vector<std::uint32_t> seen_from(surface.points.size(), none);
@@ -150,8 +150,8 @@ void carry_normals(element& rows, std::span<const carry_source> inputs, const me
         rows.columns.push_back(column::of<float>(std::array{"nx", "ny", "nz"}[axis], values[axis]));
 }
 
-bool any_has_normals(std::span<const carry_source> inputs) {
-    return std::any_of(inputs.begin(), inputs.end(), [](const carry_source& s) {
+bool any_has_normals(std::span<const attribute_source> inputs) {
+    return std::any_of(inputs.begin(), inputs.end(), [](const attribute_source& s) {
         const element* points = s.file->attributes.find("vertex");
         return points != nullptr && has_normals(*points);
     });
@@ -159,7 +159,7 @@ bool any_has_normals(std::span<const carry_source> inputs) {
 
 }  // namespace
 
-std::vector<property> properties_of(std::span<const carry_source> inputs, const char* name) {
+std::vector<property> properties_of(std::span<const attribute_source> inputs, const char* name) {
     std::vector<property> all;
     for (std::size_t k = 0; k < inputs.size(); ++k) {
         const element* e = inputs[k].file->attributes.find(name);
@@ -187,8 +187,8 @@ using namespace detail::carry;  // NOLINT: their public half
 
 namespace {
 
-void carry_all(mesh_file& file, const carry_sources& sources, const carried_elements& made) {
-    const std::span<const carry_source> inputs = sources.all();
+void carry_all(mesh_file& file, const attribute_sources& sources, const carried_elements& made) {
+    const std::span<const attribute_source> inputs = sources.all();
     const mesh& surface = file.mesh;
     if (const auto of_points = properties_of(inputs, "vertex"); sources.has_vertex_values()) {
         const std::vector<mixture> mixtures = mixtures_of(inputs, surface, made);
@@ -206,7 +206,7 @@ void carry_all(mesh_file& file, const carry_sources& sources, const carried_elem
                 const column* values =
                     operand == operand_element::none ? nullptr : p.of_input[operand];
                 return values == nullptr ? std::numeric_limits<double>::quiet_NaN()
-                                         : values->number(inputs[operand].stored_face(index));
+                                         : values->number(inputs[operand].face_in_file(index));
             }));
     }
     carry_corners(file, inputs, made);
@@ -215,16 +215,16 @@ void carry_all(mesh_file& file, const carry_sources& sources, const carried_elem
 
 }  // namespace
 
-void carry_sources::carry(mesh_file& file, std::span<const operand_element> face_source,
-                          std::span<const operand_element> vertex_source,
-                          std::span<const operand_element> face_of_cut_vertex) const {
+void attribute_sources::transfer(mesh_file& file, std::span<const operand_element> face_source,
+                                 std::span<const operand_element> vertex_source,
+                                 std::span<const operand_element> face_of_cut_vertex) const {
     carry_all(file, *this, {face_source, vertex_source, face_of_cut_vertex});
 }
 
-void carry_sources::carry(mesh_file& file, std::span<const std::uint32_t> face_source,
-                          std::span<const std::uint32_t> vertex_source,
-                          std::span<const std::uint32_t> face_of_new_vertex,
-                          std::span<const std::uint32_t> corner_source) const {
+void attribute_sources::transfer(mesh_file& file, std::span<const std::uint32_t> face_source,
+                                 std::span<const std::uint32_t> vertex_source,
+                                 std::span<const std::uint32_t> face_of_new_vertex,
+                                 std::span<const std::uint32_t> corner_source) const {
     const auto of_input = [](std::span<const std::uint32_t> indices) {
         std::vector<operand_element> elements(indices.size());
         for (std::size_t i = 0; i < indices.size(); ++i)
@@ -237,18 +237,18 @@ void carry_sources::carry(mesh_file& file, std::span<const std::uint32_t> face_s
     carry_all(file, *this, {faces, vertices, cut, corner_source});
 }
 
-bool carry_sources::has_vertex_values() const {
+bool attribute_sources::has_vertex_values() const {
     return any_has_normals(all_) || !properties_of(all_, "vertex").empty();
 }
 
-bool carry_sources::merging_mixes_values() const {
+bool attribute_sources::merging_mixes_values() const {
     if (has_vertex_values()) return true;
     const std::vector<std::uint32_t> groups = face_groups(true, false);
     return std::ranges::adjacent_find(groups, std::ranges::not_equal_to{}) != groups.end();
 }
 
-bool carry_sources::has_values_left_out() const {
-    for (const carry_source& input : all_)
+bool attribute_sources::has_values_left_out() const {
+    for (const attribute_source& input : all_)
         for (const element& e : input.file->attributes.elements)
             for (const column& c : e.columns)
                 if (c.role == column_role::data &&

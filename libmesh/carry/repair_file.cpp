@@ -1,6 +1,6 @@
 #include <libmesh/base/part_of_progress.hpp>
 #include <libmesh/carry/carried.hpp>
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/properties.hpp>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ void add(repair_statistics& sum, const repair_statistics& part) {
                              &s::touching,
                              &s::vanished_components,
                              &s::dropped_shells,
-                             &s::sheets})
+                             &s::unfilled_rims})
         sum.*count += part.*count;
     for (const auto amount : {&s::dropped_area, &s::flipped_area, &s::volume_before,
                               &s::volume_after, &s::area_before, &s::area_after, &s::area_lost})
@@ -51,7 +51,7 @@ bool is_as_asked(const certificate& known) {
 /// A repair of parts, one after the other, as one of the whole.
 class repair_of_parts {
   public:
-    explicit repair_of_parts(const carry_source& input) : input_(input) {
+    explicit repair_of_parts(const attribute_source& input) : input_(input) {
         done_.is_kept.assign(input.file->mesh.faces.size(), 0);
     }
 
@@ -81,7 +81,7 @@ class repair_of_parts {
         done_.file.stored_faces = done_.file.mesh.faces.size();
         done_.file.stored_as = done_.certificate.precision;
         done_.file.format = input_.file->format;
-        carry_sources(input_).carry(done_.file, face_source_, vertex_source_);
+        attribute_sources(input_).transfer(done_.file, face_source_, vertex_source_);
         return std::move(done_);
     }
 
@@ -103,7 +103,7 @@ class repair_of_parts {
     }
 
     [[nodiscard]] std::uint32_t stored(std::uint32_t f) const {
-        return f == repair_result::none ? f : input_.stored_face(f);
+        return f == repair_result::none ? f : input_.face_in_file(f);
     }
 
     void join(const certificate& part) {
@@ -114,7 +114,7 @@ class repair_of_parts {
         all.max_displacement = farthest;
     }
 
-    const carry_source& input_;
+    const attribute_source& input_;
     repaired_file done_{};
     std::vector<std::uint32_t> face_source_{};
     std::vector<std::uint32_t> vertex_source_{};
@@ -123,9 +123,9 @@ class repair_of_parts {
 /// Whether merging faces may mix values.
 class mixing {
   public:
-    explicit mixing(const carry_source& input)
-        : of_vertices_(carry_sources(input).has_vertex_values()),
-          group_of_(carry_sources(input).face_groups(true, false)) {}
+    explicit mixing(const attribute_source& input)
+        : of_vertices_(attribute_sources(input).has_vertex_values()),
+          group_of_(attribute_sources(input).face_groups(true, false)) {}
 
     [[nodiscard]] bool is_in(const std::vector<std::uint32_t>& faces) const {
         return of_vertices_ ||
@@ -159,13 +159,13 @@ class faces_done {
 
 }  // namespace
 
-repaired_file repair_file(const carry_source& input, const repair_options& options) {
+repaired_file repair_file(const attribute_source& input, const repair_options& options) {
     std::vector<solid_part> parts;
     if (!options.as_one) parts = detail::carry::solid_parts(input);
     repair_of_parts all(input);
     repair_options how = options;
     if (parts.empty()) {
-        how.keep_cuts = options.keep_cuts || carry_sources(input).merging_mixes_values();
+        how.keep_cuts = options.keep_cuts || attribute_sources(input).merging_mixes_values();
         all.take(repair(input.file->mesh, how), {});
         repaired_file done = all.finish();
         done.parts.clear();
@@ -184,7 +184,7 @@ repaired_file repair_file(const carry_source& input, const repair_options& optio
     return all.finish();
 }
 
-solid_defects find_solid_defects(const carry_source& input, const progress_callback& progress) {
+solid_defects find_solid_defects(const attribute_source& input, const progress_callback& progress) {
     const std::vector<solid_part> parts = detail::carry::solid_parts(input);
     if (parts.empty()) return find_solid_defects(input.file->mesh, progress);
     faces_done part_of(progress, input.file->mesh.faces.size());

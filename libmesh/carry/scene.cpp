@@ -1,6 +1,6 @@
 #include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/attributes.hpp>
-#include <treeform/mesh/carry.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -75,24 +75,25 @@ class renumberer {
 
 /// The parts of a file in a scene, to be known there by the names they have, or by the
 /// file's where it has one part.
-std::vector<part> parts_in_scene(const std::string& name, std::vector<part> parts) {
-    const bool one = std::all_of(parts.begin(), parts.end(), [&](const part& p) {
+std::vector<named_faces> parts_in_scene(const std::string& name, std::vector<named_faces> parts) {
+    const bool one = std::all_of(parts.begin(), parts.end(), [&](const named_faces& p) {
         return p.object == parts[0].object && p.group == parts[0].group;
     });
-    for (part& p : parts)
+    for (named_faces& p : parts)
         if (one) p = {.object = name, .material = p.material, .first_face = p.first_face};
     if (parts.empty() || parts[0].first_face > 0) parts.insert(parts.begin(), {.object = name});
     if (one)
-        parts.erase(
-            std::unique(parts.begin(), parts.end(),
-                        [](const part& p, const part& q) { return p.material == q.material; }),
-            parts.end());
+        parts.erase(std::unique(parts.begin(), parts.end(),
+                                [](const named_faces& p, const named_faces& q) {
+                                    return p.material == q.material;
+                                }),
+                    parts.end());
     return parts;
 }
 
 /// What a scene takes of a file, except for points and faces.
 mesh_file described(const mesh_file& file) {
-    mesh_file one{.stored_face = file.stored_face, .stored_faces = file.stored_faces};
+    mesh_file one{.face_of_triangle = file.face_of_triangle, .stored_faces = file.stored_faces};
     const attributes& all = file.attributes;
     one.attributes = {.corners = all.corners,
                       .parts = all.parts,
@@ -119,7 +120,7 @@ void append(mesh_file& scene, const mesh& added, const std::string& name, mesh_f
     append_texture_numbers(scene, one, added.faces.size());
     const auto first = static_cast<std::uint32_t>(scene.mesh.points.size());
     const auto first_face = static_cast<std::uint32_t>(scene.mesh.faces.size());
-    for (part& p : parts_in_scene(name, std::move(one.attributes.parts))) {
+    for (named_faces& p : parts_in_scene(name, std::move(one.attributes.parts))) {
         p.first_face += first_face;
         scene.attributes.parts.push_back(std::move(p));
     }

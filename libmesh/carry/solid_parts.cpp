@@ -4,7 +4,7 @@
 #include <libmesh/carry/carried.hpp>
 #include <libmesh/topology/select_faces.hpp>
 #include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/weld.hpp>
 
 #include <algorithm>
@@ -64,10 +64,10 @@ solid_part with_own_points(mesh_view whole, scene_part&& from) {
 }
 
 /// The parts of a file with its own vertex numbers (`scene_parts`).
-std::vector<scene_part> named_parts(const carry_source& input, bool joined_at_points) {
+std::vector<scene_part> named_parts(const attribute_source& input, bool joined_at_points) {
     std::vector<std::uint32_t> stored;
     for (std::uint32_t f = 0; f < input.file->mesh.faces.size(); ++f)
-        stored.push_back(input.stored_face(f));
+        stored.push_back(input.face_in_file(f));
     return scene_parts(input.file->mesh, input.file->attributes.parts, stored, joined_at_points);
 }
 
@@ -77,7 +77,7 @@ std::vector<scene_part> named_parts(const carry_source& input, bool joined_at_po
 /// faces in a part ascend. The box of a merged part is that of its first part.
 ///
 /// \cost O(V log V + F log F)
-std::vector<scene_part> surface_parts(const carry_source& input) {
+std::vector<scene_part> surface_parts(const attribute_source& input) {
     const mesh_view whole = input.file->mesh;
     std::vector<scene_part> named = named_parts(input, true);
     if (named.size() < 2) return named;
@@ -100,7 +100,7 @@ std::vector<scene_part> surface_parts(const carry_source& input) {
 
 }  // namespace
 
-std::vector<solid_part> solid_parts(const carry_source& input) {
+std::vector<solid_part> solid_parts(const attribute_source& input) {
     std::vector<solid_part> parts;
     std::vector<scene_part> named = surface_parts(input);
     if (named.size() < 2) return parts;
@@ -113,7 +113,7 @@ std::vector<solid_part> solid_parts(const carry_source& input) {
 
 namespace treeform {
 
-std::vector<file_part> split_parts(const carry_source& source, bool combine_patches) {
+std::vector<file_part> file_parts(const attribute_source& source, bool combine_patches) {
     const mesh_file& whole = *source.file;
     std::vector<file_part> parts;
     for (scene_part& of : combine_patches ? detail::carry::surface_parts(source)
@@ -127,10 +127,10 @@ std::vector<file_part> split_parts(const carry_source& source, bool combine_patc
         std::vector<face> kept;
         for (const std::uint32_t f : of.faces) {
             kept.push_back(whole.mesh.faces[f]);
-            part.stored_face.push_back(source.stored_face(f));
+            part.face_in_file.push_back(source.face_in_file(f));
         }
-        carry_sources(source).carry(part.file, of.faces,
-                                    detail::base::used_points(whole.mesh.points.size(), kept));
+        attribute_sources(source).transfer(
+            part.file, of.faces, detail::base::used_points(whole.mesh.points.size(), kept));
         parts.push_back(std::move(part));
     }
     return parts;

@@ -1,5 +1,5 @@
 #include <libmesh/base/point_math.hpp>
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/section.hpp>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ point3 area_vector_of(mesh_view mesh, std::size_t f) {
 }
 
 /// How many units of texture there are to one of length, on average over the faces that have any.
-double texture_scale(const carry_source& of) {
+double texture_scale(const attribute_source& of) {
     const mesh_view mesh = of.file->mesh;
     const corner_values& corners = of.file->attributes.corners;
     if (corners.texture_of_corner.empty()) return 0.0;
@@ -59,7 +59,7 @@ std::array<point3, 3> axes_across(point3 normal) {
 
 }  // namespace
 
-void carry_source::texture_caps(mesh_file& piece, std::span<const std::uint32_t> cap) const {
+void attribute_source::texture_caps(mesh_file& piece, std::span<const std::uint32_t> cap) const {
     if (cap.empty()) return;
     const double scale = texture_scale(*this);
     if (scale == 0.0) return;

@@ -1,6 +1,6 @@
 #include <libmesh/attributes/known_columns.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/attributes.hpp>
-#include <treeform/mesh/carry.hpp>
 
 #include <algorithm>
 #include <array>
@@ -76,11 +76,12 @@ void turn_columns(element& e, const transform<3>& turn) {
 
 /// Faces, or numbers of their corners, with the second and the last corner of each polygon
 /// exchanged and those between: it is a fan around its first corner, and stays one.
-void turn_over(std::vector<face>& corners, const std::vector<std::uint32_t>& stored_face) {
+void turn_over(std::vector<face>& corners, const std::vector<std::uint32_t>& face_of_triangle) {
     for (face& f : corners) std::swap(f[1], f[2]);
-    for (std::size_t first = 0, end = 0; first < stored_face.size() && !corners.empty();
+    for (std::size_t first = 0, end = 0; first < face_of_triangle.size() && !corners.empty();
          first = end) {
-        while (end < stored_face.size() && stored_face[end] == stored_face[first]) ++end;
+        while (end < face_of_triangle.size() && face_of_triangle[end] == face_of_triangle[first])
+            ++end;
         std::reverse(corners.begin() + static_cast<std::ptrdiff_t>(first),
                      corners.begin() + static_cast<std::ptrdiff_t>(end));
     }
@@ -95,7 +96,7 @@ void mesh_file::move(const transform<3>& by) {
     corner_values& corners = attributes.corners;
     for (auto* const of_faces :
          {&mesh.faces, &corners.texture_of_corner, &corners.normal_of_corner})
-        turn_over(*of_faces, stored_face);
+        turn_over(*of_faces, face_of_triangle);
 }
 
 void mesh_file::transform_normals(const transform<3>& by) {

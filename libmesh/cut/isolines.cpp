@@ -236,7 +236,7 @@ cut_result cut_along(const mesh_ref& mesh, std::span<const double> values,
     std::vector<mesh_view> views;
     for (const cut_piece& piece : result.pieces) views.push_back(piece.mesh);
     const treeform::mesh whole = concatenate(views);
-    const intersection_result met = self_intersections(whole, {.progress = options.progress});
+    const face_pair_result met = self_intersections(whole, {.progress = options.progress});
     certificate& known = result.certificate;
     if (met.status == status::cancelled) {
         result.pieces.clear();

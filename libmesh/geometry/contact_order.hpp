@@ -14,7 +14,7 @@ namespace treeform {
 /// The first point of a ray in a triangle.
 struct ray_contact {
     /// Part of the triangle that contains the first common point: `interior`, an edge or a corner.
-    feature at = feature::interior;
+    triangle_feature at = triangle_feature::interior;
     /// The ray is in the plane of the triangle, or the triangle has no area. If false, there is
     /// exactly one common point.
     bool coplanar = false;
@@ -51,7 +51,7 @@ struct ray_contact {
 struct sweep_contact {
     /// Two features that meet at that time: a corner and any feature, or two edges. Others may
     /// meet, too.
-    contact at{feature::v0, feature::v0};
+    feature_pair at{triangle_feature::v0, triangle_feature::v0};
     /// With a relative error below 2^-40; 0 if and only if the exact time is 0.
     double time = 0.0;
     /// Define the time exactly, for `compare`: the time at which the point `from` of the moving

@@ -22,7 +22,7 @@ struct segment {
     point3 to;
 };
 
-segment edge_of(const triangle3& t, feature f) {
+segment edge_of(const triangle3& t, triangle_feature f) {
     const int i = index_of(f);
     return {t[static_cast<std::size_t>(i)], t[static_cast<std::size_t>(next(i))]};
 }
@@ -32,7 +32,7 @@ struct box {
     point3 high;
 };
 
-box box_of(const triangle3& t, feature f) {
+box box_of(const triangle3& t, triangle_feature f) {
     const auto [p, q] = edge_of(t, f);
     // The third corner, unless the point is on an edge.
     const point3& r = detail::geometry::is_edge(f)
@@ -109,7 +109,7 @@ int scale_exponent(const triangle3& a, const triangle3& b) {
 }
 
 /// A contact on no corner, coordinates in safe range.
-point3 crossing_point(const triangle3& a, const triangle3& b, contact c) {
+point3 crossing_point(const triangle3& a, const triangle3& b, feature_pair c) {
     if (!detail::geometry::is_edge(c.on_a)) {
         assert(detail::geometry::is_edge(c.on_b));
         const segment s = edge_of(b, c.on_b);
@@ -128,7 +128,7 @@ point3 clamped(point3 p, const box& to) {
 
 }  // namespace
 
-point3 approximate_point(const triangle3& a, const triangle3& b, contact c) {
+point3 approximate_point(const triangle3& a, const triangle3& b, feature_pair c) {
     if (detail::geometry::is_corner(c.on_a)) return a[static_cast<std::size_t>(index_of(c.on_a))];
     if (detail::geometry::is_corner(c.on_b)) return b[static_cast<std::size_t>(index_of(c.on_b))];
     const int exponent = scale_exponent(a, b);

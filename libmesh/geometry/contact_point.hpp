@@ -19,6 +19,6 @@ namespace treeform {
 ///
 /// \pre every coordinate is finite; `c` is an end of the result of `intersect(a, b)`
 [[nodiscard]] TREEFORM_API point3 approximate_point(const triangle3& a, const triangle3& b,
-                                                    contact c);
+                                                    feature_pair c);
 
 }  // namespace treeform

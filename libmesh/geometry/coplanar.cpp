@@ -58,7 +58,8 @@ contact_list extreme_points(const side_table& a_about_b, const side_table& b_abo
 
 /// Whether `p` comes before `q` on the walk along edge `i` of `a`, which holds both.
 /// `same_turn` says that both triangles run the same way around.
-bool comes_first(int i, contact p, contact q, const side_table& a_about_b, bool same_turn) {
+bool comes_first(int i, feature_pair p, feature_pair q, const side_table& a_about_b,
+                 bool same_turn) {
     if (p.on_a == corner(i) || q.on_a == corner(next(i))) return true;
     if (q.on_a == corner(i) || p.on_a == corner(next(i))) return false;
     // Where the walk crosses an edge of b it enters if it began outside.
@@ -69,11 +70,13 @@ bool comes_first(int i, contact p, contact q, const side_table& a_about_b, bool 
     return (next(index_of(p.on_b)) == index_of(q.on_b)) == same_turn;
 }
 
-bool on_one_edge(int i, feature f, feature g) { return holds(i, f) && holds(i, g); }
+bool on_one_edge(int i, triangle_feature f, triangle_feature g) {
+    return holds(i, f) && holds(i, g);
+}
 
 /// Two corners of an area are neighbors when an edge of either triangle holds both: the area
 /// lies on one side of that edge.
-bool neighbors(contact p, contact q) {
+bool neighbors(feature_pair p, feature_pair q) {
     for (int i = 0; i < 3; ++i)
         if (on_one_edge(i, p.on_a, q.on_a) || on_one_edge(i, p.on_b, q.on_b)) return true;
     return false;
@@ -90,10 +93,10 @@ std::pair<int, int> first_side(const contact_list& corners, const side_table& a_
                                ? std::pair{p, q}
                                : std::pair{q, p};
     // No side lies on an edge of a, so all lie on edges of b: the area is b.
-    const feature second = same_turn ? feature::v1 : feature::v2;
+    const triangle_feature second = same_turn ? triangle_feature::v1 : triangle_feature::v2;
     std::pair<int, int> side{0, 0};
     for (int p = 0; p < corners.size(); ++p) {
-        if (corners[p].on_b == feature::v0) side.first = p;
+        if (corners[p].on_b == triangle_feature::v0) side.first = p;
         if (corners[p].on_b == second) side.second = p;
     }
     assert(side.first != side.second);

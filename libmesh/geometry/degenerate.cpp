@@ -13,7 +13,7 @@ std::span<const named_segment> parts_of(const flat_triangle& t) {
     return std::span(t.parts).first(static_cast<std::size_t>(t.part_count));
 }
 
-std::optional<feature> locate_on_line(const point3& p, const named_segment& s) {
+std::optional<triangle_feature> locate_on_line(const point3& p, const named_segment& s) {
     if (equal_points(p, s.from)) return s.from_name;
     if (equal_points(p, s.to)) return s.to_name;
     const bool between = lexicographically_less(s.from, p) == lexicographically_less(p, s.to);
@@ -70,8 +70,8 @@ void meet_through_plane(const named_segment& s, plane_side side, const triangle3
     ends.add(side.from == 0 ? s.from_name : side.to == 0 ? s.to_name : s.inside, *on_t);
 }
 
-std::optional<feature> locate_in_plane(const point3& p, const triangle3& t, int axis,
-                                       predicate_counters* counters) {
+std::optional<triangle_feature> locate_in_plane(const point3& p, const triangle3& t, int axis,
+                                                predicate_counters* counters) {
     return locate({orient2d(axis, t[0], t[1], p, counters), orient2d(axis, t[1], t[2], p, counters),
                    orient2d(axis, t[2], t[0], p, counters)});
 }
@@ -99,7 +99,7 @@ triangle_contact meet(const flat_triangle& a, const flat_triangle& b,
             meet_in_plane(common_axis(s, t, counters), s, t, ends, counters);
     // Parts that overlap on one line also meet at the cuts, which may lie between the ends.
     if (ends.size() > 2)
-        ends.drop_if([&](contact c) {
+        ends.drop_if([&](feature_pair c) {
             return (a.is_cut_at(c.on_a) && !b.ends_at(c.on_b)) ||
                    (b.is_cut_at(c.on_b) && !a.ends_at(c.on_a));
         });
@@ -120,7 +120,7 @@ triangle_contact meet(const flat_triangle& a, const triangle3& b, view_axis of_b
         coplanar = false;
         if (side.from * side.to <= 0) meet_through_plane(s, side, b, ends, counters);
     }
-    if (ends.size() > 2) ends.drop_if([&](contact c) { return a.is_cut_at(c.on_a); });
+    if (ends.size() > 2) ends.drop_if([&](feature_pair c) { return a.is_cut_at(c.on_a); });
     return contact_of(ends, coplanar);
 }
 

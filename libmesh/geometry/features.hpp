@@ -15,14 +15,16 @@ constexpr const point3& at(const triangle3& t, int i) { return t[static_cast<std
 constexpr int next(int i) { return i == 2 ? 0 : i + 1; }
 constexpr int previous(int i) { return i == 0 ? 2 : i - 1; }
 
-constexpr feature corner(int i) { return static_cast<feature>(i); }
-constexpr feature edge(int i) { return static_cast<feature>(3 + i); }
-constexpr bool is_corner(feature f) { return f <= feature::v2; }
-constexpr bool is_edge(feature f) { return f >= feature::e0 && f <= feature::e2; }
-constexpr int index_of(feature f) { return static_cast<int>(f) % 3; }
+constexpr triangle_feature corner(int i) { return static_cast<triangle_feature>(i); }
+constexpr triangle_feature edge(int i) { return static_cast<triangle_feature>(3 + i); }
+constexpr bool is_corner(triangle_feature f) { return f <= triangle_feature::v2; }
+constexpr bool is_edge(triangle_feature f) {
+    return f >= triangle_feature::e0 && f <= triangle_feature::e2;
+}
+constexpr int index_of(triangle_feature f) { return static_cast<int>(f) % 3; }
 
 /// Whether the closed edge `i` contains the points of feature `f`.
-constexpr bool holds(int i, feature f) {
+constexpr bool holds(int i, triangle_feature f) {
     return f == edge(i) || f == corner(i) || f == corner(next(i));
 }
 
@@ -30,8 +32,8 @@ constexpr bool holds(int i, feature f) {
 /// points.
 class contact_list {
   public:
-    void add(feature on_a, feature on_b) {
-        const contact found{on_a, on_b};
+    void add(triangle_feature on_a, triangle_feature on_b) {
+        const feature_pair found{on_a, on_b};
         for (int i = 0; i < size_; ++i)
             if (items_[static_cast<std::size_t>(i)] == found) return;
         assert(size_ < capacity);
@@ -41,17 +43,19 @@ class contact_list {
     void drop_if(Predicate drop) {
         int kept = 0;
         for (int i = 0; i < size_; ++i) {
-            const contact c = items_[static_cast<std::size_t>(i)];
+            const feature_pair c = items_[static_cast<std::size_t>(i)];
             if (!drop(c)) items_[static_cast<std::size_t>(kept++)] = c;
         }
         size_ = kept;
     }
     [[nodiscard]] int size() const { return size_; }
-    [[nodiscard]] contact operator[](int i) const { return items_[static_cast<std::size_t>(i)]; }
+    [[nodiscard]] feature_pair operator[](int i) const {
+        return items_[static_cast<std::size_t>(i)];
+    }
 
   private:
     static constexpr int capacity = 8;
-    std::array<contact, capacity> items_;
+    std::array<feature_pair, capacity> items_;
     int size_ = 0;
 };
 

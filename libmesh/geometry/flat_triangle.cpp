@@ -16,10 +16,10 @@ std::int64_t ordered_bits(double x) {
     return bits < 0 ? std::numeric_limits<std::int64_t>::min() - bits : bits;
 }
 
-feature edge_between(int i, int j) { return edge(next(i) == j ? i : j); }
+triangle_feature edge_between(int i, int j) { return edge(next(i) == j ? i : j); }
 
 /// The lowest-numbered edge whose ends are different points.
-feature first_true_edge(const triangle3& t) {
+triangle_feature first_true_edge(const triangle3& t) {
     int i = 0;
     while (equal_points(at(t, i), at(t, next(i)))) ++i;
     return edge(i);
@@ -59,7 +59,7 @@ flat_triangle flatten(const triangle3& t) {
         flat.parts[0] = {from, to, corner(low), corner(high), first_true_edge(t)};
         return flat;
     }
-    const feature whole = edge_between(low, high);
+    const triangle_feature whole = edge_between(low, high);
     flat.part_count = 2;
     flat.parts[0] = {from, cut, corner(low), corner(middle),
                      std::min(whole, edge_between(low, middle))};

@@ -14,9 +14,9 @@ namespace treeform::detail::geometry {
 struct named_segment {
     point3 from;
     point3 to;
-    feature from_name;
-    feature to_name;
-    feature inside;
+    triangle_feature from_name;
+    triangle_feature to_name;
+    triangle_feature inside;
 };
 
 /// A degenerate triangle, split at the corner between the other two, if there is one: each part is
@@ -28,10 +28,10 @@ struct flat_triangle {
 
     [[nodiscard]] point3 from() const { return parts[0].from; }
     [[nodiscard]] point3 to() const { return last().to; }
-    [[nodiscard]] bool ends_at(feature f) const {
+    [[nodiscard]] bool ends_at(triangle_feature f) const {
         return f == parts[0].from_name || f == last().to_name;
     }
-    [[nodiscard]] bool is_cut_at(feature f) const {
+    [[nodiscard]] bool is_cut_at(triangle_feature f) const {
         return part_count == 2 && f == parts[0].to_name;
     }
 

@@ -14,7 +14,7 @@ namespace treeform::detail::geometry {
 struct interval_end {
     int below = 0;
     int above = 0;
-    feature name = feature::interior;
+    triangle_feature name = triangle_feature::interior;
 };
 
 /// The common segment of a triangle and a plane that meets but does not contain it. Seen along the
@@ -23,7 +23,8 @@ struct interval_end {
 struct plane_interval {
     interval_end west;
     interval_end east;
-    feature inside = feature::interior;  ///< feature of the points between the ends
+    triangle_feature inside =
+        triangle_feature::interior;  ///< feature of the points between the ends
 };
 
 constexpr interval_end end_at_corner(const std::array<int, 3>& side, int i) {

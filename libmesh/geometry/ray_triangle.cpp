@@ -93,20 +93,22 @@ class line {
 /// An end of what line and triangle share when they lie in one plane.
 struct span_end {
     cutting_plane cut;
-    feature name;
+    triangle_feature name;
 };
 
-span_end end_at(const line& l, const point3& p, feature name) { return {l.through(p), name}; }
+span_end end_at(const line& l, const point3& p, triangle_feature name) {
+    return {l.through(p), name};
+}
 
 /// Where the line meets the segment from `right` to `left` of it, seen along `axis`. The plane
 /// holds the axis, so its normal . direction is what `left` exceeds `right` by.
-span_end end_between(const point3& right, const point3& left, int axis, feature name) {
+span_end end_between(const point3& right, const point3& left, int axis, triangle_feature name) {
     return {{right, right, left, zero, unit[static_cast<std::size_t>(axis)]}, name};
 }
 
 /// The part within the ray of a common segment, or point, of line and triangle.
 std::optional<ray_contact> clipped(const line& l, const span_end& enter, const span_end& leave,
-                                   feature inside) {
+                                   triangle_feature inside) {
     const double t = l.parameter(enter.cut);
     const double t_end = l.parameter(leave.cut);
     const int leaves = l.compare(leave.cut, t_end, l.t_min);
@@ -200,7 +202,7 @@ std::optional<ray_contact> intersect(const ray3& ray, const triangle3& triangle,
         const auto view = detail::geometry::find_view_axis(triangle, counters);
         return view ? meet_in_plane(l, triangle, *view) : meet_flat(ray, l, triangle, counters);
     }
-    const std::optional<feature> name = detail::geometry::locate(about);
+    const std::optional<triangle_feature> name = detail::geometry::locate(about);
     if (!name) return std::nullopt;
     const bool along_normal = about[0] > 0 || about[1] > 0 || about[2] > 0;
     const point3& base =

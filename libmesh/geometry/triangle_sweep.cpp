@@ -11,8 +11,8 @@
 namespace treeform {
 namespace {
 
-constexpr feature corner(std::size_t i) { return static_cast<feature>(i); }
-constexpr feature edge(std::size_t i) { return static_cast<feature>(3 + i); }
+constexpr triangle_feature corner(std::size_t i) { return static_cast<triangle_feature>(i); }
+constexpr triangle_feature edge(std::size_t i) { return static_cast<triangle_feature>(3 + i); }
 constexpr std::size_t next(std::size_t i) { return i == 2 ? 0 : i + 1; }
 
 /// The plane with its normal turned so that the motion crosses it forwards.
@@ -38,7 +38,7 @@ class first_of {
     first_of(const point3& d, predicate_counters* counters) : d_(d), counters_(counters) {}
 
     /// `plane` is met by `from`, in motion, forwards.
-    void offer(contact at, const point3& from, const cutting_plane& plane) {
+    void offer(feature_pair at, const point3& from, const cutting_plane& plane) {
         const double time = cut_parameter(from, d_, plane);
         if (time < 0.0) return;
         if (time == 0.0 && compare_cut(from, d_, plane, 0.0, counters_) < 0) return;
@@ -76,12 +76,12 @@ struct sides {
             if (of[0][j] * turn < 0 && of[1][j] * turn < 0 && of[2][j] * turn < 0) return true;
         return false;
     }
-    [[nodiscard]] feature hit(std::size_t i) const {
+    [[nodiscard]] triangle_feature hit(std::size_t i) const {
         for (std::size_t j = 0; j < 3; ++j)
             if (of[i][j] == 0 && of[i][next(j)] == 0) return corner(next(j));
         for (std::size_t j = 0; j < 3; ++j)
             if (of[i][j] == 0) return edge(j);
-        return feature::interior;
+        return triangle_feature::interior;
     }
 };
 

@@ -22,16 +22,16 @@ struct view_axis {
 /// The feature of a triangle that contains a point of its plane, from the signs of the point's
 /// orientations relative to the three edges, which are not all zero. Empty if the point is outside:
 /// if and only if two of the signs are opposite.
-[[nodiscard]] constexpr std::optional<feature> locate(const std::array<int, 3>& about) {
+[[nodiscard]] constexpr std::optional<triangle_feature> locate(const std::array<int, 3>& about) {
     const bool left = about[0] > 0 || about[1] > 0 || about[2] > 0;
     const bool right = about[0] < 0 || about[1] < 0 || about[2] < 0;
     if (left && right) return std::nullopt;
     if (about[0] == 0) {
-        if (about[1] == 0) return feature::v1;
-        return about[2] == 0 ? feature::v0 : feature::e0;
+        if (about[1] == 0) return triangle_feature::v1;
+        return about[2] == 0 ? triangle_feature::v0 : triangle_feature::e0;
     }
-    if (about[1] == 0) return about[2] == 0 ? feature::v2 : feature::e1;
-    return about[2] == 0 ? feature::e2 : feature::interior;
+    if (about[1] == 0) return about[2] == 0 ? triangle_feature::v2 : triangle_feature::e1;
+    return about[2] == 0 ? triangle_feature::e2 : triangle_feature::interior;
 }
 
 }  // namespace treeform::detail::geometry

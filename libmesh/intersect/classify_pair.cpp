@@ -32,10 +32,10 @@ shared_corners shared_by(const face& a, const face& b) {
 
 /// Whether `end` is one of the shared corners, on the evidence of coordinates: a corner of `a`
 /// that lies there may have another number than the shared corner it coincides with.
-bool is_shared(points_view points, const face& a, const contact& end,
+bool is_shared(points_view points, const face& a, const feature_pair& end,
                const shared_corners& shared) {
     const auto corner = static_cast<std::size_t>(end.on_a);
-    if (corner > static_cast<std::size_t>(feature::v2)) return false;
+    if (corner > static_cast<std::size_t>(triangle_feature::v2)) return false;
     for (std::size_t i = 0; i < shared.count; ++i)
         if (points[shared.ids[i]] == points[a[corner]]) return true;
     return false;
@@ -50,7 +50,7 @@ bool reaches_beyond(points_view points, const face& a, const triangle_contact& c
     // A convex set within a point or a segment: all its ends must be theirs.
     if (shared.count == 1 && common.count == 2) return true;
     return !std::all_of(common.ends.begin(), common.ends.begin() + common.count,
-                        [&](const contact& end) { return is_shared(points, a, end, shared); });
+                        [&](const feature_pair& end) { return is_shared(points, a, end, shared); });
 }
 
 /// Triangles u v a and u v b: they overlap beyond the edge if and only if they are coplanar with a

@@ -12,7 +12,7 @@ namespace {
 bool closes(mesh_view mesh, double tolerance) {
     treeform::mesh copy{{mesh.points.begin(), mesh.points.end()},
                         {mesh.faces.begin(), mesh.faces.end()}};
-    const usable_mesh joined = usable_part(std::move(copy), {}, {.tolerance = tolerance});
+    const usable_mesh joined = usable_faces(std::move(copy), {}, {.tolerance = tolerance});
     const auto& faces = joined.mesh.faces;
     return std::any_of(faces.begin(), faces.end(), detail::base::has_three_corners) &&
            !find_open_edge(joined.mesh);

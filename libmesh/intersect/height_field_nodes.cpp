@@ -23,7 +23,7 @@ class field_marker {
         const std::size_t count = std::min(tree_.capacity(level), faces_.size() - first);
         if (test_(faces_.subspan(first, count))) return found_.mark(level, node);
         if (level + 1 >= tree_.levels() || tree_.is_leaf_level(level + 1)) return;
-        for (std::size_t i = 0; i < tree_.children(level, node); ++i)
+        for (std::size_t i = 0; i < tree_.child_count(level, node); ++i)
             settle(level + 1, tree_.width * node + i);
     }
 

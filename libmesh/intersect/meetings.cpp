@@ -19,10 +19,10 @@ using base::triangle_of;
 
 constexpr std::size_t pair_grain = std::size_t{1} << 7;
 
-std::size_t place_of(feature f) { return static_cast<std::size_t>(geometry::index_of(f)); }
+std::size_t place_of(triangle_feature f) { return static_cast<std::size_t>(geometry::index_of(f)); }
 
 /// The name of an end that is no corner.
-point_name name_of(mesh_view mesh, std::uint32_t a, std::uint32_t b, contact at) {
+point_name name_of(mesh_view mesh, std::uint32_t a, std::uint32_t b, feature_pair at) {
     if (!geometry::is_edge(at.on_a))
         return {point_name::origin::edge_face, edge_of(mesh.faces[b], place_of(at.on_b)), {a, 0}};
     const edge_name edge = edge_of(mesh.faces[a], place_of(at.on_a));
@@ -63,7 +63,7 @@ mesh_meetings meetings_of(mesh_view mesh, std::span<const face_pair> pairs) {
                        meeting& m = result.meetings[i];
                        m = {a, b, common.coplanar, common.count, {}};
                        for (std::uint8_t k = 0; k < common.count; ++k) {
-                           const contact at = common.ends[k];
+                           const feature_pair at = common.ends[k];
                            m.ends[k] = {0, at.on_a, at.on_b};
                            if (geometry::is_corner(at.on_a))
                                m.ends[k].point = mesh.faces[a][place_of(at.on_a)];
@@ -101,7 +101,7 @@ aabb<double, 3> box_of_meeting(mesh_view mesh, const face_pair& pair) {
         treeform::intersect(triangle_of(mesh, pair.a), triangle_of(mesh, pair.b));
     aabb<double, 3> box;
     for (std::uint8_t k = 0; k < common.count; ++k) {
-        const contact at = common.ends[k];
+        const feature_pair at = common.ends[k];
         if (geometry::is_corner(at.on_a))
             box.include(mesh.points[mesh.faces[pair.a][place_of(at.on_a)]]);
         else if (geometry::is_corner(at.on_b))

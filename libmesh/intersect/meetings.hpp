@@ -41,8 +41,8 @@ struct point_name {
 /// An end of the intersection of two faces.
 struct meeting_end {
     std::uint32_t point = 0;  ///< point of the input, or V + the number of a name
-    feature on_a = feature::v0;
-    feature on_b = feature::v0;
+    triangle_feature on_a = triangle_feature::v0;
+    triangle_feature on_b = triangle_feature::v0;
 };
 
 struct meeting {

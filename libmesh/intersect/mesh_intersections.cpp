@@ -79,10 +79,9 @@ constexpr bool in_both_frames = true;  // boxes are also compared in the frame o
 
 /// What the chunks of a search give, in a narrow phase each.
 template <class Source>
-intersection_result classified(const pair_search_chunks<3>& search,
-                               const typename Source::input& meshes,
-                               const intersection_options& options,
-                               detail::base::effort* effort = nullptr) {
+face_pair_result classified(const pair_search_chunks<3>& search,
+                            const typename Source::input& meshes, const face_pair_options& options,
+                            detail::base::effort* effort = nullptr) {
     const std::size_t chunks = search.chunks();
     tested_pairs looked(chunks, effort ? effort->allowance() : tested_pairs::unlimited);
     std::vector<detail::intersect::narrow_phase_output> found(chunks);
@@ -106,12 +105,12 @@ intersection_result classified(const pair_search_chunks<3>& search,
         progress.chunk_done();
     });
     if (effort && !effort->spend(looked.up_to(last.load()))) {
-        intersection_result nothing;
+        face_pair_result nothing;
         nothing.status = treeform::status::cancelled;
         return nothing;
     }
     detail::intersect::bad_faces met;
-    intersection_result result;
+    face_pair_result result;
     for (std::size_t chunk = 0; chunk < std::min(last.load() + 1, chunks); ++chunk)
         add(bad[chunk], met);
     check_faces_met("treeform::mesh_intersections", met);
@@ -122,26 +121,27 @@ intersection_result classified(const pair_search_chunks<3>& search,
 }
 
 /// \param moves what is still to be done to the trees
-intersection_result classified_by_faces(mesh_view a, const tree<3>& tree_a, mesh_view b,
-                                        const tree<3>& tree_b, const intersection_options& options,
-                                        const mesh_positions& moves,
-                                        detail::base::effort* effort = nullptr) {
-    const pair_search_chunks<3> search(transformed(tree_a, moves.move_a),
-                                       transformed(tree_b, moves.move_b), in_both_frames);
+face_pair_result classified_by_faces(mesh_view a, const tree<3>& tree_a, mesh_view b,
+                                     const tree<3>& tree_b, const face_pair_options& options,
+                                     const mesh_pair_options& moves,
+                                     detail::base::effort* effort = nullptr) {
+    const pair_search_chunks<3> search(transformed(tree_a, moves.transform_a),
+                                       transformed(tree_b, moves.transform_b), in_both_frames);
     return classified<detail::intersect::face_candidates>(
-        search, {{a, tree_a, options.move_a}, {b, tree_b, options.move_b}}, options, effort);
+        search, {{a, tree_a, options.transform_a}, {b, tree_b, options.transform_b}}, options,
+        effort);
 }
 
 /// \param moves what is still to be done to the trees
 bool any_meet(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tree_b,
-              const mesh_positions& positions, const mesh_positions& moves) {
-    intersection_options all;
-    const detail::intersect::face_candidates::input meshes{{a, tree_a, positions.move_a},
-                                                           {b, tree_b, positions.move_b}};
+              const mesh_pair_options& positions, const mesh_pair_options& moves) {
+    face_pair_options all;
+    const detail::intersect::face_candidates::input meshes{{a, tree_a, positions.transform_a},
+                                                           {b, tree_b, positions.transform_b}};
     std::mutex mutex;  // taken for a bad face only
     detail::intersect::bad_faces bad;
     const bool found = detail::search_any_broad(
-        transformed(tree_a, moves.move_a), transformed(tree_b, moves.move_b),
+        transformed(tree_a, moves.transform_a), transformed(tree_b, moves.transform_b),
         [&](const candidate_block& block) {
             detail::intersect::narrow_phase_output output;
             detail::intersect::bad_faces met;
@@ -161,49 +161,49 @@ bool any_meet(mesh_view a, const tree<3>& tree_a, mesh_view b, const tree<3>& tr
 
 }  // namespace
 
-intersection_result detail::intersect::mesh_intersections(mesh_view a, const tree<3>& tree_a,
-                                                          mesh_view b, const tree<3>& tree_b,
-                                                          const intersection_options& options,
-                                                          base::effort* effort) {
+face_pair_result detail::intersect::mesh_intersections(mesh_view a, const tree<3>& tree_a,
+                                                       mesh_view b, const tree<3>& tree_b,
+                                                       const face_pair_options& options,
+                                                       base::effort* effort) {
     check_tree("treeform::mesh_intersections", "first", a, tree_a);
     check_tree("treeform::mesh_intersections", "second", b, tree_b);
-    return classified_by_faces(a, tree_a, b, tree_b, options, {options.move_a, options.move_b},
-                               effort);
+    return classified_by_faces(a, tree_a, b, tree_b, options,
+                               {options.transform_a, options.transform_b}, effort);
 }
 
 namespace {
 
-intersection_result between_prepared(const prepared_mesh& a, const prepared_mesh& b,
-                                     const intersection_options& options) {
+face_pair_result between_prepared(const prepared_mesh& a, const prepared_mesh& b,
+                                  const face_pair_options& options) {
     const tree<3>& tree_a = build_face_tree(a, "mesh_intersections: a");
     const tree<3>& tree_b = build_face_tree(b, "mesh_intersections: b");
-    const pair_search_chunks<3> search(transformed(tree_a, options.move_a),
-                                       transformed(tree_b, options.move_b), in_both_frames);
+    const pair_search_chunks<3> search(transformed(tree_a, options.transform_a),
+                                       transformed(tree_b, options.transform_b), in_both_frames);
     return classified<detail::intersect::block_candidates>(
         search,
-        {{detail::nearness::face_blocks_of(a).triangles, tree_a, options.move_a},
-         {detail::nearness::face_blocks_of(b).triangles, tree_b, options.move_b}},
+        {{detail::nearness::face_blocks_of(a).triangles, tree_a, options.transform_a},
+         {detail::nearness::face_blocks_of(b).triangles, tree_b, options.transform_b}},
         options);
 }
 
 }  // namespace
 
-intersection_result mesh_intersections(const mesh_ref& a, const mesh_ref& b,
-                                       const intersection_options& options) {
+face_pair_result mesh_intersections(const mesh_ref& a, const mesh_ref& b,
+                                    const face_pair_options& options) {
     if (detail::base::is_prepared_or_cloud(a, b))
         return between_prepared(detail::base::prepared_ref(a), detail::base::prepared_ref(b),
                                 options);
     const auto [tree_a, tree_b] = detail::intersect::overlap_trees(
-        "mesh_intersections", a.view(), b.view(), {options.move_a, options.move_b});
+        "mesh_intersections", a.view(), b.view(), {options.transform_a, options.transform_b});
     return classified_by_faces(a.view(), tree_a, b.view(), tree_b, options, {});
 }
 
 bool detail::intersect::intersects(mesh_view a, const tree<3>& tree_a, mesh_view b,
-                                   const tree<3>& tree_b, const mesh_positions& positions) {
+                                   const tree<3>& tree_b, const mesh_pair_options& positions) {
     return any_meet(a, tree_a, b, tree_b, positions, positions);
 }
 
-bool intersects(const mesh_ref& a, const mesh_ref& b, const mesh_positions& positions) {
+bool intersects(const mesh_ref& a, const mesh_ref& b, const mesh_pair_options& positions) {
     if (detail::base::is_prepared_or_cloud(a, b)) {
         const detail::base::prepared_ref of_a(a), of_b(b);
         return detail::intersect::intersects(of_a.view(), build_face_tree(of_a, "intersects: a"),

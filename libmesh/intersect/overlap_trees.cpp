@@ -57,23 +57,23 @@ trees build_trees(std::span<const face> a, const BoxOfA& box_of_a, std::span<con
 }  // namespace
 
 std::pair<tree<3>, tree<3>> overlap_trees(const std::string& function, mesh_view a, mesh_view b,
-                                          const mesh_positions& positions) {
+                                          const mesh_pair_options& positions) {
     const std::string name_a = function + ": a", name_b = function + ": b";
-    const transform<3>& move_a = positions.move_a;
-    const transform<3>& move_b = positions.move_b;
-    if (!move_a.finite() || !move_b.finite())
+    const transform<3>& transform_a = positions.transform_a;
+    const transform<3>& transform_b = positions.transform_b;
+    if (!transform_a.finite() || !transform_b.finite())
         throw std::invalid_argument("treeform::" + function + ": a transform is not finite");
     base::check_faces(name_a.c_str(), a.points.size(), a.faces);
     base::check_faces(name_b.c_str(), b.points.size(), b.faces);
     try {
-        if (move_a == transform<3>{} && move_b == transform<3>{})
+        if (transform_a == transform<3>{} && transform_b == transform<3>{})
             return build_trees(a.faces, base::face_boxes(a.points), b.faces,
                                base::face_boxes(b.points));
-        return build_trees(a.faces, base::face_boxes(a.points, move_a), b.faces,
-                           base::face_boxes(b.points, move_b));
+        return build_trees(a.faces, base::face_boxes(a.points, transform_a), b.faces,
+                           base::face_boxes(b.points, transform_b));
     } catch (const std::invalid_argument&) {  // a box, and so a face, that is not finite
-        check_finite_faces_moved(name_a.c_str(), a, move_a);
-        check_finite_faces_moved(name_b.c_str(), b, move_b);
+        check_finite_faces_moved(name_a.c_str(), a, transform_a);
+        check_finite_faces_moved(name_b.c_str(), b, transform_b);
         throw;
     }
 }

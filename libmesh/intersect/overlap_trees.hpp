@@ -22,6 +22,6 @@ namespace treeform::detail::intersect {
 /// \same   on any number of threads
 [[nodiscard]] std::pair<tree<3>, tree<3>> overlap_trees(const std::string& function, mesh_view a,
                                                         mesh_view b,
-                                                        const mesh_positions& positions);
+                                                        const mesh_pair_options& positions);
 
 }  // namespace treeform::detail::intersect

@@ -68,7 +68,7 @@ void own_candidates::decide_class(candidate_classes::name which,
 
 /// The candidates that `between` and `within` leave.
 candidate_block own_candidates::wanted(const candidate_block& block) {
-    const intersection_options& options = *own_.options;
+    const face_pair_options& options = *own_.options;
     std::size_t count = 0;
     for (std::size_t i = 0; i < block.first.size(); ++i) {
         const std::uint32_t a = block.first[i];

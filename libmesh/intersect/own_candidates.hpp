@@ -20,7 +20,7 @@ namespace treeform::detail::intersect {
 struct own_faces {
     points_view points;
     std::span<const numbered_face> faces;  ///< [F] in leaf order
-    const intersection_options* options;
+    const face_pair_options* options;
     bool filtered;  ///< whether all coordinates are in the range of the filter
 };
 

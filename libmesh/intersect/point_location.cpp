@@ -189,8 +189,9 @@ void detail::intersect::check_closed(const char* function, mesh_view mesh) {
 bool detail::intersect::is_closed(const prepared_mesh& mesh) {
     constexpr base::slot<bool> slot{base::slot_name::closed};
     if (mesh.is_cloud()) return false;
-    return base::prepared_slots::get(
-        mesh, slot, [&] { return !find_open_edge(weld::join_faces(mesh).of(mesh.view())); });
+    return base::prepared_slots::get(mesh, slot, [&] {
+        return !find_open_edge(weld::join_faces(mesh).of(mesh.indexed_view()));
+    });
 }
 
 namespace {
@@ -235,8 +236,9 @@ template <class Asked>
 auto locate_in(const prepared_mesh& mesh, const Asked& asked) {
     const tree<3>& faces = build_face_tree(mesh, "locate");
     if (!detail::intersect::is_closed(mesh))
-        detail::intersect::check_closed("locate", detail::weld::join_faces(mesh).of(mesh.view()));
-    return detail::intersect::point_locator(mesh.view(), faces).locate(asked);
+        detail::intersect::check_closed("locate",
+                                        detail::weld::join_faces(mesh).of(mesh.indexed_view()));
+    return detail::intersect::point_locator(mesh.indexed_view(), faces).locate(asked);
 }
 
 bool is_in(const point_location& found) { return found.where != location::outside; }

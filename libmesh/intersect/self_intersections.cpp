@@ -28,7 +28,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void check(mesh_view mesh, const intersection_options& options) {
+void check(mesh_view mesh, const face_pair_options& options) {
     detail::base::check_faces("self_intersections", mesh.points.size(), mesh.faces);
     const std::size_t bad_point = detail::base::first_bad(mesh.points.size(), [&](std::size_t i) {
         return !detail::base::is_finite(mesh.points[i]);
@@ -71,10 +71,10 @@ detail::buffer<detail::intersect::numbered_face> leaf_order(mesh_view mesh, cons
 constexpr std::size_t all_pairs = std::numeric_limits<std::size_t>::max();
 
 /// Goes on until more pairs than `most` have been found; keeps those that are wanted.
-intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
-                               const intersection_options& options, std::size_t most = all_pairs,
-                               const detail::intersect::wanted_pairs* wanted = nullptr) {
-    intersection_result result;
+face_pair_result find_pairs(mesh_view mesh, const tree<3>& tree, const face_pair_options& options,
+                            std::size_t most = all_pairs,
+                            const detail::intersect::wanted_pairs* wanted = nullptr) {
+    face_pair_result result;
     const auto pair_start = std::chrono::steady_clock::now();
     const detail::buffer<detail::intersect::numbered_face> faces = leaf_order(mesh, tree);
     const detail::intersect::own_faces own{mesh.points, faces.span(), &options, fits_filter(tree)};
@@ -113,7 +113,7 @@ intersection_result find_pairs(mesh_view mesh, const tree<3>& tree,
 
 }  // namespace
 
-intersection_result self_intersections(const mesh_ref& given, const intersection_options& options) {
+face_pair_result self_intersections(const mesh_ref& given, const face_pair_options& options) {
     const mesh_view mesh = given.view();
     check(mesh, options);
     if (given.prepared() != nullptr)
@@ -127,21 +127,21 @@ intersection_result self_intersections(const mesh_ref& given, const intersection
     const auto start = std::chrono::steady_clock::now();
     tree<3> tree = detail::base::checked_face_tree(mesh);
     const double seconds = seconds_since(start);
-    intersection_result result =
+    face_pair_result result =
         detail::intersect::pairs_by_tree(joined.of(mesh), std::move(tree), options);
     result.tree_seconds = seconds;
     return result;
 }
 
-intersection_result detail::intersect::pairs_by_tree(mesh_view mesh, tree<3>&& tree,
-                                                     const intersection_options& options) {
+face_pair_result detail::intersect::pairs_by_tree(mesh_view mesh, tree<3>&& tree,
+                                                  const face_pair_options& options) {
     const auto ours = std::move(tree);
     return find_pairs(mesh, ours, options);
 }
 
-intersection_result detail::intersect::pairs_by_tree(mesh_view mesh, const tree<3>& tree,
-                                                     const intersection_options& options,
-                                                     std::size_t most, const wanted_pairs* wanted) {
+face_pair_result detail::intersect::pairs_by_tree(mesh_view mesh, const tree<3>& tree,
+                                                  const face_pair_options& options,
+                                                  std::size_t most, const wanted_pairs* wanted) {
     return find_pairs(mesh, tree, options, most, wanted);
 }
 

@@ -17,7 +17,7 @@ namespace {
             const double x = p[axis_number(axis)];
             if constexpr (std::is_floating_point_v<T>) {
                 const point3 alone{x, x, x};
-                return fits_single(std::span(&alone, 1));
+                return fits_float32(std::span(&alone, 1));
             } else {
                 return is_value_of<T>(x);
             }

@@ -47,7 +47,7 @@ class face_sink {
             ++short_faces_;
             return false;
         }
-        auto& stored = file_.stored_face;
+        auto& stored = file_.face_of_triangle;
         if (corners_ > 3 && stored.empty()) {
             stored.resize(file_.stored_faces);
             std::iota(stored.begin(), stored.end(), std::uint32_t{0});

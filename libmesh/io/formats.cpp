@@ -155,7 +155,9 @@ void add_names(std::string& list, const element* e, held what, bool alpha, std::
         add(!holds.elements && e.name != "vertex" && e.name != "face" && e.rows > 0,
             "element " + e.name);
     const bool keeps_names = holds.names && (format.extension != "stl" || text);
-    const auto is_named = [](const part& p) { return !p.object.empty() || !p.group.empty(); };
+    const auto is_named = [](const named_faces& p) {
+        return !p.object.empty() || !p.group.empty();
+    };
     // A name of all faces is that of the file, more or less.
     const bool has_parts =
         all.parts.size() > 1 || (!all.parts.empty() && all.parts[0].first_face > 0);
@@ -206,7 +208,7 @@ std::vector<io_warning> left_out(const known_format& format, const mesh_file& fi
     if (!holds.has_faces && !file.mesh.faces.empty())
         lost.push_back({"faces-dropped", "faces left out: " + name + " holds points only"});
     say("corner-values", corner_values_left_out(holds, all.corners, points));
-    const auto has_material = [](const part& p) { return !p.material.empty(); };
+    const auto has_material = [](const named_faces& p) { return !p.material.empty(); };
     if (!holds.materials && std::ranges::any_of(all.parts, has_material))
         say("materials", "materials");
     if (!holds.texture_files && !all.texture_files.empty())

@@ -69,7 +69,7 @@ class ply_faces {
                          static_cast<std::size_t>(std::min<std::uint64_t>(left, rows_a_run)),
                          faces.head.warnings);
             if (next < first) continue;
-            if (!fits_single(points)) faces.head.stored_as = precision::float64;
+            if (!fits_float32(points)) faces.head.stored_as = precision::float64;
             base::add_to_box(faces.bounds, bounding_box(points));
             points_->put(points);
             for (; sampled < next + points.size(); sampled += step)

@@ -114,10 +114,10 @@ struct point_writer::state {
         if (!same_columns(properties, given ? &*given : nullptr))
             refuse_block("the columns are not those of the header");
         detail::io::check_columns(properties);
-        if (result.written_as != precision::float32 || options.precision || fits_single(points))
+        if (result.written_as != precision::float32 || options.precision || fits_float32(points))
             return;
         std::size_t i = 0;
-        while (fits_single(points.subspan(i, 1))) ++i;
+        while (fits_float32(points.subspan(i, 1))) ++i;
         refuse_point({i, "a coordinate is not a float32 value, as the header declares"});
     }
 

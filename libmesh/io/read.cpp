@@ -23,7 +23,7 @@ namespace {
 /// \cost O(F); O(1) if all faces are triangles
 std::size_t count_concave_faces(const mesh_file& file) {
     constexpr double noise = 1e-6;  // of the face's area, which bounds what rounding turns over
-    const std::vector<std::uint32_t>& stored = file.stored_face;
+    const std::vector<std::uint32_t>& stored = file.face_of_triangle;
     std::size_t count = 0;
     std::vector<point3> areas;
     for (std::size_t first = 0; first < stored.size();) {

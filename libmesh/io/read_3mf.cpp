@@ -212,7 +212,7 @@ class placer {
         }
         const bool turned = t.mirrors();
         append_faces(file_.mesh.faces, object.faces, first_point, turned);
-        if (!fits_single(object.points)) file_.stored_as = precision::float64;
+        if (!fits_float32(object.points)) file_.stored_as = precision::float64;
         append_looks(looks_, first_face, object, turned);
         if (!object.faces.empty()) add_part(key, object, name, first_face);
     }
@@ -220,7 +220,7 @@ class placer {
     /// A number is no name, and one object needs none to be told from others.
     void drop_name() {
         auto& parts = file_.attributes.parts;
-        for (part& p : parts) p.object.clear();
+        for (named_faces& p : parts) p.object.clear();
         if (parts.size() == 1 && parts[0].material.empty()) parts.clear();
     }
 

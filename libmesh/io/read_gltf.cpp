@@ -209,7 +209,7 @@ class placer_gltf {
         shown_mesh& shown = shown_[mesh];
         if (!shown.local) {
             shown.local = decode(buffers_, mesh, shown.outline, survey_);
-            shown.fits_float = fits_single(shown.local->points);
+            shown.fits_float = fits_float32(shown.local->points);
         }
         if (!shown.fits_float) file_.stored_as = precision::float64;
         if (!shown.local->faces.empty()) add_part(number);

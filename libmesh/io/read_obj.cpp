@@ -193,7 +193,7 @@ class obj_reader {
         text_.remark(file_.warnings);
         file_.attributes.corners = corners_.take(file_.warnings);
         if (file_.mesh.faces.empty()) store_looks();
-        file_.stored_as = fits_single(file_.mesh.points) ? precision::float32 : precision::float64;
+        file_.stored_as = fits_float32(file_.mesh.points) ? precision::float32 : precision::float64;
         return std::move(file_);
     }
 
@@ -347,7 +347,7 @@ class obj_reader {
     obj_corners corners_;
     mesh_file file_{};
     face_sink faces_;
-    part part_{};
+    named_faces part_{};
     std::set<std::string> known_material_files_{};
     bool new_part_ = false;
     std::size_t skipped_elements_ = 0;

@@ -71,7 +71,7 @@ class off_reader {
         text_.remark(file_.warnings);
         if (file_.mesh.faces.size() > std::numeric_limits<std::uint32_t>::max())
             text_.file.fail("more triangles than 32-bit numbers can name");
-        file_.stored_as = fits_single(file_.mesh.points) ? precision::float32 : precision::float64;
+        file_.stored_as = fits_float32(file_.mesh.points) ? precision::float32 : precision::float64;
         return std::move(file_);
     }
 

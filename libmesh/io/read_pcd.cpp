@@ -166,7 +166,7 @@ void look_behind(bool more, warnings& said) {
 
 mesh_file read_pcd(const source& in) {
     mesh_file file = read_all(in, open(in, scratch_place::memory));
-    file.stored_as = fits_single(file.mesh.points) ? precision::float32 : precision::float64;
+    file.stored_as = fits_float32(file.mesh.points) ? precision::float32 : precision::float64;
     return file;
 }
 

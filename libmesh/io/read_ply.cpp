@@ -147,7 +147,7 @@ mesh_file read_ply(const source& in) {
         file.attributes.elements = std::move(header.elements);
         body_reader<decltype(values)>(in, std::move(values), file).read();
     });
-    file.stored_as = fits_single(file.mesh.points) ? precision::float32 : precision::float64;
+    file.stored_as = fits_float32(file.mesh.points) ? precision::float32 : precision::float64;
     return file;
 }
 

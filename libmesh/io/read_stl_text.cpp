@@ -55,7 +55,7 @@ class stl_text_reader {
             file_.attributes.parts.clear();
         file_.stored_faces = file_.mesh.faces.size();
         remark();
-        file_.stored_as = fits_single(file_.mesh.points) ? precision::float32 : precision::float64;
+        file_.stored_as = fits_float32(file_.mesh.points) ? precision::float32 : precision::float64;
         return std::move(file_);
     }
 

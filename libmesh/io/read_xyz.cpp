@@ -292,8 +292,8 @@ class xyz_reader {
         text_cell c{.value = text_.take(n)};
         if (quoted) ++text_.at;
         text_column& fact = facts_[place];
-        fact.least = std::min(fact.least, c.value);
-        fact.greatest = std::max(fact.greatest, c.value);
+        fact.min = std::min(fact.min, c.value);
+        fact.max = std::max(fact.max, c.value);
         fact.whole = fact.whole && take_whole(start, n.end, c, fact);
         more_.push_back(c);
     }
@@ -405,7 +405,7 @@ mesh_file read_xyz(const source& in, std::string_view format,
         file.warnings.push_back({"columns", xyz_reader::uneven});
         file.attributes.elements.clear();
     }
-    file.stored_as = fits_single(file.mesh.points) ? precision::float32 : precision::float64;
+    file.stored_as = fits_float32(file.mesh.points) ? precision::float32 : precision::float64;
     return file;
 }
 

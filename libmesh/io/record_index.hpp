@@ -22,16 +22,16 @@ struct text_column {
     bool beyond = false;         ///< one is beyond 2^53
     bool unsigned_only = false;  ///< one is beyond 2^63
     std::uint64_t gaps = 0;      ///< number of empty cells, and cells with text
-    double least = 0.0;
-    double greatest = 0.0;
+    double min = 0.0;
+    double max = 0.0;
 
     void add(const text_column& more) {
         whole = whole && more.whole;
         beyond = beyond || more.beyond;
         unsigned_only = unsigned_only || more.unsigned_only;
         gaps += more.gaps;
-        least = std::min(least, more.least);
-        greatest = std::max(greatest, more.greatest);
+        min = std::min(min, more.min);
+        max = std::max(max, more.max);
     }
 };
 

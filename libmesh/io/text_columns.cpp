@@ -76,8 +76,8 @@ const std::array<words, 3> axis_names[] = {
 [[nodiscard]] scalar_type type_of_colors(const std::vector<text_column>& colors) {
     double most = 0.0;
     for (const text_column& fact : colors) {
-        if (!is_whole(fact) || fact.least < 0.0) return scalar_type::float64;
-        most = std::max(most, fact.greatest);
+        if (!is_whole(fact) || fact.min < 0.0) return scalar_type::float64;
+        most = std::max(most, fact.max);
     }
     if (colors.size() < 3 || most > 65535.0) return scalar_type::float64;
     return most > 255.0 ? scalar_type::uint16 : scalar_type::uint8;
@@ -180,7 +180,7 @@ void choose_types(element& declared, std::span<const text_column> facts) {
         if (!is_whole(fact)) return;
         if (fact.beyond && !fact.unsigned_only)
             c.type = scalar_type::int64;
-        else if (fact.beyond && fact.least >= 0.0)
+        else if (fact.beyond && fact.min >= 0.0)
             c.type = scalar_type::uint64;
         else if (!fact.beyond && is_color(c))
             c.type = type_of_colors(colors);

@@ -326,8 +326,8 @@ class urdf_reader {
                             numbers<1>(limit, "upper", {0.0}, whose)[0]};
         if (const pugi::xml_node mimic = node.child("mimic")) {
             joint.mimics = mimic.attribute("joint").value();
-            joint.mimic_line = {numbers<1>(mimic, "multiplier", {1.0}, whose)[0],
-                                numbers<1>(mimic, "offset", {0.0}, whose)[0]};
+            joint.mimic_multiplier = numbers<1>(mimic, "multiplier", {1.0}, whose)[0];
+            joint.mimic_offset = numbers<1>(mimic, "offset", {0.0}, whose)[0];
         }
         robot_.joints.push_back(std::move(joint));
     }
@@ -437,7 +437,7 @@ std::vector<transform<3>> urdf_robot::link_transforms(
         if (joint.mimics.empty()) return 0.0;
         const auto other = values.find(joint.mimics);
         const double followed = other == values.end() ? 0.0 : other->second;
-        return joint.mimic_line[0] * followed + joint.mimic_line[1];
+        return joint.mimic_multiplier * followed + joint.mimic_offset;
     };
     std::vector<transform<3>> at(links.size());
     for (const urdf_joint& joint : joints)

@@ -85,12 +85,12 @@ void check_faces(const mesh_file& file) {
         for (const std::uint32_t corner : faces[f])
             if (corner >= file.mesh.points.size())
                 refuse_file("face " + std::to_string(f) + " has a corner out of range");
-    const auto& stored = file.stored_face;
+    const auto& stored = file.face_of_triangle;
     if (const auto fault = file.attributes.corners.fault(faces.size()); !fault.empty())
         refuse_file(fault);
     if (stored.empty()) return;
-    if (stored.size() != faces.size()) refuse_file("stored_face and faces differ in size");
-    if (stored[0] != 0) refuse_file("stored_face does not start with face 0");
+    if (stored.size() != faces.size()) refuse_file("face_of_triangle and faces differ in size");
+    if (stored[0] != 0) refuse_file("face_of_triangle does not start with face 0");
     for (std::size_t f = 1; f < faces.size(); ++f) {
         if (stored[f] == stored[f - 1]) {
             const corner_values& corners = file.attributes.corners;
@@ -99,7 +99,7 @@ void check_faces(const mesh_file& file) {
                 refuse_file("the triangles of stored face " + std::to_string(stored[f]) +
                             " are not a fan");
         } else if (stored[f] != stored[f - 1] + 1) {
-            refuse_file("stored_face skips a face before triangle " + std::to_string(f));
+            refuse_file("face_of_triangle skips a face before triangle " + std::to_string(f));
         }
     }
 }
@@ -181,7 +181,7 @@ class writing {
             single ? precision::float32 : options.precision.value_or(file.stored_as);
         // A node's transform has made doubles of float32 numbers; those are worth keeping.
         if (!options.precision && result_.written_as == precision::float32 && !single &&
-            !fits_single(file.mesh.points))
+            !fits_float32(file.mesh.points))
             result_.written_as = precision::float64;
         if (result_.written_as == precision::float32)
             result_.max_displacement = largest_move(file.mesh.points, 0, name_);

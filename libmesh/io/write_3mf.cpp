@@ -59,7 +59,7 @@ class face_looks {
         const auto of_faces = color_columns(file.attributes.find("face"));
         auto of_points = color_columns(job.vertices);
         const bool named = std::any_of(parts.begin(), parts.end(),
-                                       [](const part& p) { return !p.material.empty(); });
+                                       [](const named_faces& p) { return !p.material.empty(); });
         leaves_out_points = (named || !of_faces.empty()) && !of_points.empty();
         if (leaves_out_points) of_points.clear();
         lacks_colors = named && of_faces.empty() && !file.attributes.material_files.empty();
@@ -136,7 +136,7 @@ struct written_object {
 /// that a file of one object keeps all its points.
 [[nodiscard]] std::vector<written_object> objects_of(const mesh_file& file) {
     std::vector<written_object> objects;
-    for (scene_part& p : scene_parts(file.mesh, file.attributes.parts, file.stored_face))
+    for (scene_part& p : scene_parts(file.mesh, file.attributes.parts, file.face_of_triangle))
         objects.push_back({.part = std::move(p)});
     if (objects.empty()) return objects;
     // Parts with a point in common are one, so each point has one owner at most.

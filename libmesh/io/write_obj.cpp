@@ -112,7 +112,7 @@ void put_name(sink& out, std::string_view keyword, const std::string& name) {
 }
 
 /// The names that differ from those in force.
-void put_names(sink& out, const part& now, const part& before) {
+void put_names(sink& out, const named_faces& now, const named_faces& before) {
     if (now.object != before.object) put_name(out, "o", now.object);
     // A new object has no group until one is named.
     if (now.group != (now.object != before.object ? std::string() : before.group))
@@ -153,7 +153,7 @@ void write_obj(const write_job& job) {
                            {values.normal_of_corner, !looks.normal.empty()}};
     const mesh_file& file = job.file;
     const auto& parts = file.attributes.parts;
-    if (parts.empty() && file.stored_face.empty()) {
+    if (parts.empty() && file.face_of_triangle.empty()) {
         put_by_pieces(job, file.mesh.faces.size(),
                       [&](const write_job& piece, auto first, auto last) {
                           for (std::size_t f = first; f < last; ++f)
@@ -162,7 +162,7 @@ void write_obj(const write_job& job) {
         return;
     }
     std::size_t part_index = 0;
-    part current;
+    named_faces current;
     for_each_stored_face(file, [&](std::size_t first, std::span<const std::uint32_t> corners) {
         for (; part_index < parts.size() && parts[part_index].first_face <= face_row(file, first);
              ++part_index) {

@@ -269,7 +269,7 @@ class ply_writer {
 
     void put_faces(const element& e) {
         const mesh_file& file = job_.file;
-        if (file.stored_face.empty()) {
+        if (file.face_of_triangle.empty()) {
             put_by_pieces(job_, file.mesh.faces.size(),
                           [&](const write_job& piece, auto first, auto last) {
                               ply_writer some(*this, piece);

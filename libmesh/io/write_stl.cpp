@@ -85,7 +85,7 @@ void text_facet(const write_job& job, const face& f) {
     return header;
 }
 
-[[nodiscard]] bool differ_in_material_alone(const part& a, const part& b) {
+[[nodiscard]] bool differ_in_material_alone(const named_faces& a, const named_faces& b) {
     return a.object == b.object && a.group == b.group && a.material != b.material;
 }
 
@@ -106,7 +106,7 @@ void write_stl_text(const write_job& job) {
     const auto& parts = file.attributes.parts;
     // Faces ahead of the first part have no name.
     std::size_t next_part = !parts.empty() && parts[0].first_face == 0 ? 1 : 0;
-    part now = next_part > 0 ? parts[0] : part{};
+    named_faces now = next_part > 0 ? parts[0] : named_faces{};
     const auto put_name = [&](std::string_view keyword) {
         job.out.put(keyword);
         const std::string name = part_name(now);

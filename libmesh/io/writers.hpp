@@ -119,7 +119,7 @@ void check_columns(const element& e);
 template <class F>
 void for_each_stored_face(const mesh_file& file, F&& f) {
     const auto& faces = file.mesh.faces;
-    const auto& stored = file.stored_face;
+    const auto& stored = file.face_of_triangle;
     std::vector<std::uint32_t> corners;
     for (std::size_t first = 0; first < faces.size();) {
         corners.assign(faces[first].begin(), faces[first].end());
@@ -146,13 +146,13 @@ void for_each_stored_face(const mesh_file& file, F&& f) {
 
 /// Number of stored faces.
 [[nodiscard]] inline std::size_t stored_face_count(const mesh_file& file) {
-    return file.stored_face.empty() ? file.mesh.faces.size()
-                                    : file.stored_face.back() + std::size_t{1};
+    return file.face_of_triangle.empty() ? file.mesh.faces.size()
+                                         : file.face_of_triangle.back() + std::size_t{1};
 }
 
 /// The row of a triangle in the element "face".
 [[nodiscard]] inline std::size_t face_row(const mesh_file& file, std::size_t triangle) {
-    return file.stored_face.empty() ? triangle : file.stored_face[triangle];
+    return file.face_of_triangle.empty() ? triangle : file.face_of_triangle[triangle];
 }
 
 /// Writes value `i` of a column as text.

@@ -385,7 +385,7 @@ bounding_cylinders::bounding_cylinders(const tree<3>& tree,
     cylinders_.resize(total);
     std::vector<point3> normals(tree.nodes_in_level(last));
     base::for_numbers(normals.size(), 512, [&](std::size_t i) {
-        normals[i] = normal_of(triangles[i], tree.children(last, i));
+        normals[i] = normal_of(triangles[i], tree.child_count(last, i));
     });
     // From the triangles themselves while they stay in the cache; far above, where surfaces are
     // round, from the cylinders below.
@@ -398,7 +398,7 @@ bounding_cylinders::bounding_cylinders(const tree<3>& tree,
         base::for_numbers(nodes, grain, [&](std::size_t node) {
             eight_cylinders& cylinders = cylinders_[begin_[level] + node];
             cylinders = {};
-            for (std::size_t slot = 0; slot < tree.children(level, node); ++slot) {
+            for (std::size_t slot = 0; slot < tree.child_count(level, node); ++slot) {
                 const std::size_t child = node * 8 + slot;
                 const point3& normal = normals[child];
                 for (std::size_t k = 0; k < 3; ++k) sums[node][k] += normal[k];
@@ -412,7 +412,7 @@ bounding_cylinders::bounding_cylinders(const tree<3>& tree,
                     (triangles.data() + first, triangles.data() + end_block, tree.frame(), axis,
                      extent);
                 } else {
-                    for (std::size_t i = 0; i < tree.children(level + 1, child); ++i)
+                    for (std::size_t i = 0; i < tree.child_count(level + 1, child); ++i)
                         measure_disc(cylinders_[begin_[level + 1] + child], i, axis, extent);
                 }
                 put_disc(axis, extent, cylinders, slot);

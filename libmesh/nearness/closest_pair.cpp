@@ -72,7 +72,10 @@ class placed_faces {
 
   private:
     placed_faces(const transformed<3>& tree, double unit)
-        : ids_(tree.original().ids().data()), by_(tree.map()), moves_(tree.moves()), unit_(unit) {}
+        : ids_(tree.original().ids().data()),
+          by_(tree.map()),
+          moves_(tree.is_moved()),
+          unit_(unit) {}
 
     mesh_view mesh_;
     const detail::nearness::eight_triangles* blocks_ = nullptr;
@@ -225,7 +228,7 @@ const detail::nearness::face_blocks& detail::nearness::face_blocks_of(const prep
     constexpr base::slot<face_blocks> slot{base::slot_name::triangle_blocks};
     const tree<3>& faces = build_face_tree(mesh);
     return base::prepared_slots::get(mesh, slot, [&] {
-        face_blocks blocks{triangle_blocks(mesh.view(), faces), {}};
+        face_blocks blocks{triangle_blocks(mesh.indexed_view(), faces), {}};
         blocks.cylinders = bounding_cylinders(faces, blocks.triangles);
         return blocks;
     });
@@ -234,19 +237,21 @@ const detail::nearness::face_blocks& detail::nearness::face_blocks_of(const prep
 namespace {
 
 std::optional<closest_pair_result> find(const std::string& function, mesh_view a, mesh_view b,
-                                        const mesh_positions& options) {
+                                        const mesh_pair_options& options) {
     const tree<3> tree_a = build_face_tree(a, (function + ": a").c_str());
     const tree<3> tree_b = build_face_tree(b, (function + ": b").c_str());
-    return detail::nearness::closest_pair(a, {tree_a, options.move_a}, b, {tree_b, options.move_b},
-                                          options.radius);
+    return detail::nearness::closest_pair(a, {tree_a, options.transform_a}, b,
+                                          {tree_b, options.transform_b}, options.radius);
 }
 
 std::optional<closest_pair_result> find(const std::string& function, const prepared_mesh& a,
-                                        const prepared_mesh& b, const mesh_positions& options) {
+                                        const prepared_mesh& b, const mesh_pair_options& options) {
     detail::check_radius(("treeform::" + function).c_str(), options.radius);
-    const transformed<3> tree_a(build_face_tree(a, (function + ": a").c_str()), options.move_a);
-    const transformed<3> tree_b(build_face_tree(b, (function + ": b").c_str()), options.move_b);
-    if (a.view().faces.empty() || b.view().faces.empty()) return std::nullopt;
+    const transformed<3> tree_a(build_face_tree(a, (function + ": a").c_str()),
+                                options.transform_a);
+    const transformed<3> tree_b(build_face_tree(b, (function + ": b").c_str()),
+                                options.transform_b);
+    if (a.indexed_view().faces.empty() || b.indexed_view().faces.empty()) return std::nullopt;
     const auto& in_a = detail::nearness::face_blocks_of(a);
     const auto& in_b = detail::nearness::face_blocks_of(b);
     const double unit = unit_for(tree_a, tree_b);
@@ -264,7 +269,8 @@ std::optional<closest_pair_result> find(const std::string& function, const prepa
 }
 
 std::optional<closest_pair_result> find_between(const char* function, const mesh_ref& a,
-                                                const mesh_ref& b, const mesh_positions& options) {
+                                                const mesh_ref& b,
+                                                const mesh_pair_options& options) {
     if (!detail::base::is_prepared_or_cloud(a, b))
         return find(function, a.view(), b.view(), options);
     return find(function, *detail::base::prepared_ref(a), *detail::base::prepared_ref(b), options);
@@ -273,11 +279,11 @@ std::optional<closest_pair_result> find_between(const char* function, const mesh
 }  // namespace
 
 std::optional<closest_pair_result> closest_pair(const mesh_ref& a, const mesh_ref& b,
-                                                const mesh_positions& options) {
+                                                const mesh_pair_options& options) {
     return find_between("closest_pair", a, b, options);
 }
 
-double distance(const mesh_ref& a, const mesh_ref& b, const mesh_positions& options) {
+double distance(const mesh_ref& a, const mesh_ref& b, const mesh_pair_options& options) {
     const auto found = find_between("distance", a, b, options);
     return found ? found->distance : std::numeric_limits<double>::infinity();
 }

@@ -303,7 +303,8 @@ std::vector<std::optional<closest_point_result>> closest_point_query::nearest_in
 
 const closest_point_query& closest_point_query_of(const prepared_mesh& mesh) {
     constexpr base::slot<closest_point_query> slot{base::slot_name::closest_triangles};
-    return base::prepared_slots::get(mesh, slot, [&] { return closest_point_query(mesh.view()); });
+    return base::prepared_slots::get(mesh, slot,
+                                     [&] { return closest_point_query(mesh.indexed_view()); });
 }
 
 }  // namespace treeform::detail::nearness

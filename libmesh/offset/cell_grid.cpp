@@ -100,7 +100,7 @@ point3 cell_grid::point(lattice_key at, double shift) const {
 
 cell_grid cells_at(const char* function, const prepared_mesh& mesh, double distance,
                    wanted_side side, double step, base::work_progress& progress) {
-    const box3 box = *bounding_box(mesh.view().points);
+    const box3 box = *bounding_box(mesh.indexed_view().points);
     cell_grid grid;
     double extent = 0.0;
     const double margin = (side == wanted_side::inside ? 0.0 : distance) + 2.0 * step;

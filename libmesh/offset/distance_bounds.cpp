@@ -51,7 +51,7 @@ distance_bounds bounds_of_distance(mesh_view from, const prepared_mesh& mesh, do
         std::vector<double> bounds(parts.size());
         for (std::size_t i = 0; i < parts.size(); ++i) {
             met = std::max(met, found[i]->distance);
-            bounds[i] = bound_of(parts[i], base::triangle_of(mesh.view(), found[i]->face));
+            bounds[i] = bound_of(parts[i], base::triangle_of(mesh.indexed_view(), found[i]->face));
         }
         std::vector<triangle3> next;
         for (std::size_t i = 0; i < parts.size(); ++i) {

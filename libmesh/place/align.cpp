@@ -69,7 +69,7 @@ class alignment {
         target_.find_planes();
         if (task_.planes && target_.is_cloud() && options.method != align_method::point_to_plane)
             find_planes(all_);
-        samples_ = some_of(fitted_of(all_), options.samples);
+        samples_ = some_of(fitted_of(all_), options.max_samples);
         few_ = some_of(samples_, few_samples);
         if (!task_.scale) return;
         ways_.emplace(few_, frame_, fixed_);

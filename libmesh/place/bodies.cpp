@@ -92,7 +92,7 @@ body_file& body_set::add(mesh_file content, std::string label, std::string name)
         shapes.push_back(
             file.cloud ? cloud_of(content.mesh, usable)
                        : prepared_mesh(join_equal_points(select_faces(content.mesh, usable))));
-        file.box = bounding_box(shapes.back().view().points);
+        file.box = bounding_box(shapes.back().indexed_view().points);
         bodies_.push_back({.file = files.size() - 1});
         if (usable.size() < all) bodies_.back().triangle_of_face = std::move(usable);
     }
@@ -102,12 +102,12 @@ body_file& body_set::add(mesh_file content, std::string label, std::string name)
 
 body_file& body_set::add_parts(mesh_file content, std::string label, std::string name) {
     body_file& file = add(std::move(content), std::move(label), std::move(name));
-    const std::vector<part>& names = file.content.attributes.parts;
+    const std::vector<named_faces>& names = file.content.attributes.parts;
     if (!file.box || file.cloud || names.size() < 2) return file;
-    const mesh_view mesh = shapes.back().view();
+    const mesh_view mesh = shapes.back().indexed_view();
     std::vector<std::uint32_t> number;
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f)
-        number.push_back(stored_face(bodies_.size() - 1, f));
+        number.push_back(face_in_file(bodies_.size() - 1, f));
     const std::vector<scene_part> parts = scene_parts(mesh, names, number);
     if (parts.size() < 2) return file;
     std::vector<prepared_mesh> split = split_up(mesh, parts);
@@ -137,8 +137,8 @@ std::uint32_t body_set::triangle(std::size_t body, std::uint32_t f) const {
     return triangles.empty() ? f : triangles[f];
 }
 
-std::uint32_t body_set::stored_face(std::size_t body, std::uint32_t f) const {
-    const std::vector<std::uint32_t>& stored = file_of(body).content.stored_face;
+std::uint32_t body_set::face_in_file(std::size_t body, std::uint32_t f) const {
+    const std::vector<std::uint32_t>& stored = file_of(body).content.face_of_triangle;
     const std::uint32_t t = triangle(body, f);
     return stored.empty() ? t : stored[t];
 }
@@ -162,7 +162,7 @@ void body_set::move_in_file(std::size_t number, points_view placed, const transf
         p = matrix(p);
         if (written_as == precision::float32) p = rounded(p);
     }
-    const std::span<const face> faces = shape.view().faces;
+    const std::span<const face> faces = shape.indexed_view().faces;
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
         const std::uint32_t t = triangle(number, f);
         if (shape.is_cloud()) {

@@ -61,10 +61,10 @@ void add_halo(const mesh& mesh, double halo, row_classes& triangles) {
 
 /// The gravest class of the triangles of each face as stored.
 row_classes by_stored_face(const mesh_file& file, const row_classes& triangles) {
-    if (file.stored_face.empty()) return triangles;
+    if (file.face_of_triangle.empty()) return triangles;
     row_classes stored(file.stored_faces);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-        std::uint8_t& present = stored[file.stored_face[t]];
+        std::uint8_t& present = stored[file.face_of_triangle[t]];
         if (triangles[t] != 0 && (present == 0 || triangles[t] < present)) present = triangles[t];
     }
     return stored;
@@ -135,7 +135,7 @@ std::vector<double> body_set::distances_in_file(std::size_t number,
     const prepared_mesh& shape = shapes[number];
     const mesh& file = file_of(number).content.mesh;
     std::vector<double> all(file.points.size(), std::nan(""));
-    const std::span<const face> faces = shape.view().faces;
+    const std::span<const face> faces = shape.indexed_view().faces;
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
         const std::uint32_t t = triangle(number, f);
         if (shape.is_cloud())

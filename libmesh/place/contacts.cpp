@@ -28,13 +28,13 @@ using base::minus;
 using base::triangle_of;
 
 /// Along an edge; 0 where the feature is none.
-point3 edge_of(const triangle3& t, feature on) {
+point3 edge_of(const triangle3& t, triangle_feature on) {
     switch (on) {
-        case feature::e0:
+        case triangle_feature::e0:
             return minus(t[1], t[0]);
-        case feature::e1:
+        case triangle_feature::e1:
             return minus(t[2], t[1]);
-        case feature::e2:
+        case triangle_feature::e2:
             return minus(t[0], t[2]);
         default:
             return {};
@@ -42,10 +42,10 @@ point3 edge_of(const triangle3& t, feature on) {
 }
 
 /// Of the plane in which the features meet; on the side that the motion comes from.
-point3 contact_normal(const triangle3& moving, const triangle3& fixed, contact at,
+point3 contact_normal(const triangle3& moving, const triangle3& fixed, feature_pair at,
                       const point3& motion) {
     point3 normal = unit_of(cross(edge_of(moving, at.on_a), edge_of(fixed, at.on_b)));
-    if (normal == point3{} && at.on_a == feature::interior) normal = normal_of(moving);
+    if (normal == point3{} && at.on_a == triangle_feature::interior) normal = normal_of(moving);
     if (normal == point3{}) normal = normal_of(fixed);
     if (normal == point3{}) normal = normal_of(moving);
     if (dot(normal, motion) > 0.0) normal = {-normal.x, -normal.y, -normal.z};
@@ -169,7 +169,7 @@ void mark_contacts(mesh_view placed, std::span<const prepared_mesh> fixed, const
     for (const placement_contact& c : at.contacts) {
         mark(found[0][c.moving], one);
         if (!c.fixed_face) continue;
-        found[1 + c.fixed].resize(fixed[c.fixed].view().faces.size());
+        found[1 + c.fixed].resize(fixed[c.fixed].indexed_view().faces.size());
         mark(found[1 + c.fixed][*c.fixed_face], one);
     }
     if (at.outcome != placement_outcome::bed || !at.bed) return;
@@ -217,7 +217,7 @@ std::vector<relations> placement::face_relations(const mesh_ref& given_moving,
     std::vector<relations> found(1 + fixed.size());
     found[0].resize(here.faces.size());
     for (std::size_t i = 0; i < fixed.size(); ++i) {
-        const auto other = bounding_box(fixed[i].view().points);
+        const auto other = bounding_box(fixed[i].indexed_view().points);
         if (!box || !other || !detail::place::within(*box, *other, at.clearance)) continue;
         const shape part(fixed[i]);
         found[1 + i].resize(part.mesh().faces.size());

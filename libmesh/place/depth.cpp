@@ -126,8 +126,8 @@ class escape_search {
             apart = apart || box_a_.min[k] + offset[k] > box_b_.max[k] ||
                     box_a_.max[k] + offset[k] < box_b_.min[k];
         if (apart) return true;
-        intersection_options options;
-        options.move_a = transform<3>::translation(offset);
+        face_pair_options options;
+        options.transform_a = transform<3>::translation(offset);
         options.first_only = true;
         options.kinds = pair_kind::crossing;
         const auto found = detail::intersect::mesh_intersections(a_.mesh(), a_.faces(), b_.mesh(),
@@ -144,7 +144,7 @@ class escape_search {
         if (!seems_out(offset)) return false;
         const double out = length_ * (1.0 - 0x1p-30);
         impact_options options;
-        options.move_a = transform<3>::translation(offset);
+        options.transform_a = transform<3>::translation(offset);
         options.latest = out;
         options.limit = 1;
         const impact back = detail::place::impact_of(a_.mesh(), a_.faces(), b_.mesh(), b_.faces(),

@@ -170,7 +170,7 @@ mesh joined(std::span<const prepared_mesh> meshes) {
     mesh all;
     for (const prepared_mesh& one : meshes) {
         const auto first = static_cast<std::uint32_t>(all.points.size());
-        const mesh_view part = one.view();
+        const mesh_view part = one.indexed_view();
         all.points.insert(all.points.end(), part.points.begin(), part.points.end());
         for (const auto& [a, b, c] : part.faces)
             all.faces.push_back({first + a, first + b, first + c});
@@ -180,7 +180,7 @@ mesh joined(std::span<const prepared_mesh> meshes) {
 
 std::optional<deviation_result> deviation_from(const prepared_mesh& a, const prepared_mesh& b,
                                                bool solid, const deviation_options& options) {
-    const mesh_view from = a.view(), to = b.view();
+    const mesh_view from = a.indexed_view(), to = b.indexed_view();
     check_deviation(options);
     detail::place::check_finite("deviation", from.points);
     if (from.points.empty() || to.faces.empty()) return std::nullopt;

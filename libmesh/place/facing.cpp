@@ -75,7 +75,7 @@ std::vector<std::int32_t> windings_of_others(const prepared_mesh& mesh, mesh_vie
 }  // namespace
 
 facing::facing(const prepared_mesh& mesh) {
-    const mesh_view joined = weld::join_faces(mesh).of(mesh.view());
+    const mesh_view joined = weld::join_faces(mesh).of(mesh.indexed_view());
     component_of_face_ = components_by_edges(joined);
     std::size_t count = 0;
     for (const std::uint32_t c : component_of_face_) count = std::max<std::size_t>(count, c + 1);

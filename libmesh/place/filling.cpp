@@ -29,8 +29,8 @@ double cell_length(std::span<const prepared_mesh> parts, const pack_options& o) 
     if (o.stack) longest = std::max(longest, o.size.z);
     double cell = longest / (o.stack ? 96 : 512);
     for (const prepared_mesh& part : parts) {
-        if (part.view().faces.empty()) continue;
-        const turned_part as_is(part.view(), 0);
+        if (part.indexed_view().faces.empty()) continue;
+        const turned_part as_is(part.indexed_view(), 0);
         const point3& size = as_is.size();
         const double least = std::min(size.x, size.y);
         cell = std::min(cell, o.stack ? std::min(least, size.z) / 3 : least / 4);
@@ -42,10 +42,10 @@ std::vector<std::uint32_t> first_of_equals(std::span<const prepared_mesh> parts)
     std::map<std::pair<std::size_t, std::size_t>, std::vector<std::uint32_t>> seen;
     std::vector<std::uint32_t> first;
     for (std::uint32_t i = 0; i < parts.size(); ++i) {
-        const mesh_view mesh = parts[i].view();
+        const mesh_view mesh = parts[i].indexed_view();
         std::vector<std::uint32_t>& alike = seen[{mesh.points.size(), mesh.faces.size()}];
         const auto same = [&](std::uint32_t j) {
-            const mesh_view other = parts[j].view();
+            const mesh_view other = parts[j].indexed_view();
             return std::equal(mesh.faces.begin(), mesh.faces.end(), other.faces.begin()) &&
                    std::equal(mesh.points.begin(), mesh.points.end(), other.points.begin());
         };
@@ -79,7 +79,7 @@ pack_shapes::pack_shapes(std::span<const prepared_mesh> parts, const pack_option
     for_chunks(all.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::size_t number = i / turns.size();
-            const mesh_view part = parts[number].view();
+            const mesh_view part = parts[number].indexed_view();
             if (!work.reach(static_cast<double>(begun++) * share)) return;
             if (part.faces.empty() || distinct_[number] != number) continue;
             const turned_part there(part, turns[i % turns.size()]);
@@ -105,7 +105,7 @@ void pack_shapes::number_kinds() {
     std::map<footprint, std::uint32_t> numbers;
     std::size_t faces = 0;
     for (std::uint32_t i = 0; i < shapes_.size(); ++i) {
-        faces += parts_[i].view().faces.size() * shapes_[i].candidates.size();
+        faces += parts_[i].indexed_view().faces.size() * shapes_[i].candidates.size();
         for (candidate& c : shapes_[i].candidates)
             c.kind =
                 numbers.emplace(c.cells, static_cast<std::uint32_t>(numbers.size())).first->second;
@@ -119,7 +119,7 @@ void pack_shapes::number_kinds() {
 std::shared_ptr<const turned> pack_shapes::in_turn(std::uint32_t part, std::size_t c) const {
     const std::uint32_t first = distinct_[part];
     const auto make = [&] {
-        return std::make_shared<const turned>(parts_[first].view(),
+        return std::make_shared<const turned>(parts_[first].indexed_view(),
                                               shapes_[first].candidates[c].turn);
     };
     if (slots_.empty()) return make();
@@ -242,7 +242,7 @@ std::vector<packed_part> filling::take_parts() {
     }
     for (std::uint32_t i = 0; i < parts.size(); ++i) {
         if (parts[i].placed) continue;
-        const mesh_view mesh = shapes_.part(i).view();
+        const mesh_view mesh = shapes_.part(i).indexed_view();
         parts[i].placed = mesh.faces.empty();
         parts[i].points.assign(mesh.points.begin(), mesh.points.end());
     }

@@ -103,7 +103,7 @@ class feature_mover {
     [[nodiscard]] placement measured(const prepared_mesh& mesh, double begin, double end) {
         placement_options options = options_;
         options.progress = work_.part(begin, end);
-        return measure_among(mesh, fixed_, options);
+        return measure_in_place(mesh, fixed_, options);
     }
 
     [[nodiscard]] mesh moved(const transform<3>& by) const {
@@ -121,16 +121,16 @@ class feature_mover {
     /// How far to pull the seated mesh out, along `out`, until it is apart from all that is fixed.
     [[nodiscard]] double pulled_out(const transform<3>& seat, const point3& out) const {
         double lowest = std::numeric_limits<double>::infinity(), highest = -lowest, size = 0.0;
-        for (const face& f : moving_.view().faces)
+        for (const face& f : moving_.indexed_view().faces)
             for (const std::uint32_t i : f) {
-                const double along = dot(seat(moving_.view().points[i]), out);
+                const double along = dot(seat(moving_.indexed_view().points[i]), out);
                 lowest = std::min(lowest, along);
                 size = std::max(size, std::abs(along));
             }
         for (const prepared_mesh& one : fixed_)
-            for (const face& f : one.view().faces)
+            for (const face& f : one.indexed_view().faces)
                 for (const std::uint32_t i : f) {
-                    const double along = dot(one.view().points[i], out);
+                    const double along = dot(one.indexed_view().points[i], out);
                     highest = std::max(highest, along);
                     size = std::max(size, std::abs(along));
                 }
@@ -150,9 +150,10 @@ class feature_mover {
         if (at) {
             at.matrix = at.matrix.after(from);
             at.certificate.max_displacement =
-                detail::max_displacement(moving_.view().points, at.matrix, at.points);
+                detail::max_displacement(moving_.indexed_view().points, at.matrix, at.points);
         } else {
-            at.points.assign(moving_.view().points.begin(), moving_.view().points.end());
+            at.points.assign(moving_.indexed_view().points.begin(),
+                             moving_.indexed_view().points.end());
         }
         return at;
     }
@@ -170,13 +171,14 @@ class feature_mover {
             at.outcome =
                 near ? placement_outcome::starts_too_near : placement_outcome::starts_penetrating;
             at.certificate.status = status::no_placement;
-            at.points.assign(moving_.view().points.begin(), moving_.view().points.end());
+            at.points.assign(moving_.indexed_view().points.begin(),
+                             moving_.indexed_view().points.end());
             return at;
         }
         at.outcome = placement_outcome::unchanged;
         at.matrix = seat;
         at.certificate.max_displacement =
-            detail::max_displacement(moving_.view().points, seat, points);
+            detail::max_displacement(moving_.indexed_view().points, seat, points);
         at.points = std::move(points);
         return at;
     }
@@ -201,7 +203,7 @@ placement mate_features(const mesh_ref& given_moving, const mesh_refs& given_fix
     detail::place::check_operand("mate_features", "moving", moving.view());
     for (std::size_t i = 0; i < fixed.size(); ++i)
         detail::place::check_operand("mate_features", "fixed " + std::to_string(i),
-                                     fixed[i].view());
+                                     fixed[i].indexed_view());
     if (!(options.clearance >= 0.0) || !std::isfinite(options.clearance))
         throw std::invalid_argument(
             "treeform::mate_features: the clearance is negative or not finite");

@@ -91,13 +91,13 @@ std::array<double, 3> detail::place::barycentric_weights(const std::array<point3
     return best;
 }
 
-std::optional<mesh_measure> detail::place::measure_of(const shape& of_a, const shape& of_b,
-                                                      double radius,
-                                                      const progress_callback& progress) {
+std::optional<relation_result> detail::place::measure_of(const shape& of_a, const shape& of_b,
+                                                         double radius,
+                                                         const progress_callback& progress) {
     const mesh_view a = of_a.mesh(), b = of_b.mesh();
     if (a.faces.empty() || b.faces.empty()) return std::nullopt;
     detail::base::work_progress work(progress);
-    mesh_measure result;
+    relation_result result;
     if (boxes_meet(a, b)) result = relation_of(of_a, of_b, work.part(0.0, 0.5));
     if (!work.reach(0.5)) result = {.status = status::cancelled};
     if (work.cancelled()) return result;
@@ -124,8 +124,8 @@ std::optional<mesh_measure> detail::place::measure_of(const shape& of_a, const s
     return result;
 }
 
-std::optional<mesh_measure> measure(const mesh_ref& given_a, const mesh_ref& given_b,
-                                    const measure_options& options) {
+std::optional<relation_result> measure(const mesh_ref& given_a, const mesh_ref& given_b,
+                                       const measure_options& options) {
     const detail::base::prepared_ref a(given_a);
     const detail::base::prepared_ref b(given_b);
     detail::place::check_operand("measure", "a", a);

@@ -31,7 +31,7 @@ std::string too_far(const placement& p) {
 /// "touching bed.stl", and the first pair of faces that meet.
 std::string meeting_in_words(const placement& at, const body_set& moving, const body_set& fixed) {
     std::string text = name_of(at.relation) + (" " + fixed.label(at.nearest_fixed));
-    const mesh_measure& how = *at.nearest;
+    const relation_result& how = *at.nearest;
     // Of a cloud it says only that some of the points are.
     if (how.a_inside_b) return text + (moving.file_of(0).cloud ? "" : ", inside it");
     if (how.b_inside_a)
@@ -44,8 +44,8 @@ std::string meeting_in_words(const placement& at, const body_set& moving, const 
                            : to_cloud        ? " of a face and a point"
                                              : " of faces";
     return text + " (" + counted(at.contact_count, "pair", "pairs") + of + ", the first " +
-           std::to_string(moving.stored_face(0, first.moving)) + " and " +
-           std::to_string(fixed.stored_face(first.fixed, *first.fixed_face)) + ")";
+           std::to_string(moving.face_in_file(0, first.moving)) + " and " +
+           std::to_string(fixed.face_in_file(first.fixed, *first.fixed_face)) + ")";
 }
 
 std::string loose_in_words(std::size_t motions) {

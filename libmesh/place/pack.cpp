@@ -200,7 +200,7 @@ packing pack(const mesh_refs& given_parts, const pack_options& given_options) {
     const std::span<const prepared_mesh> parts = all_parts;
     check(options);
     for (std::size_t i = 0; i < parts.size(); ++i)
-        detail::place::check_operand("pack", "part " + std::to_string(i), parts[i].view());
+        detail::place::check_operand("pack", "part " + std::to_string(i), parts[i].indexed_view());
     detail::base::work_progress work(options.progress);
     const pack_shapes shapes(parts, options, work.part(0.0, 0.2));
     trying search(shapes, options, work);
@@ -218,8 +218,8 @@ packing pack(const mesh_refs& given_parts, const pack_options& given_options) {
     double room = 0.0;
     for (std::uint32_t i = 0; i < parts.size(); ++i) {
         const packed_part& part = found.parts[i];
-        moved = std::max(
-            moved, detail::max_displacement(parts[i].view().points, part.matrix, part.points));
+        const points_view given = parts[i].indexed_view().points;
+        moved = std::max(moved, detail::max_displacement(given, part.matrix, part.points));
         if (part.placed)
             room += shapes[i].room;
         else

@@ -59,18 +59,18 @@ placing::placing(const char* function, const prepared_mesh& moving,
       where_(where),
       work_(options_.progress) {
     check(function, options);
-    check_operand(function, "moving", moving.view());
-    faces_ = moving.view().faces.size();
+    check_operand(function, "moving", moving.indexed_view());
+    faces_ = moving.indexed_view().faces.size();
     for (std::size_t i = 0; i < fixed.size(); ++i) {
-        check_operand(function, "fixed " + std::to_string(i), fixed[i].view());
-        faces_ += fixed[i].view().faces.size();
+        check_operand(function, "fixed " + std::to_string(i), fixed[i].indexed_view());
+        faces_ += fixed[i].indexed_view().faces.size();
     }
-    box_ = box_of_faces(moving.view());
+    box_ = box_of_faces(moving.indexed_view());
     if (options.max_travel) longest_ = *options.max_travel;
     result_.max_travel = options.max_travel;
     result_.certificate.precision = options.precision;
     result_.clearance = options.clearance;
-    result_.points.assign(moving.view().points.begin(), moving.view().points.end());
+    result_.points.assign(moving.indexed_view().points.begin(), moving.indexed_view().points.end());
     if (options.bed) result_.bed = not_below(*options.bed + options.clearance, options.precision);
 }
 
@@ -91,9 +91,9 @@ void placing::in_range(const function_ref<void()>& find) {
 
 placement placing::finished() {
     certificate& known = result_.certificate;
+    const points_view given = prepared_.indexed_view().points;
     if (placed())
-        known.max_displacement =
-            detail::max_displacement(prepared_.view().points, result_.matrix, result_.points);
+        known.max_displacement = detail::max_displacement(given, result_.matrix, result_.points);
     switch (result_.outcome) {
         case placement_outcome::out_of_range:
             known.status = status::out_of_range;
@@ -105,7 +105,7 @@ placement placing::finished() {
     return std::move(result_);
 }
 
-mesh_relation placing::relation_of(const std::optional<mesh_measure>& near) const {
+mesh_relation placing::relation_of(const std::optional<relation_result>& near) const {
     const double c = options_.clearance;
     if (!near) return c > 0.0 ? mesh_relation::clear : mesh_relation::separate;
     switch (near->relation) {
@@ -255,7 +255,7 @@ void placing::mate() {
         return;
     }
     if (stuck_at_start()) return;
-    const mesh_measure near = *result_.nearest;
+    const relation_result near = *result_.nearest;
     const point3 way = way_between(near);
     if (way == point3{}) return stay();
     const chosen_parts parts = among_.on_the_way(*box_, way, 1.0 + 0x1p-20, options_.clearance);
@@ -290,7 +290,7 @@ void placing::separate() {
         leave(parts, effort);
         result_.effort = effort.so_far();
         if (!placed()) return;
-        const box3 there = *box_of_faces({result_.points, prepared_.view().faces});
+        const box3 there = *box_of_faces({result_.points, prepared_.indexed_view().faces});
         if (!among_.others_around(there, options_.clearance, parts)) return;
         reach =
             std::max({2.0 * reach, result_.travel + options_.clearance, box_->diagonal() * 0x1p-6});
@@ -326,7 +326,8 @@ void placing::forget_place() {
     result_.outcome = placement_outcome::unchanged;
     result_.contacts.clear();
     result_.contact_count = 0;
-    result_.points.assign(prepared_.view().points.begin(), prepared_.view().points.end());
+    const points_view given = prepared_.indexed_view().points;
+    result_.points.assign(given.begin(), given.end());
     result_.matrix = {};
     result_.direction = {};
     result_.travel = 0.0;
@@ -334,7 +335,7 @@ void placing::forget_place() {
 
 /// What is true at the place, in the coordinates that are written.
 void placing::look_at_place() {
-    const mesh_view here = prepared_.view();
+    const mesh_view here = prepared_.indexed_view();
     const mesh_view there{result_.points, here.faces};
     const bool moved = !std::equal(here.points.begin(), here.points.end(), result_.points.begin());
     std::optional<tree<3>> own;

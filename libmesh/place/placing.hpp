@@ -61,7 +61,7 @@ class placing {
     }
     void in_range(const function_ref<void()>& find);
     [[nodiscard]] placement finished();
-    [[nodiscard]] mesh_relation relation_of(const std::optional<mesh_measure>& near) const;
+    [[nodiscard]] mesh_relation relation_of(const std::optional<relation_result>& near) const;
     [[nodiscard]] double radius(double more) const;
     [[nodiscard]] bool placed() const { return result_.outcome <= placement_outcome::moved_apart; }
     void find_nearest(const shape& a, const box3& box, double radius, double begin, double end);

@@ -153,7 +153,7 @@ class plate {
         tree<3> faces_tree;
         box3 box;
 
-        [[nodiscard]] mesh_view mesh() const { return {part.points, whose->view().faces}; }
+        [[nodiscard]] mesh_view mesh() const { return {part.points, whose->indexed_view().faces}; }
     };
 
     [[nodiscard]] resident at(std::uint32_t number, const prepared_mesh& whose,

@@ -172,7 +172,7 @@ std::vector<std::uint32_t> points_in(const box3& box, points_view points) {
 }
 
 void lower_sides(const prepared_mesh& solid, points_view points, std::vector<std::int8_t>& side) {
-    const mesh_view mesh = solid.view();
+    const mesh_view mesh = solid.indexed_view();
     const auto box = bounding_box(mesh.points);
     if (mesh.faces.empty() || solid.is_cloud() || !box) return;
     const auto numbers = points_in(*box, points);

@@ -34,8 +34,8 @@ struct pair_searches {
     detail::base::effort* effort = nullptr;
     bool stopped = false;
 
-    [[nodiscard]] intersection_result pairs(const shape& a, const shape& b,
-                                            const intersection_options& options) {
+    [[nodiscard]] face_pair_result pairs(const shape& a, const shape& b,
+                                         const face_pair_options& options) {
         auto found = detail::intersect::mesh_intersections(a.mesh(), a.faces(), b.mesh(), b.faces(),
                                                            options, effort);
         stopped = stopped || found.status == treeform::status::cancelled;
@@ -48,7 +48,7 @@ std::optional<face_pair> crossing_faces(const shape& a, const shape& b,
                                         const progress_callback& progress, pair_searches& how) {
     if (a.prepared().is_cloud() || b.prepared().is_cloud())
         return std::nullopt;  // points only touch
-    intersection_options options;
+    face_pair_options options;
     options.first_only = true;
     options.kinds = pair_kind::crossing;
     options.progress = progress;
@@ -60,7 +60,7 @@ std::optional<face_pair> crossing_faces(const shape& a, const shape& b,
 /// Faces of closed meshes that lie on each other with what is inside on the same side.
 std::optional<face_pair> faces_on_one_side(const shape& a, const shape& b,
                                            const progress_callback& progress, pair_searches& how) {
-    intersection_options options;
+    face_pair_options options;
     options.kinds = pair_kind::overlap;
     options.progress = progress;
     const auto found = how.pairs(a, b, options);
@@ -127,12 +127,13 @@ std::optional<std::uint32_t> face_inside(const shape& of, const shape& solid, bo
 
 }  // namespace
 
-mesh_measure detail::place::relation_of(const shape& a, const shape& b,
-                                        const progress_callback& progress, base::effort* effort) {
+relation_result detail::place::relation_of(const shape& a, const shape& b,
+                                           const progress_callback& progress,
+                                           base::effort* effort) {
     detail::base::work_progress work(progress);
     pair_searches search{effort};
-    const mesh_measure cancelled{.status = status::cancelled};
-    mesh_measure result;
+    const relation_result cancelled{.status = status::cancelled};
+    relation_result result;
     const auto penetrating = [&](std::uint32_t face_a, std::uint32_t face_b) {
         result.relation = mesh_relation::penetrating;
         result.face_a = face_a;
@@ -144,7 +145,7 @@ mesh_measure detail::place::relation_of(const shape& a, const shape& b,
     if (search.stopped) return cancelled;
     if (crossing) return penetrating(crossing->a, crossing->b);
 
-    intersection_options first;
+    face_pair_options first;
     first.first_only = true;
     first.progress = work.part(0.3, 0.6);
     const auto touch = search.pairs(a, b, first);
@@ -172,14 +173,14 @@ mesh_measure detail::place::relation_of(const shape& a, const shape& b,
     return penetrating(of_a ? *of_a : result.face_a, of_b ? *of_b : result.face_b);
 }
 
-mesh_measure relation(const mesh_ref& given_a, const mesh_ref& given_b,
-                      const measure_options& options) {
+relation_result relation(const mesh_ref& given_a, const mesh_ref& given_b,
+                         const measure_options& options) {
     const detail::base::prepared_ref a(given_a);
     const detail::base::prepared_ref b(given_b);
     check_operand("relation", "a", a);
     check_operand("relation", "b", b);
-    mesh_measure found = detail::place::relation_of(shape(a, options.vertices),
-                                                    shape(b, options.vertices), options.progress);
+    relation_result found = detail::place::relation_of(
+        shape(a, options.vertices), shape(b, options.vertices), options.progress);
     found.distance = found.surface_distance = std::numeric_limits<double>::quiet_NaN();
     return found;
 }

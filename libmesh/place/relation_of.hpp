@@ -17,12 +17,12 @@ namespace treeform::detail::place {
 
 /// `relation`, without the checks of the operands. Also `cancelled` when the effort is exhausted in
 /// one of its searches for pairs of faces.
-[[nodiscard]] mesh_measure relation_of(const shape& a, const shape& b,
-                                       const progress_callback& progress = {},
-                                       base::effort* effort = nullptr);
+[[nodiscard]] relation_result relation_of(const shape& a, const shape& b,
+                                          const progress_callback& progress = {},
+                                          base::effort* effort = nullptr);
 
 /// `measure`, without the checks of the operands.
-[[nodiscard]] std::optional<mesh_measure> measure_of(
+[[nodiscard]] std::optional<relation_result> measure_of(
     const shape& a, const shape& b, double radius = std::numeric_limits<double>::infinity(),
     const progress_callback& progress = {});
 

@@ -173,8 +173,8 @@ class clearing {
         // What penetrates with its faces is found without a tree for the place.
         const std::vector<point3> points = points_at(offset);
         const mesh_view there{points, a_.faces};
-        intersection_options crossing{.move_a = transform<3>::translation(offset),
-                                      .first_only = true};
+        face_pair_options crossing{.transform_a = transform<3>::translation(offset),
+                                   .first_only = true};
         crossing.progress = asking_;
         crossing.kinds = pair_kind::crossing;
         for (const std::size_t i : close) {

@@ -21,7 +21,7 @@ class shape {
   public:
     explicit shape(const prepared_mesh& mesh,
                    vertex_identity vertices = vertex_identity::by_coordinates)
-        : prepared_(&mesh), points_(mesh.view().points), vertices_(vertices) {}
+        : prepared_(&mesh), points_(mesh.indexed_view().points), vertices_(vertices) {}
     /// `mesh` with the moved points `there`; `mirrored` if the motion is a reflection.
     /// \pre `faces` is `build_face_tree` of the moved mesh
     shape(const prepared_mesh& mesh, points_view there, const tree<3>& faces,
@@ -32,7 +32,7 @@ class shape {
           vertices_(vertices),
           mirrored_(mirrored) {}
 
-    [[nodiscard]] mesh_view mesh() const { return {points_, prepared_->view().faces}; }
+    [[nodiscard]] mesh_view mesh() const { return {points_, prepared_->indexed_view().faces}; }
     [[nodiscard]] const tree<3>& faces() const {
         return faces_ ? *faces_ : build_face_tree(*prepared_);
     }

@@ -55,9 +55,9 @@ placement separate(const mesh_ref& moving, const mesh_refs& fixed,
                   [](placing& p) { p.separate(); });
 }
 
-placement measure_among(const mesh_ref& moving, const mesh_refs& fixed,
-                        const placement_options& o) {
-    return placed("measure_among", moving, fixed,
+placement measure_in_place(const mesh_ref& moving, const mesh_refs& fixed,
+                           const placement_options& o) {
+    return placed("measure_in_place", moving, fixed,
                   {.clearance = o.clearance,
                    .limit = o.limit,
                    .vertices = o.vertices,

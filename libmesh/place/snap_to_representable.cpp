@@ -22,7 +22,7 @@ class settling {
     settling(const prepared_mesh& a, std::span<const shape> parts, const point3& motion,
              const snap_options& options)
         : prepared_(a),
-          a_(a.view()),
+          a_(a.indexed_view()),
           parts_(parts),
           motion_(motion),
           options_(options),

@@ -67,8 +67,8 @@ aabb<double, 3> tree_box(const box3& box) {
 surroundings::surroundings(std::span<const prepared_mesh> all, vertex_identity vertices)
     : all_(all), vertices_(vertices) {
     for (std::uint32_t i = 0; i < all.size(); ++i) {
-        const bool counts = !all[i].view().faces.empty();
-        box_of_all_.push_back(counts ? bounding_box(all[i].view().points) : std::nullopt);
+        const bool counts = !all[i].indexed_view().faces.empty();
+        box_of_all_.push_back(counts ? bounding_box(all[i].indexed_view().points) : std::nullopt);
         if (box_of_all_.back()) number_.push_back(i);
     }
     boxes_ = build(number_, [&](std::uint32_t i) { return tree_box(*box_of_all_[i]); });

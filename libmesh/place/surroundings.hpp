@@ -25,7 +25,7 @@ struct chosen_parts {
 /// The relation of a mesh to one of the fixed meshes.
 struct measured_part {
     std::size_t number = 0;
-    mesh_measure how{};
+    relation_result how{};
 };
 
 class surroundings {

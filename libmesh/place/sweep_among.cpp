@@ -92,7 +92,7 @@ sweep_result sweep_among(const shape& a, std::span<const shape> parts, const poi
     return result;
 }
 
-point3 way_between(const mesh_measure& nearest) {
+point3 way_between(const relation_result& nearest) {
     const point3 &p = nearest.on_a.point, &q = nearest.on_b.point;
     const point3 way{q.x - p.x, q.y - p.y, q.z - p.z};
     if (!base::is_finite(way))
@@ -100,7 +100,7 @@ point3 way_between(const mesh_measure& nearest) {
     return way;
 }
 
-mate_motion motion_to_mate(const mesh_measure& nearest, const shape& a,
+mate_motion motion_to_mate(const relation_result& nearest, const shape& a,
                            std::span<const shape> parts, const sweep_options& options) {
     mate_motion result;
     if (nearest.relation != mesh_relation::separate) return result;

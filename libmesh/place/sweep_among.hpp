@@ -102,11 +102,11 @@ struct mate_motion {
 ///
 /// \throws std::overflow_error when the motion is beyond the range of doubles; also by
 ///         `way_between`
-[[nodiscard]] TREEFORM_API mate_motion motion_to_mate(const mesh_measure& nearest, const shape& a,
-                                                      std::span<const shape> parts,
+[[nodiscard]] TREEFORM_API mate_motion motion_to_mate(const relation_result& nearest,
+                                                      const shape& a, std::span<const shape> parts,
                                                       const sweep_options& options = {});
 
 /// The vector from the nearest point of the first mesh to the nearest point of the second.
-[[nodiscard]] TREEFORM_API point3 way_between(const mesh_measure& nearest);
+[[nodiscard]] TREEFORM_API point3 way_between(const relation_result& nearest);
 
 }  // namespace treeform::detail::place

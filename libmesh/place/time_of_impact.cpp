@@ -105,7 +105,7 @@ triangle3 moved_triangle(mesh_view mesh, std::uint32_t face, const transform<3>&
 struct earliest {
     struct pair {
         std::uint32_t a, b;
-        contact at;
+        feature_pair at;
     };
     std::optional<sweep_contact> first;
     std::vector<pair> pairs;
@@ -149,10 +149,12 @@ std::optional<bool> meets_at_start(mesh_view a, const tree<3>& tree_a, mesh_view
                                    detail::base::effort* effort) {
     if (!effort)
         return detail::intersect::intersects(a, tree_a, b, tree_b,
-                                             {options.move_a, options.move_b});
-    const auto first = detail::intersect::mesh_intersections(
-        a, tree_a, b, tree_b,
-        {.move_a = options.move_a, .move_b = options.move_b, .first_only = true}, effort);
+                                             {options.transform_a, options.transform_b});
+    const auto first = detail::intersect::mesh_intersections(a, tree_a, b, tree_b,
+                                                             {.transform_a = options.transform_a,
+                                                              .transform_b = options.transform_b,
+                                                              .first_only = true},
+                                                             effort);
     if (first.status == treeform::status::cancelled) return std::nullopt;
     return !first.pairs.empty();
 }
@@ -214,7 +216,7 @@ impact detail::place::approach_of(mesh_view a, const tree<3>& tree_a, mesh_view 
         result.contacts.push_back(
             {i,
              j,
-             {feature::v0, feature::v0},
+             {triangle_feature::v0, triangle_feature::v0},
              closest_pair(moved(triangle_of(a, i), motion, result.time), triangle_of(b, j)).on_b});
     return result;
 }
@@ -223,11 +225,11 @@ impact time_to_distance(const mesh_ref& given_a, const mesh_ref& given_b, const 
                         double distance, const impact_options& options) {
     const detail::base::prepared_ref a(given_a);
     const detail::base::prepared_ref b(given_b);
-    if (options.move_a != transform<3>{} || options.move_b != transform<3>{}) {
+    if (options.transform_a != transform<3>{} || options.transform_b != transform<3>{}) {
         impact_options there = options;
-        there.move_a = there.move_b = {};
-        return time_to_distance(moved_by(options.move_a, a), moved_by(options.move_b, b), motion,
-                                distance, there);
+        there.transform_a = there.transform_b = {};
+        return time_to_distance(moved_by(options.transform_a, a), moved_by(options.transform_b, b),
+                                motion, distance, there);
     }
     detail::place::check_operand("time_to_distance", "a", a);
     detail::place::check_operand("time_to_distance", "b", b);
@@ -274,13 +276,13 @@ impact detail::place::impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
     };
     const std::uint64_t most = effort ? effort->allowance() / base::effort::in_motion
                                       : std::numeric_limits<std::uint64_t>::max();
-    const transformed<3> moving(tree_a, options.move_a);
-    const transformed<3> still(tree_b, options.move_b);
+    const transformed<3> moving(tree_a, options.transform_a);
+    const transformed<3> still(tree_b, options.transform_b);
     const auto face_a = [&](std::uint32_t f) {
-        return moved_triangle(a, f, options.move_a, moving.moves());
+        return moved_triangle(a, f, options.transform_a, moving.is_moved());
     };
     const auto face_b = [&](std::uint32_t f) {
-        return moved_triangle(b, f, options.move_b, still.moves());
+        return moved_triangle(b, f, options.transform_b, still.is_moved());
     };
 
     earliest found;

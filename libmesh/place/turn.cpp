@@ -54,7 +54,7 @@ class turning {
 
     [[nodiscard]] placement run() {
         result_ = measured(moving_, 0.0, 0.2);
-        if (cancelled() || moving_.view().faces.empty())
+        if (cancelled() || moving_.indexed_view().faces.empty())
             return ended(placement_outcome::nothing_met);
         const mesh_relation start = result_.relation;
         if (start == mesh_relation::penetrating)
@@ -73,11 +73,11 @@ class turning {
     [[nodiscard]] placement measured(const prepared_mesh& mesh, double begin, double end) {
         placement_options options = options_;
         options.progress = work_.part(begin, end);
-        return measure_among(mesh, fixed_, options);
+        return measure_in_place(mesh, fixed_, options);
     }
 
     [[nodiscard]] placement search() {
-        const auto ring = detail::place::ring_of(moving_.view(), axis_);
+        const auto ring = detail::place::ring_of(moving_.indexed_view(), axis_);
         result_.tolerance = options_.tolerance.value_or(ring.radius * 0x1p-32);
         const detail::place::surroundings among(fixed_, options_.vertices);
         const auto near = among.around(ring.box, options_.clearance);
@@ -103,7 +103,8 @@ class turning {
     }
 
     [[nodiscard]] std::vector<point3> points_at(const transform<3>& there) const {
-        std::vector<point3> points(moving_.view().points.begin(), moving_.view().points.end());
+        std::vector<point3> points(moving_.indexed_view().points.begin(),
+                                   moving_.indexed_view().points.end());
         for (point3& p : points) {
             p = there(p);
             if (options_.precision == precision::float32)
@@ -159,7 +160,7 @@ class turning {
         now.matrix = there;
         now.certificate.precision = options_.precision;
         now.certificate.max_displacement =
-            detail::max_displacement(moving_.view().points, there, points);
+            detail::max_displacement(moving_.indexed_view().points, there, points);
         now.points = std::move(points);
         if (now.contacts.empty()) {
             now.contacts = std::move(contacts_);
@@ -200,7 +201,7 @@ placement turn(const mesh_ref& given_moving, const mesh_refs& given_fixed, const
     check(origin, direction, options);
     detail::place::check_operand("turn", "moving", moving.view());
     for (std::size_t i = 0; i < fixed.size(); ++i)
-        detail::place::check_operand("turn", "fixed " + std::to_string(i), fixed[i].view());
+        detail::place::check_operand("turn", "fixed " + std::to_string(i), fixed[i].indexed_view());
     return turning(moving, fixed, {origin, direction}, options).run();
 }
 

@@ -98,8 +98,8 @@ thickness_result wall_thickness(const mesh_ref& given, thickness_by by,
     });
     if (progress.cancelled() || !progress.reach(1.0)) return {.status = status::cancelled};
     for (std::uint32_t f = 0; f < result.of_face.size(); ++f)
-        if (result.of_face[f] < result.least) {
-            result.least = result.of_face[f];
+        if (result.of_face[f] < result.min) {
+            result.min = result.of_face[f];
             result.thinnest = f;
         }
     return result;

@@ -142,7 +142,7 @@ bool is_inside(const working_mesh& mesh, closed_component& part, closed_componen
     const point3& first = mesh.points[mesh.faces[part.faces[0]][0]];
     const bool is_out = locate(*other.surface, first).where == location::outside;
     if (is_out && !other.is_filled) return false;
-    const mesh_view own = given_surface(mesh, part).view();
+    const mesh_view own = given_surface(mesh, part).indexed_view();
     const auto places = locate(*other.surface, own.points);
     const auto count = [&](location where) {
         return std::ranges::count(places, where, &point_location::where);

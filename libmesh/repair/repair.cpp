@@ -195,8 +195,9 @@ class repairer {
         if (tally_.misoriented > 0 || tally_.nonmanifold > 0)
             did_.flipped = detail::repair::make_faces_agree(mesh_);
         if (tally_.border > 0 || tally_.nonmanifold > 0) {
-            detail::repair::dropped_strays dropped = detail::repair::drop_strays(
-                mesh_, options_.strays, options_.sheet, is_by_labels() ? walls::keep : walls::drop);
+            detail::repair::dropped_strays dropped =
+                detail::repair::drop_strays(mesh_, options_.stray_share, options_.sheet,
+                                            is_by_labels() ? walls::keep : walls::drop);
             did_.strays = dropped.faces;
             dropped_walls_ = std::move(dropped.walls);
         }
@@ -223,7 +224,7 @@ class repairer {
         did_.holes += filled.holes;
         did_.hole_edges += filled.edges;
         did_.filled += filled.faces;
-        did_.sheets += filled.sheets;
+        did_.unfilled_rims += filled.sheets;
     }
 
     detail::repair::filled_holes fill_rims(rim_edges along) {
@@ -412,7 +413,7 @@ class repairer {
 
     void count_vanished(const std::vector<std::uint8_t>& is_kept) {
         const auto gone = detail::repair::count_vanished(mesh_, is_kept, result_.mesh,
-                                                         options_.strays * did_.area_before);
+                                                         options_.stray_share * did_.area_before);
         if (did_.resolved) did_.vanished_components = gone.lost;
         did_.dropped_shells = gone.within;
     }
@@ -465,7 +466,7 @@ class repairer {
 repair_result repair(const mesh_ref& given, const repair_options& options) {
     const mesh_view mesh = given.view();
     if (options.gap) detail::base::require_share("repair", *options.gap, "the gap");
-    detail::base::require_share("repair", options.strays, "the share of strays");
+    detail::base::require_share("repair", options.stray_share, "the share of strays");
     detail::base::require_share("repair", options.max_loss, "the largest loss");
     detail::base::require_limit("repair", options.max_displacement, "the largest displacement");
     detail::base::check_faces("repair", mesh.points.size(), mesh.faces);

@@ -266,7 +266,7 @@ class rounding {
         // What is gone further away than all rounds have joined has vanished.
         result_.certificate.max_displacement =
             std::max({first_move_, moves.moved + slack, std::min(moves.gone, joined_)});
-        result_.vanished_reach = moves.gone;
+        result_.vanished_distance = moves.gone;
     }
 
     /// Each phase has half of the work that was left; nobody knows how many there will be.

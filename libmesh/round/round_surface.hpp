@@ -60,7 +60,7 @@ struct rounded_surface {
     /// If anything was repaired: the largest distance, in each coordinate, of a removed vertex of
     /// the exact surface from this one. Larger than the displacement if a part too thin for the
     /// coordinates was removed; components that vanished as a whole are counted instead.
-    double vanished_reach = 0.0;
+    double vanished_distance = 0.0;
     /// Number of components of the exact surface (faces linked by points) of which no face is left,
     /// since they are too thin for the rounded coordinates.
     std::uint64_t vanished_components = 0;
@@ -89,8 +89,8 @@ struct rounded_surface {
 /// in the certificate. A round with more pairs to cut than three times the number of faces cuts
 /// nothing; a surface that grew to three times its number of faces is given up.
 ///
-/// If anything was repaired, `certificate::max_displacement` and `vanished_reach` are measured at
-/// the end (`detail::round::displacement`), so that intermediate moves do not add up. Status
+/// If anything was repaired, `max_displacement` and `vanished_distance` are measured at the end
+/// (`detail::round::displacement`), so that intermediate moves do not add up. Status
 /// `out_of_range`: a coordinate was too large to be rounded.
 ///
 /// A part of a solid that is thinner than rounding moves its points may be turned inside out

@@ -17,11 +17,11 @@ using pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 /// Ascending; none where stopped, which `end` then says.
 pairs meeting_pairs(mesh_view mesh, const progress_callback& progress, status& end) {
-    const intersection_options options{
+    const face_pair_options options{
         .vertices = vertex_identity::by_index,
         .kinds = pair_kinds::all - pair_kind::touching - pair_kind::degenerate,
         .progress = progress};
-    const intersection_result found = self_intersections(mesh, options);
+    const face_pair_result found = self_intersections(mesh, options);
     if (found.status != status::ok) end = found.status;
     pairs result;
     result.reserve(found.pairs.size());

@@ -19,15 +19,15 @@ rounding_effects& rounding_effects::operator+=(const rounding_effects& other) {
     return *this;
 }
 
-rounding_effects effects_of_rounding(const mesh_ref& given, const transform<3>& by,
-                                     points_view placed, precision before, precision after,
-                                     const progress_callback& progress) {
+rounding_effects find_rounding_effects(const mesh_ref& given, const transform<3>& by,
+                                       points_view placed, precision before, precision after,
+                                       const progress_callback& progress) {
     const detail::base::prepared_ref held(given);
     const prepared_mesh& mesh = held;
-    const mesh_view moving = mesh.view();
+    const mesh_view moving = mesh.indexed_view();
     if (placed.size() != moving.points.size())
         throw std::invalid_argument(
-            "treeform::effects_of_rounding: expected as many placed points as points");
+            "treeform::find_rounding_effects: expected as many placed points as points");
     const bool to_float32 = after == precision::float32 && before == precision::float64;
     rounding_effects found;
     found.max_displacement = detail::max_displacement(moving.points, by, placed);

@@ -39,7 +39,7 @@ void find_turned(mesh_view surface, const near_edges& near, const surface_check&
 
 surface_faults all_faults(mesh_view surface, const surface_check& check) {
     surface_faults result;
-    intersection_result found = self_intersections(
+    face_pair_result found = self_intersections(
         surface, {.vertices = vertex_identity::by_index, .progress = check.progress});
     result.cancelled = found.status == treeform::status::cancelled;
     if (result.cancelled) return result;
@@ -138,7 +138,7 @@ surface_faults find_faults(mesh_view surface, const surface_check& check) {
                                                 : with_neighbors(surface, doubted, check.certified);
     const std::vector<face> faces = faces_of(surface, near);
     const mesh_view part{surface.points, faces};
-    intersection_result found;
+    face_pair_result found;
     std::optional<near_edges> edges;
     base::parallel_invoke(
         [&] {

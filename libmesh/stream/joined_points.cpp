@@ -161,7 +161,7 @@ void joined_points::fit(io::point_block& block) {
         block.properties = std::move(file.attributes.find_or_add("vertex", 0));
     }
     if (!is_rounded()) return;
-    single_ = fits_single(block.points);
+    single_ = fits_float32(block.points);
     mesh_file file;
     file.las = las_header{.scale = head_.las->scale, .offset = head_.las->offset};
     file.mesh.points = std::move(block.points);

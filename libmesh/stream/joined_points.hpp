@@ -54,7 +54,7 @@ class joined_points {
     [[nodiscard]] const mesh_file& file_header() const { return reader_->header(); }
     /// Whether float32 holds the coordinates of the last block exactly, as they were in the file.
     [[nodiscard]] bool is_single(const io::point_block& block) const {
-        return is_rounded() ? single_ : fits_single(block.points);
+        return is_rounded() ? single_ : fits_float32(block.points);
     }
 
     [[nodiscard]] std::size_t files() const { return formats_.size(); }

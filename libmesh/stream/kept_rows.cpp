@@ -165,7 +165,7 @@ void kept_rows::choose(cancellable_progress& pace) {
             changes_.put(owner_of(best[1]), numbers(best).first(2));
         }
         const point3 at = place_of(point);
-        single_ = single_ && fits_single({&at, 1});
+        single_ = single_ && fits_float32({&at, 1});
         rows.put(best[0]);
         rows.put(point);
     };

@@ -132,8 +132,8 @@ void add_survey(cloud_survey& sum, const cloud_survey& one) {
             sum.ranges.push_back(r);
             continue;
         }
-        at->least = std::min(at->least, r.least);
-        at->greatest = std::max(at->greatest, r.greatest);
+        at->min = std::min(at->min, r.min);
+        at->max = std::max(at->max, r.max);
         at->whole = at->whole && r.whole;
     }
     sum.warnings.insert(sum.warnings.end(), one.warnings.begin(), one.warnings.end());
@@ -256,7 +256,7 @@ point_survey survey(joined_points& points, const communicator& all, const share&
         s.warnings.push_back(
             {"las-grid", "coordinates are rounded to the scale of the LAS file, by at most " +
                              base::brief(s.las_moved)});
-    s.single = s.single && std::ranges::all_of(s.sources, is_single);
+    s.fits_float32 = s.fits_float32 && std::ranges::all_of(s.sources, is_single);
     result.sample = chosen.part();
     if (tolerance) result.places = places.part();
     return result;
@@ -267,7 +267,7 @@ void store(const point_survey& survey, state_writer& state) {
     state.numbers(s.points, s.non_finite, s.box.has_value());
     state.point(s.box ? s.box->min : point3{});
     state.point(s.box ? s.box->max : point3{});
-    state.number(s.single);
+    state.number(s.fits_float32);
     state.real(s.las_moved);
     state.number(s.sources.size());
     for (const mesh_file& one : s.sources) {
@@ -277,8 +277,8 @@ void store(const point_survey& survey, state_writer& state) {
     state.number(s.ranges.size());
     for (const value_range& r : s.ranges) {
         state.text(r.column);
-        state.real(r.least);
-        state.real(r.greatest);
+        state.real(r.min);
+        state.real(r.max);
         state.number(r.whole);
     }
     store_warnings(s.warnings, state);
@@ -291,7 +291,7 @@ point_survey load_survey(state_reader& state) {
     s.non_finite = state.number();
     const bool has_box = state.number() != 0;
     if (const box3 box{state.point(), state.point()}; has_box) s.box = box;
-    s.single = state.number() != 0;
+    s.fits_float32 = state.number() != 0;
     s.las_moved = state.real();
     for (std::uint64_t left = state.number(); left > 0 && state.whole(); --left) {
         const std::uint64_t points = state.number();

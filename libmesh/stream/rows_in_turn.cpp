@@ -39,8 +39,8 @@ void store_text(const std::optional<io::record_index>& text, state_writer& state
     state.numbers(text->records, text->even, text->hexadecimal, text->columns.size());
     for (const io::text_column& c : text->columns) {
         state.numbers(c.whole, c.beyond, c.unsigned_only, c.gaps);
-        state.real(c.least);
-        state.real(c.greatest);
+        state.real(c.min);
+        state.real(c.max);
     }
     state.number(text->marks.size());
     for (const io::record_index::mark& m : text->marks) state.numbers(m.record, m.byte);

@@ -15,14 +15,14 @@ using detail::stream::work_folder;
 
 namespace {
 
-fs::path folder_of(const fs::path& input, const stream_search_options& options) {
+fs::path folder_of(const fs::path& input, const file_search_options& options) {
     return options.folder.empty() ? fs::path(input.string() + ".search-tiles") : options.folder;
 }
 
 }  // namespace
 
 struct shared_search::state {
-    state(const fs::path& input, const stream_search_options& options)
+    state(const fs::path& input, const file_search_options& options)
         : pace(options.progress),
           folder(folder_of(input, options), "search", work_folder::use::shared),
           search(pace, folder, lone, input, options) {}
@@ -44,7 +44,7 @@ struct shared_search::state {
     detail::stream::tile_search search;
 };
 
-shared_search::shared_search(fs::path input, stream_search_options options)
+shared_search::shared_search(fs::path input, file_search_options options)
     : state_(std::make_unique<state>(input, options)) {}
 shared_search::~shared_search() = default;
 shared_search::shared_search(shared_search&&) noexcept = default;
@@ -77,7 +77,7 @@ status shared_search::search_tile(std::size_t tile) {
     return state::until_cancelled([&] { state_->search.search(tile, tile, all); });
 }
 
-stream_search_result shared_search::finish() {
+file_search_result shared_search::finish() {
     static_cast<void>(tiles());
     return state_->search.finish();
 }
@@ -92,8 +92,8 @@ bool shared_search::accepts(const fs::path& input, std::string_view format) {
            (found.kind == detail::io::file_kind::ply && detail::io::has_readable_rows(in));
 }
 
-stream_search_result self_intersections_of_file(const fs::path& input,
-                                                const stream_search_options& options) {
+file_search_result self_intersections_of_file(const fs::path& input,
+                                              const file_search_options& options) {
     detail::stream::cancellable_progress pace(options.progress);
     const detail::stream::communicator all(options.communicator);
     if (!all.is_root()) all.barrier();  // the first one makes the folder
@@ -102,7 +102,7 @@ stream_search_result self_intersections_of_file(const fs::path& input,
     if (all.is_root()) all.barrier();
     all.barrier();  // or one would make again what the first one has removed
     detail::stream::tile_search search(pace, folder, all, input, options);
-    stream_search_result result;
+    file_search_result result;
     try {
         search.scatter();
         for (std::size_t t = all.rank(); t < search.tiles(); t += all.size()) {

@@ -54,7 +54,7 @@ class output_survey {
             for (std::size_t k = 0; k < 3; ++k)
                 outgrown_[k] = outgrown_[k] || (axes_[k] && outgrown[k]);
         }
-        single_ = single_ && fits_single(block.points);
+        single_ = single_ && fits_float32(block.points);
         extended_ = extended_ || io::has_extended_values(block.properties);
     }
     void share(const communicator& all) {
@@ -114,7 +114,7 @@ class giving_back {
           faces_(faces),
           head_(steps.source().header()),
           made_(made) {
-        head_.stored_as = survey_.single ? precision::float32 : precision::float64;
+        head_.stored_as = survey_.fits_float32 ? precision::float32 : precision::float64;
         head_.ranges = survey_.ranges;
         is_divided_ = may_divide();
         if (is_divided_) return;
@@ -266,7 +266,7 @@ class giving_back {
             if (!io::is_axis(c) || c.type == scalar_type::float64) continue;
             if (io::keeps_digits(c) && io::writes_text(format, options)) continue;
             const bool may_be_long =
-                io::keeps_digits(c) ? !survey_.single : survey_.sources.size() > 1;
+                io::keeps_digits(c) ? !survey_.fits_float32 : survey_.sources.size() > 1;
             asked[io::axis_number(c.role)] = means || may_be_long;
         }
         return asked;
@@ -283,7 +283,7 @@ class giving_back {
         };
         const bool all_las = std::ranges::all_of(
             survey_.sources, [](const auto& one) { return one.format.starts_with("la"); });
-        return survey_.single || (!all_las && may_extend(head_));
+        return survey_.fits_float32 || (!all_las && may_extend(head_));
     }
 
     [[nodiscard]] static bool is_las(const output_path& to) {

@@ -113,7 +113,7 @@ std::vector<Record> all_of(const std::filesystem::path& path, const record_count
     return records;
 }
 
-void add_counts(intersection_result& sum, const intersection_result& one) {
+void add_counts(face_pair_result& sum, const face_pair_result& one) {
     for (std::size_t k = 0; k < pair_kind_count; ++k) sum.counts[k] += one.counts[k];
     sum.box_pairs += one.box_pairs;
     sum.exact_pairs += one.exact_pairs;
@@ -124,7 +124,7 @@ void add_counts(intersection_result& sum, const intersection_result& one) {
 
 tile_search::tile_search(cancellable_progress& pace, const work_folder& folder,
                          const communicator& of, std::filesystem::path input,
-                         stream_search_options options)
+                         file_search_options options)
     : pace_(pace),
       folder_(folder),
       all_(of),
@@ -291,7 +291,7 @@ std::optional<std::string> tile_search::share_counts(const std::optional<std::st
         const bool failed = one.number() != 0;
         const std::string why = one.text();
         if (failed && !first) first = why;
-        stream_search_result given = load_search(one);
+        file_search_result given = load_search(one);
         firsts_.push_back(triangles);
         triangles += given.triangles;
         searched += given.searched;
@@ -422,7 +422,7 @@ void tile_search::search_as(std::size_t tile) {
         }
         return true;
     };
-    intersection_result all = self_intersections(
+    face_pair_result all = self_intersections(
         m, {.vertices = vertex_identity::by_index, .kinds = options_.kinds, .progress = watch});
     if (all.status == treeform::status::cancelled) throw cancelled{};
     survey_.found.tree_seconds += all.tree_seconds;  // of the tiles that this process searches
@@ -457,8 +457,8 @@ void tile_search::search_as(std::size_t tile) {
 }
 
 /// Faces keep their order, so pairs that ascend do so with the new numbers.
-stream_search_result tile_search::finish() {
-    stream_search_result result = survey_;
+file_search_result tile_search::finish() {
+    file_search_result result = survey_;
     result.tiles = tiles();
     std::vector<tile_face<double>> faces;
     std::vector<std::size_t> missing;

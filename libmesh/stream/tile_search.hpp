@@ -43,19 +43,19 @@ struct tile_pair {
 struct tile_found {
     record_count pairs{};
     record_count faces{};
-    intersection_result counted{};  ///< without pairs
+    face_pair_result counted{};  ///< without pairs
 };
 
 /// Serialization, for storing and for exchange between ranks.
 void store_box(const std::optional<box3>& box, state_writer& state);
 [[nodiscard]] std::optional<box3> load_box(state_reader& state);
-void store_search(const stream_search_result& s, state_writer& state);
-[[nodiscard]] stream_search_result load_search(state_reader& state);
+void store_search(const file_search_result& s, state_writer& state);
+[[nodiscard]] file_search_result load_search(state_reader& state);
 
 class tile_search {
   public:
     tile_search(cancellable_progress& pace, const work_folder& folder, const communicator& of,
-                std::filesystem::path input, stream_search_options options);
+                std::filesystem::path input, file_search_options options);
 
     /// Writes the faces of each tile, unless an earlier run did. With several ranks, each writes
     /// those of its part of the file.
@@ -74,7 +74,7 @@ class tile_search {
     /// Removes the faces of a finished tile.
     void drop_faces(std::size_t tile) const;
     /// Combines the results of all tiles. \throws io_error naming the tiles that are not finished
-    [[nodiscard]] stream_search_result finish();
+    [[nodiscard]] file_search_result finish();
 
   private:
     [[nodiscard]] std::filesystem::path file(std::size_t tile, const char* what) const;
@@ -111,9 +111,9 @@ class tile_search {
     const work_folder& folder_;
     const communicator& all_;
     std::filesystem::path input_;
-    stream_search_options options_;
+    file_search_options options_;
     std::uint64_t memory_;  ///< memory available for faces
-    stream_search_result survey_{};
+    file_search_result survey_{};
     bool bounds_known_ = false;
     bool others_read_ = false;  ///< whether other ranks may be reading files of the folder
     vertex_identity vertices_{};

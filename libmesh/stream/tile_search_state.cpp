@@ -46,7 +46,7 @@ std::optional<box3> load_box(state_reader& state) {
     return box3{state.point(), state.point()};
 }
 
-void store_search(const stream_search_result& s, state_writer& state) {
+void store_search(const file_search_result& s, state_writer& state) {
     each_number(s, [&](std::uint64_t n) { state.number(n); });
     store_box(s.bounds, state);
     state.text(s.header.format);
@@ -54,8 +54,8 @@ void store_search(const stream_search_result& s, state_writer& state) {
     store_warnings(s.header.warnings, state);
 }
 
-stream_search_result load_search(state_reader& state) {
-    stream_search_result s;
+file_search_result load_search(state_reader& state) {
+    file_search_result s;
     each_number(s, [&](std::uint64_t& n) { n = state.number(); });
     s.bounds = load_box(state);
     s.header.format = state.text();
@@ -75,7 +75,7 @@ std::string tile_search::identity() const {
     state.number(size);
     state.number(static_cast<std::uint64_t>(
         std::filesystem::last_write_time(input_).time_since_epoch().count()));
-    const stream_search_options& o = options_;
+    const file_search_options& o = options_;
     state.text(o.format);
     state.number(o.vertices ? 1 + static_cast<std::uint64_t>(*o.vertices) : 0);
     for (std::size_t k = 0; k < pair_kind_count; ++k)
@@ -102,7 +102,7 @@ bool tile_search::has_plan() const { return folder_.load(search_name).has_value(
 bool tile_search::load_plan() {
     auto state = folder_.load(search_name);
     if (!state || state->text() != identity()) return false;
-    stream_search_result survey = load_search(*state);
+    file_search_result survey = load_search(*state);
     const auto vertices = static_cast<vertex_identity>(state->number());
     space_cells cells(*state);
     std::vector<std::uint64_t> firsts;

@@ -27,17 +27,17 @@ class rejoiner {
 
     void run() {
         const auto& faces = file_.mesh.faces;
-        file_.stored_face.resize(faces.size());
+        file_.face_of_triangle.resize(faces.size());
         for (std::uint32_t f = 0; f < faces.size(); ++f) {
             if (!continues(f)) begin_face(f);
             last_face_[faces[f][2]] = face();
-            file_.stored_face[f] = face();
+            file_.face_of_triangle[f] = face();
         }
         for (element& e : file_.attributes.elements)
             if (e.name == "face") e = e.gathered(first_triangle_);
-        for (part& part : file_.attributes.parts)
-            part.first_face = part.first_face < file_.stored_face.size()
-                                  ? file_.stored_face[part.first_face]
+        for (named_faces& part : file_.attributes.parts)
+            part.first_face = part.first_face < file_.face_of_triangle.size()
+                                  ? file_.face_of_triangle[part.first_face]
                                   : static_cast<std::uint32_t>(first_triangle_.size());
         file_.stored_faces = first_triangle_.size();
     }
@@ -156,7 +156,7 @@ weld_result weld_triangles(const mesh_file& file, const weld_options& options) {
 }  // namespace
 
 file_weld_result weld(const mesh_file& file, const weld_options& options) {
-    const bool has_polygons = !file.stored_face.empty();
+    const bool has_polygons = !file.face_of_triangle.empty();
     weld_result welded;
     if (has_polygons) {
         mesh_file triangles = file;
@@ -178,7 +178,7 @@ file_weld_result weld(const mesh_file& file, const weld_options& options) {
     if (!has_polygons) return result;
     std::vector<std::uint32_t> polygon;
     polygon.reserve(result.face_source.size());
-    for (const std::uint32_t f : result.face_source) polygon.push_back(file.stored_face[f]);
+    for (const std::uint32_t f : result.face_source) polygon.push_back(file.face_of_triangle[f]);
     detail::stream::rejoin_polygons(result.file, polygon, !options.keep_degenerate);
     return result;
 }
@@ -205,7 +205,7 @@ std::optional<std::uint64_t> count_mergeable(const mesh_file& welded, const weld
     if (options.only_borders || options.keep_manifold) return std::nullopt;
     std::vector<point3> rounded;
     points_view points = welded.mesh.points;
-    if (written_as == precision::float32 && !fits_single(points)) {
+    if (written_as == precision::float32 && !fits_float32(points)) {
         rounded.assign(points.begin(), points.end());
         for (point3& p : rounded)
             for (std::size_t k = 0; k < 3; ++k) p[k] = detail::base::nearest_float(p[k]);

@@ -119,7 +119,7 @@ attributes carry_rows(const attributes& properties, const weld_result& welded) {
     result.elements.reserve(properties.elements.size());
     for (const element& e : properties.elements) result.elements.push_back(carried(e, welded));
     const std::vector<std::uint32_t>& faces = welded.face_source;
-    for (part& p : result.parts)
+    for (named_faces& p : result.parts)
         p.first_face = static_cast<std::uint32_t>(
             std::lower_bound(faces.begin(), faces.end(), p.first_face) - faces.begin());
     return result;

@@ -309,7 +309,7 @@ joined_faces join_faces(mesh_view mesh) {
 
 const joined_faces& join_faces(const prepared_mesh& mesh) {
     constexpr base::slot<joined_faces> slot{base::slot_name::joined_corners};
-    return base::prepared_slots::get(mesh, slot, [&] { return join_faces(mesh.view()); });
+    return base::prepared_slots::get(mesh, slot, [&] { return join_faces(mesh.indexed_view()); });
 }
 
 }  // namespace treeform::detail::weld

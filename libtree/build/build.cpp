@@ -127,7 +127,7 @@ void fill_leaves(tree<D>& tree, const split_record* order, const half_extents* e
                    for (std::size_t block = first; block < last; ++block) {
                        wide_node<D>& leaf = leaves[block];
                        const std::size_t begin = tree.width * block;
-                       const std::size_t end = begin + tree.children(tree.levels() - 1, block);
+                       const std::size_t end = begin + tree.child_count(tree.levels() - 1, block);
                        if (end - begin < tree.width) clear(leaf);
                        for (std::size_t i = begin; i < end; ++i) {
                            if (i + ahead < tree.size())

@@ -76,7 +76,7 @@ HWY_INLINE void walk_near(const tree<D>& t, const near_query<D>& query, float bo
             const auto slot = static_cast<std::uint32_t>(std::countr_zero(rest));
             frontier.push({squared[slot], at.index * 8 + slot, at.level + 1});
         }
-        frontier.close(t.children(at.level, at.index));
+        frontier.close(t.child_count(at.level, at.index));
     } while (frontier.pop(at, bound));
 }
 

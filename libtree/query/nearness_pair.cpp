@@ -128,7 +128,7 @@ void open(const tree<D>& t, const frame_map<D>& map, const raise_bounds* raise,
     const std::uint32_t index = (at.*opened).index;
     const wide_node<D>& node = in_frame(map, t.level(level)[index], space);
     unsigned mask = near_mask(node, other.low, other.high, bound, squared);
-    mask &= (1U << t.children(level, index)) - 1;
+    mask &= (1U << t.child_count(level, index)) - 1;
     if (raise != nullptr && !t.is_leaf_level(level)) {
         const bool of_a = opened == &pair_entry<D>::a;
         mask = (*raise)({of_a, level, index, other.level, other.index}, mask, bound, squared);
@@ -158,8 +158,8 @@ double visit_last(const Context& in, const pair_entry<D>& at, float bound, visit
     const wide_node<D>& node_b = in_frame(in.map_b, in.b.level(at.b.level)[at.b.index], space_b);
     alignas(64) float squared[8][8];
     alignas(64) float to_b[8];
-    const unsigned in_use = (1U << in.a.children(at.a.level, at.a.index)) - 1;
-    const unsigned present_b = (1U << in.b.children(at.b.level, at.b.index)) - 1;
+    const unsigned in_use = (1U << in.a.child_count(at.a.level, at.a.index)) - 1;
+    const unsigned present_b = (1U << in.b.child_count(at.b.level, at.b.index)) - 1;
     unsigned rows = near_mask(node_a, at.b.low, at.b.high, bound, to_b) & in_use;
     const unsigned near_rows = rows;
     for (; rows != 0; rows &= rows - 1) {
@@ -177,7 +177,7 @@ pair_entry<D> roots_of(const Context& in) {
         wide_node<D> space;
         const wide_node<D>& node = in_frame(map, t.level(0)[0], space);
         auto box = box_of(node, 0, 0, 0);
-        for (std::size_t i = 1; i < t.children(0, 0); ++i)
+        for (std::size_t i = 1; i < t.child_count(0, 0); ++i)
             for (std::size_t k = 0; k < D; ++k) {
                 box.low[k] = std::min(box.low[k], node.min[k][i]);
                 box.high[k] = std::max(box.high[k], node.max[k][i]);

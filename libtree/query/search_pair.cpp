@@ -344,12 +344,13 @@ two_trees<D> in_one_frame(const transformed<D>& a, const transformed<D>& b, bool
     const tree_frame<D> common = common_frame(frame_a, a.map(), frame_b, b.map());
     two_trees<D> trees{&a.original(), &b.original(), map_into(frame_a, a.map(), common),
                        map_into(frame_b, b.map(), common)};
-    if (!in_both_frames || a.moves() == b.moves() || a.original().empty() || b.original().empty())
+    if (!in_both_frames || a.is_moved() == b.is_moved() || a.original().empty() ||
+        b.original().empty())
         return trees;
-    const auto back = a.moves() ? map_back(frame_b, a.map(), a.original())
-                                : map_back(frame_a, b.map(), b.original());
+    const auto back = a.is_moved() ? map_back(frame_b, a.map(), a.original())
+                                   : map_back(frame_a, b.map(), b.original());
     trees.both_frames = back.has_value();
-    if (back) (a.moves() ? trees.own_b : trees.own_a) = *back;
+    if (back) (a.is_moved() ? trees.own_b : trees.own_a) = *back;
     return trees;
 }
 

@@ -50,7 +50,7 @@ struct self_traversal {
     void self(unsigned level, std::size_t a) {
         if (skipped != nullptr && (*skipped)(level, a)) return;
         const wide_node<D>& node = t.level(level)[a];
-        const std::size_t count = t.children(level, a);
+        const std::size_t count = t.child_count(level, a);
         ++seen.nodes;
         seen.box_tests += count;
         for (std::size_t i = 0; i < count; ++i) {
@@ -93,7 +93,7 @@ void descend(const tree<D>& t, const node_marks<D>* skipped, unsigned level,
         if (a == b && skipped != nullptr && (*skipped)(level, a)) continue;
         const wide_node<D>& node_a = t.level(level)[a];
         const wide_node<D>& node_b = t.level(level)[b];
-        for (std::size_t i = 0; i < t.children(level, a); ++i) {
+        for (std::size_t i = 0; i < t.child_count(level, a); ++i) {
             unsigned bs = overlap_mask(node_b, node_a, i);
             if (a == b) {
                 push(a * t.width + i, a * t.width + i);

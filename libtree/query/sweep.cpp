@@ -147,7 +147,7 @@ class sweep_walk {
         wide_node<D> space;
         const wide_node<D>& node = in_frame(map, t.level(0)[0], space);
         swept_node<D> box = child(node, 0, 0, 0);
-        for (std::size_t i = 1; i < t.children(0, 0); ++i)
+        for (std::size_t i = 1; i < t.child_count(0, 0); ++i)
             for (std::size_t k = 0; k < D; ++k) {
                 box.low[k] = std::min(box.low[k], node.min[k][i]);
                 box.high[k] = std::max(box.high[k], node.max[k][i]);
@@ -166,7 +166,7 @@ class sweep_walk {
         const swept_node<D>& of = at.*opened;
         const wide_node<D>& node = in_frame(map, t.level(of.level)[of.index], space);
         const std::size_t begin = stack_.size();
-        for (std::size_t i = 0; i < t.children(of.level, of.index); ++i) {
+        for (std::size_t i = 0; i < t.child_count(of.level, of.index); ++i) {
             swept_pair<D> below = at;
             below.*opened = child(node, i, std::size_t{of.index} * 8 + i, of.level + 1);
             below.entry = std::max(at.entry, entry(below.a, below.b));
@@ -187,10 +187,10 @@ class sweep_walk {
         const wide_node<D>& node_b = in_frame(map_b_, b_.level(at.b.level)[at.b.index], space_b);
         std::array<meeting, 64> meetings;
         std::size_t count = 0;
-        for (std::size_t i = 0; i < a_.children(at.a.level, at.a.index); ++i) {
+        for (std::size_t i = 0; i < a_.child_count(at.a.level, at.a.index); ++i) {
             const auto one = child(node_a, i, std::size_t{at.a.index} * 8 + i, 0);
             if (!(entry(one, at.b) <= latest)) continue;
-            for (std::size_t j = 0; j < b_.children(at.b.level, at.b.index); ++j) {
+            for (std::size_t j = 0; j < b_.child_count(at.b.level, at.b.index); ++j) {
                 const auto other = child(node_b, j, std::size_t{at.b.index} * 8 + j, 0);
                 const double from = entry(one, other);
                 if (from <= latest && from < never)

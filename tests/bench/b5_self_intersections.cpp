@@ -20,7 +20,7 @@ namespace {
 /// How many pairs of proper faces meet; none where nobody else knows.
 using truth = std::function<std::optional<double>()>;
 
-double pairs_of_proper_faces(const intersection_result& result) {
+double pairs_of_proper_faces(const face_pair_result& result) {
     std::uint64_t pairs = 0;
     for (const std::uint64_t count : result.counts) pairs += count;
     return static_cast<double>(pairs -
@@ -32,7 +32,7 @@ std::optional<double> distance(double pairs, const std::optional<double>& expect
 }
 
 job find_pairs(const shared_mesh& mesh, const truth& expected) {
-    using answer = intersection_result;
+    using answer = face_pair_result;
     return make_job(
         [mesh] { return self_intersections(*mesh, {.vertices = vertex_identity::by_index}); },
         [expected](const answer& result) {

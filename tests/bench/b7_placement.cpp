@@ -50,7 +50,7 @@ make_asker own_from_arrays(pose_question question) {
     return [=](const scene& scene) -> ask_pose {
         return [a = scene.a, b = scene.b, question](const transform<3>& pose) -> double {
             if (question == pose_question::collide)
-                return intersects(*a, *b, {.move_b = pose}) ? 1 : 0;
+                return intersects(*a, *b, {.transform_b = pose}) ? 1 : 0;
             return detail::nearness::closest_pair(*a, build_face_tree(*a), *b,
                                                   transformed<3>(build_face_tree(*b), pose))
                 .value()
@@ -146,7 +146,7 @@ contest contact_beside_distance(const setting& setting, const scene_name& name) 
                                            for (const transform<3>& pose : p->given->apart)
                                                met += time_of_impact(p->b, p->a,
                                                                      toward_first(*p->given, pose),
-                                                                     {.move_a = pose})
+                                                                     {.transform_a = pose})
                                                           .outcome == placement_outcome::contact;
                                            return met;
                                        });

@@ -161,7 +161,8 @@ ask_pose paper_distance_by(const scene& scene, const tree_config& config,
 ask_pose own_collide(const scene& scene) {
     return [trees = own_trees_of(scene)](const transform<3>& pose) {
         const auto& [a, b, tree_a, tree_b] = *trees;
-        return detail::intersect::intersects(*a, tree_a, *b, tree_b, {.move_b = pose}) ? 1.0 : 0.0;
+        return detail::intersect::intersects(*a, tree_a, *b, tree_b, {.transform_b = pose}) ? 1.0
+                                                                                            : 0.0;
     };
 }
 
@@ -169,7 +170,7 @@ ask_pose own_intersect(const scene& scene) {
     const auto a = std::make_shared<const prepared_mesh>(prepared_mesh::borrow(*scene.a));
     const auto b = std::make_shared<const prepared_mesh>(prepared_mesh::borrow(*scene.b));
     return [a, b](const transform<3>& pose) {
-        return static_cast<double>(mesh_intersections(*a, *b, {.move_b = pose}).pairs.size());
+        return static_cast<double>(mesh_intersections(*a, *b, {.transform_b = pose}).pairs.size());
     };
 }
 
@@ -177,7 +178,7 @@ ask_pose own_distance(const scene& scene) {
     const auto a = std::make_shared<const prepared_mesh>(prepared_mesh::borrow(*scene.a));
     const auto b = std::make_shared<const prepared_mesh>(prepared_mesh::borrow(*scene.b));
     return [a, b](const transform<3>& pose) {
-        return closest_pair(*a, *b, {.move_b = pose}).value().distance;
+        return closest_pair(*a, *b, {.transform_b = pose}).value().distance;
     };
 }
 

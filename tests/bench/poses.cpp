@@ -62,8 +62,8 @@ void draw_poses(scene& scene, std::size_t count) {
     test::random random(1);
     while (scene.meeting.size() < count || scene.apart.size() < count) {
         const transform<3> pose = random_pose(random);
-        const bool meet =
-            detail::intersect::intersects(*scene.a, tree_a, *scene.b, tree_b, {.move_b = pose});
+        const bool meet = detail::intersect::intersects(*scene.a, tree_a, *scene.b, tree_b,
+                                                        {.transform_b = pose});
         std::vector<transform<3>>& list = meet ? scene.meeting : scene.apart;
         if (list.size() < count) list.push_back(pose);
     }

@@ -43,10 +43,10 @@ contest contest_of(const setting& setting, const model& model) {
                      [mesh = given()] {
                          return self_intersections(*mesh, {.vertices = vertex_identity::by_index});
                      },
-                     [](const intersection_result& found) {
+                     [](const face_pair_result& found) {
                          return static_cast<double>(found.pairs.size());
                      },
-                     [](const intersection_result& found) {
+                     [](const face_pair_result& found) {
                          return std::vector<figure>{
                              {"pairs of boxes", static_cast<double>(found.box_pairs)}};
                      });

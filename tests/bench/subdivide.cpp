@@ -124,7 +124,7 @@ void add_parts(face f, std::array<std::uint32_t, 3> cut, std::vector<face>& part
 /// Puts the new points of faces that meet back to `middles`; false when no faces met.
 bool move_in_file(mesh& mesh, std::size_t old_points, const std::vector<point3>& middles,
                   bool all) {
-    const intersection_result found =
+    const face_pair_result found =
         self_intersections(mesh, {.vertices = vertex_identity::by_index});
     for (const face_pair& pair : found.pairs)
         for (const std::uint32_t f : {pair.a, pair.b})

@@ -42,7 +42,7 @@ mesh as_written(mesh mesh, bool in_float) {
 surface_defects defects_of(const mesh& written) {
     const mesh joined = join_equal_points(written);
     surface_defects found;
-    const intersection_result pairs =
+    const face_pair_result pairs =
         self_intersections(joined, {.vertices = vertex_identity::by_index, .limit = 0});
     for (const std::uint64_t count : pairs.counts) found.intersections += count;
     for (const face& f : joined.faces)

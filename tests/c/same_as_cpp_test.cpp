@@ -42,7 +42,7 @@ std::string model_path(const char* name) { return (test::data_folder() / name).s
 
 tf::mesh mesh_of(const std::string& path) {
     tf::mesh_file file = tf::read(path);
-    return tf::usable_part(std::move(file.mesh), std::move(file.stored_face)).mesh;
+    return tf::usable_faces(std::move(file.mesh), std::move(file.face_of_triangle)).mesh;
 }
 
 handle<treeform_mesh> borrow(const tf::mesh& mesh) {
@@ -96,9 +96,10 @@ TEST_CASE("c: pairs are those of C++, in their order") {
         const tf::mesh mesh = mesh_of(path);
         const auto expected = tf::self_intersections(mesh);
         const auto input = borrow(mesh);
-        const auto found = result_of<treeform_pairs>([&](treeform_pairs** out) {
-            return treeform_self_intersections(input.get(), nullptr, out);
-        });
+        const auto found =
+            result_of<treeform_face_pair_result>([&](treeform_face_pair_result** out) {
+                return treeform_self_intersections(input.get(), nullptr, out);
+            });
         REQUIRE(found->count == expected.pairs.size());
         for (std::size_t i = 0; i < found->count; ++i) {
             CHECK(found->pairs[i].a == expected.pairs[i].a);

@@ -10,7 +10,7 @@ static void test_clashes(void) {
     const treeform_mesh* parts[3];
     const uint32_t ignored[2] = {0, 1}, wrong[2] = {0, 3};
     treeform_clash_options options;
-    treeform_clashes* clashes = NULL;
+    treeform_clash_result* clashes = NULL;
     int calls = 0;
     parts[0] = a;
     parts[1] = b;
@@ -93,7 +93,7 @@ static void test_bodies(void) {
     const char* const label[1] = {"stack.obj"};
     const double shift[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 5};
     treeform_bodies* bodies = NULL;
-    treeform_clashes* clashes = NULL;
+    treeform_clash_result* clashes = NULL;
     treeform_file_view* view = NULL;
     OK(treeform_file_create(low, &files[0]));
     OK(treeform_file_create(high, &files[1]));

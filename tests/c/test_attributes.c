@@ -30,7 +30,7 @@ static void test_of_two(void) {
     treeform_file* made_file = NULL;
     treeform_mesh* made_mesh = NULL;
     treeform_file_view* view = NULL;
-    treeform_carry_source sources[2];
+    treeform_attribute_source sources[2];
     treeform_boolean_result* made = NULL;
     treeform_indices* groups = NULL;
     const char* const names[2] = {"a.stl", "b.stl"};
@@ -45,7 +45,8 @@ static void test_of_two(void) {
     OK(treeform_unite(a, b, NULL, &made));
     OK(treeform_mesh_of(&made->mesh, 0, &made_mesh));
     OK(treeform_file_create(made_mesh, &made_file));
-    OK(treeform_carry(made_file, sources, 2, made->face_source, made->vertex_source, NULL));
+    OK(treeform_transfer_attributes(made_file, sources, 2, made->face_source, made->vertex_source,
+                                    NULL));
     OK(treeform_add_source_columns(made_file, "from", made->face_source, names, 2));
     OK(treeform_file_content(made_file, &view));
     red = column(view, "face", "red");
@@ -61,8 +62,8 @@ static void test_of_two(void) {
     OK(treeform_corner_groups(sources, &groups));
     CHECK(groups->count == 36);
     treeform_free(groups);
-    INVALID("operand 1",
-            treeform_carry(made_file, sources, 1, made->face_source, made->vertex_source, NULL));
+    INVALID("operand 1", treeform_transfer_attributes(made_file, sources, 1, made->face_source,
+                                                      made->vertex_source, NULL));
     treeform_free(made_file);
     treeform_free(made_mesh);
     treeform_free(made);
@@ -79,7 +80,7 @@ static void test_of_one(void) {
     treeform_mesh* part_mesh = NULL;
     treeform_made_mesh* part = NULL;
     treeform_file_view* view = NULL;
-    treeform_carry_source source;
+    treeform_attribute_source source;
     const uint32_t seen[11] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
     const uint32_t wrong[1] = {12};
     const uint32_t faces[1] = {0}, vertices[3] = {1, 3, TREEFORM_NONE}, out[1] = {11};
@@ -90,15 +91,16 @@ static void test_of_one(void) {
     source.file = file;
     source.triangle_of_face = seen;
     source.face_count = 11;
-    OK(treeform_carry_one(part_file, &source, faces, vertices, NULL, NULL));
+    OK(treeform_transfer_attributes_of_one(part_file, &source, faces, vertices, NULL, NULL));
     OK(treeform_file_content(part_file, &view));
     CHECK(column(view, "face", "red") != NULL);
     treeform_free(view);
     INVALID("face_source names 11",
-            treeform_carry_one(part_file, &source, out, vertices, NULL, NULL));
+            treeform_transfer_attributes_of_one(part_file, &source, out, vertices, NULL, NULL));
     source.triangle_of_face = wrong;
     source.face_count = 1;
-    INVALID("triangle 12", treeform_carry_one(part_file, &source, faces, vertices, NULL, NULL));
+    INVALID("triangle 12",
+            treeform_transfer_attributes_of_one(part_file, &source, faces, vertices, NULL, NULL));
     treeform_free(part_file);
     treeform_free(part_mesh);
     treeform_free(part);

@@ -5,11 +5,11 @@
 
 static void test_options_of_other_sizes(void) {
     treeform_mesh* const mesh = cube(0, 0, 0, 1);
-    treeform_intersection_options options;
-    treeform_pairs* pairs = NULL;
+    treeform_face_pair_options options;
+    treeform_face_pair_result* pairs = NULL;
     /* One that ends before `kinds`, as an older program has it: all kinds are looked for. */
     memset(&options, 0, sizeof options);
-    treeform_intersection_options_init(&options, 2 * sizeof(size_t));
+    treeform_face_pair_options_init(&options, 2 * sizeof(size_t));
     CHECK(options.struct_size == 2 * sizeof(size_t) && options.kinds == 0);
     OK(treeform_self_intersections(mesh, &options, &pairs));
     treeform_free(pairs);
@@ -21,10 +21,10 @@ static void test_options_of_other_sizes(void) {
     CHECK(pairs == NULL);
     /* Init writes no more than it is told, and takes a null pointer. */
     memset(&options, 0x55, sizeof options);
-    treeform_intersection_options_init(&options, 2 * sizeof(size_t));
+    treeform_face_pair_options_init(&options, 2 * sizeof(size_t));
     CHECK(options.limit == 0x5555555555555555u);
-    treeform_intersection_options_init(&options, 1);
-    treeform_intersection_options_init(NULL, sizeof options);
+    treeform_face_pair_options_init(&options, 1);
+    treeform_face_pair_options_init(NULL, sizeof options);
     treeform_free(mesh);
 }
 

@@ -35,9 +35,9 @@ class Pairs(Structure):
                 ("counts", c_uint64 * 7), ("box_pairs", c_uint64)]
 
 
-class IntersectionOptions(Structure):
+class FacePairOptions(Structure):
     _fields_ = [("struct_size", c_size_t),
-                ("move_a", POINTER(c_double)), ("move_b", POINTER(c_double)),
+                ("transform_a", POINTER(c_double)), ("transform_b", POINTER(c_double)),
                 ("first_only", c_int32), ("kinds", c_uint32), ("limit", c_uint64),
                 ("progress", PROGRESS), ("progress_data", c_void_p), ("vertices", c_int32),
                 ("component_of_face", POINTER(c_uint32)), ("between", c_int32),
@@ -84,7 +84,7 @@ class Ctypes(unittest.TestCase):
     def model(self, path):
         file, part = c_void_p(), POINTER(Part)()
         call("treeform_read", path.encode(), None, byref(file))
-        call("treeform_usable_part", file, None, byref(part))
+        call("treeform_usable_faces", file, None, byref(part))
         LIBRARY.treeform_free(file)
         self.addCleanup(LIBRARY.treeform_free, part)
         arrays, mesh = part.contents.mesh, c_void_p()
@@ -121,8 +121,8 @@ class Ctypes(unittest.TestCase):
     def test_progress_cancels(self):
         asked = []
         progress = PROGRESS(lambda done, data: asked.append(done) or 1)
-        options, pairs = IntersectionOptions(), POINTER(Pairs)()
-        LIBRARY.treeform_intersection_options_init(
+        options, pairs = FacePairOptions(), POINTER(Pairs)()
+        LIBRARY.treeform_face_pair_options_init(
             byref(options), c_size_t(ctypes.sizeof(options)))
         self.assertEqual((options.kinds, options.limit), (127, 2 ** 64 - 1))
         options.progress = progress

@@ -20,7 +20,7 @@ static void test_look(void) {
     treeform_free(file);
     OK(treeform_file_content(copy, &view));
     CHECK(view->mesh.point_count == 4 && view->mesh.face_count == 2 && view->stored_faces == 1);
-    CHECK(view->stored_face[1] == 0 && view->indexed == 1 && is(view->format, "ply-ascii"));
+    CHECK(view->face_of_triangle[1] == 0 && view->indexed == 1 && is(view->format, "ply-ascii"));
     CHECK(view->element_count == 2 && is(view->elements[0].name, "vertex"));
     CHECK(view->elements[0].column_count == 4 && is(view->elements[0].columns[3].name, "red"));
     CHECK(view->elements[0].columns[0].is_stored_elsewhere == 1);
@@ -68,7 +68,7 @@ static void test_change(void) {
     OK(treeform_file_round_to_las(file, &furthest));
     CHECK(furthest < 1e-6);
     OK(treeform_file_content(file, &view));
-    CHECK(view->mesh.points[2] == 1.0 && view->stored_face == NULL && view->stored_faces == 2);
+    CHECK(view->mesh.points[2] == 1.0 && view->face_of_triangle == NULL && view->stored_faces == 2);
     CHECK(is(view->elements[0].columns[4].name, "heat"));
     CHECK(((const float*)view->elements[0].columns[4].values)[3] == 4.0f);
     CHECK(view->texture_count == 2 && view->texture_of_corner[5] == TREEFORM_NONE);
@@ -179,7 +179,7 @@ static void test_parts(void) {
     treeform_usable_mesh* part = NULL;
     treeform_mesh* mesh = NULL;
     treeform_arrays arrays;
-    treeform_part_options options;
+    treeform_usable_options options;
     treeform_scene_parts* parts = NULL;
     const treeform_box box = {{-10, -10, -10}, {10, 10, 0}};
     OK(treeform_read("data/two_spheres.stl", NULL, &file));
@@ -193,18 +193,18 @@ static void test_parts(void) {
     CHECK(treeform_read_mesh("data/none.stl", NULL, &mesh) == TREEFORM_FILE && mesh == NULL);
     CHECK(part->triangle_of_face == NULL && part->face_in_file[639] == 639);
     treeform_free(part);
-    treeform_part_options_init(&options, sizeof options);
+    treeform_usable_options_init(&options, sizeof options);
     options.details = 1;
-    OK(treeform_usable_part(file, &options, &part));
+    OK(treeform_usable_faces(file, &options, &part));
     CHECK(part->mesh.face_count == 640 && part->mesh.point_count == 324);
     CHECK(part->component[0] == 0 && part->component[639] == 1 && part->degenerate == 0);
     treeform_free(part);
     options.box = &box;
-    OK(treeform_usable_part(file, &options, &part));
+    OK(treeform_usable_faces(file, &options, &part));
     CHECK(part->mesh.face_count < 640 && part->triangle_of_face != NULL);
     treeform_free(part);
     options.vertices = 4;
-    INVALID("vertices is 4", treeform_usable_part(file, &options, &part));
+    INVALID("vertices is 4", treeform_usable_faces(file, &options, &part));
     OK(treeform_read("data/sphere.ply", NULL, &sphere));
     both[0] = file;
     both[1] = sphere;
@@ -216,7 +216,7 @@ static void test_parts(void) {
     OK(treeform_file_create(box_mesh, &boxed));
     both[0] = boxed;
     OK(treeform_scene_of(both, names, 2, &scene));
-    OK(treeform_split_parts(scene, 1, &parts));
+    OK(treeform_file_parts(scene, 1, &parts));
     CHECK(parts->count == 2);
     if (parts->count == 2) {
         CHECK(is(parts->parts[0].name, "soup") && is(parts->parts[1].name, "ball"));

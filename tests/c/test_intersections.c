@@ -6,11 +6,11 @@
 
 static void test_of_one(void) {
     treeform_mesh* mesh = model("data/two_spheres.stl");
-    treeform_intersection_options options;
-    treeform_pairs* pairs = NULL;
+    treeform_face_pair_options options;
+    treeform_face_pair_result* pairs = NULL;
     treeform_regions* regions = NULL;
     treeform_segments* segments = NULL;
-    treeform_paths* paths = NULL;
+    treeform_curve_network* paths = NULL;
     treeform_face_pair wrong;
     int calls = 0;
     OK(treeform_self_intersections(mesh, NULL, &pairs));
@@ -38,7 +38,7 @@ static void test_of_one(void) {
     INVALID("kind is 7", treeform_intersection_curves(mesh, &wrong, 1, &segments));
     treeform_free(paths);
     treeform_free(pairs);
-    treeform_intersection_options_init(&options, sizeof options);
+    treeform_face_pair_options_init(&options, sizeof options);
     options.limit = 3;
     OK(treeform_self_intersections(mesh, &options, &pairs));
     CHECK(pairs->count == 3 && pairs->counts[TREEFORM_CROSSING] == 78);
@@ -53,7 +53,7 @@ static void test_of_one(void) {
     options.within = 1;
     options.between = 1;
     INVALID("", treeform_self_intersections(mesh, &options, &pairs));
-    treeform_intersection_options_init(&options, sizeof options);
+    treeform_face_pair_options_init(&options, sizeof options);
     options.progress = stop;
     options.progress_data = &calls;
     ENDS(TREEFORM_CANCELLED, "cancelled", treeform_self_intersections(mesh, &options, &pairs));
@@ -65,8 +65,8 @@ static void test_of_two(void) {
     treeform_mesh* a = cube(0, 0, 0, 1);
     treeform_mesh* b = cube(0.5, 0.5, 0.5, 1);
     double moves[24] = {1, 0, 0, 9, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-    treeform_intersection_options options;
-    treeform_pairs* pairs = NULL;
+    treeform_face_pair_options options;
+    treeform_face_pair_result* pairs = NULL;
     treeform_indices* faces = NULL;
     treeform_box box = {{-1, -1, 0.5}, {2, 2, 0.6}};
     int32_t meet = 7;
@@ -82,8 +82,8 @@ static void test_of_two(void) {
     CHECK(strcmp(treeform_status_name(TREEFORM_STATUS_OPEN_INPUT), "open-input") == 0);
     CHECK(pairs->count > 0 && pairs->count == pairs->counts[0] + pairs->counts[5]);
     treeform_free(pairs);
-    treeform_intersection_options_init(&options, sizeof options);
-    options.move_b = moves;
+    treeform_face_pair_options_init(&options, sizeof options);
+    options.transform_b = moves;
     OK(treeform_mesh_intersections(a, b, &options, &pairs));
     CHECK(pairs->count == 0);
     treeform_free(pairs);
@@ -108,10 +108,10 @@ static void test_colored(void) {
     treeform_file* file = NULL;
     treeform_usable_mesh* part = NULL;
     treeform_mesh* mesh = NULL;
-    treeform_pairs* pairs = NULL;
+    treeform_face_pair_result* pairs = NULL;
     treeform_file_view* view = NULL;
     OK(treeform_read("data/two_spheres.stl", NULL, &file));
-    OK(treeform_usable_part(file, NULL, &part));
+    OK(treeform_usable_faces(file, NULL, &part));
     OK(treeform_mesh_of(&part->mesh, 0, &mesh));
     OK(treeform_self_intersections(mesh, NULL, &pairs));
     OK(treeform_color_pairs(file, part, pairs->pairs, pairs->count));
@@ -132,14 +132,14 @@ void test_intersections(void) {
 
 void test_search(void) {
     const char* const path = "data/two_spheres.stl";
-    treeform_stream_search_options options;
-    treeform_stream_search_result* result = NULL;
+    treeform_file_search_options options;
+    treeform_file_search_result* result = NULL;
     treeform_shared_search* search = NULL;
     treeform_indices* unfinished = NULL;
     size_t tiles = 0, again = 0, t;
     int32_t is_searched = 0;
     int calls = 0;
-    treeform_stream_search_options_init(&options, sizeof options);
+    treeform_file_search_options_init(&options, sizeof options);
     options.folder = path_in_work("tiles");
     options.faces_per_tile = 100;
     OK(treeform_is_searched_in_tiles(path, NULL, &is_searched));

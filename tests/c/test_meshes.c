@@ -83,11 +83,14 @@ static void test_clouds_and_sets(void) {
     treeform_mesh* solid = cube(0, 0, 0, 1);
     const treeform_box unit = {{0, 0, 0}, {1, 1, 1}};
     treeform_mesh* boxed = NULL;
-    double volume = 0;
+    double volume = 0, turn[12];
+    const double up[3] = {0, 0, 2}, origin[3] = {0, 0, 0};
+    const double quarter[12] = {0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0};
     const treeform_mesh* meshes[2];
     treeform_arrays arrays;
-    treeform_mesh_measure* how = NULL;
+    treeform_relation_result* how = NULL;
     int32_t is_cloud = 0;
+    int i;
     OK(treeform_mesh_create(cube_points, 8, NULL, 0, TREEFORM_COPY, &cloud));
     OK(treeform_mesh_create_float(floats, 2, NULL, 0, 0, &floating));
     OK(treeform_mesh_is_cloud(cloud, &is_cloud));
@@ -103,6 +106,11 @@ static void test_clouds_and_sets(void) {
     OK(treeform_mesh_of_box(&unit, &boxed));
     OK(treeform_signed_volume(boxed, &volume));
     CHECK(volume == 1.0);
+    OK(treeform_rotation(up, 90, turn));
+    for (i = 0; i < 12; ++i) CHECK(turn[i] == quarter[i]);
+    INVALID("axis", treeform_rotation(NULL, 90, turn));
+    INVALID("matrix", treeform_rotation(up, 90, NULL));
+    INVALID("axis", treeform_rotation(origin, 90, turn));
     treeform_free(boxed);
     treeform_free(cloud);
     treeform_free(floating);
@@ -143,7 +151,7 @@ static void test_rounding(void) {
     const double matrix[12] = {1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0};
     treeform_mesh* mesh = NULL;
     treeform_made_mesh* made = NULL;
-    treeform_rounding* effects = NULL;
+    treeform_rounding_effects* effects = NULL;
     double step = 0.0;
     int calls = 0, i;
     for (i = 0; i < 24; ++i) points[i] = 0.1 * cube_points[i];
@@ -155,20 +163,20 @@ static void test_rounding(void) {
     OK(treeform_rounded(mesh, TREEFORM_FLOAT32, &made));
     OK(treeform_coordinate_step(mesh, TREEFORM_FLOAT32, &step));
     CHECK(step == ldexp(1.0, -27));
-    OK(treeform_rounding_effects(mesh, NULL, made->mesh.points, TREEFORM_FLOAT64, TREEFORM_FLOAT32,
-                                 0, NULL, NULL, &effects));
+    OK(treeform_find_rounding_effects(mesh, NULL, made->mesh.points, TREEFORM_FLOAT64,
+                                      TREEFORM_FLOAT32, 0, NULL, NULL, &effects));
     CHECK(near(effects->max_displacement, fabs((double)0.1f - 0.1)) && effects->noticeable == 1);
     CHECK(effects->collapsed == 0 && effects->meeting == 0);
     treeform_free(effects);
     /* All points at one place: every face has lost its area. */
     memset(placed, 0, sizeof placed);
-    OK(treeform_rounding_effects(mesh, matrix, placed, TREEFORM_FLOAT64, TREEFORM_FLOAT32, 1, NULL,
-                                 NULL, &effects));
+    OK(treeform_find_rounding_effects(mesh, matrix, placed, TREEFORM_FLOAT64, TREEFORM_FLOAT32, 1,
+                                      NULL, NULL, &effects));
     CHECK(effects->compared == 1 && effects->collapsed == 12);
     treeform_free(effects);
     ENDS(TREEFORM_CANCELLED, "cancelled",
-         treeform_rounding_effects(mesh, matrix, placed, TREEFORM_FLOAT64, TREEFORM_FLOAT32, 1,
-                                   stop, &calls, &effects));
+         treeform_find_rounding_effects(mesh, matrix, placed, TREEFORM_FLOAT64, TREEFORM_FLOAT32, 1,
+                                        stop, &calls, &effects));
     CHECK(effects == NULL && calls > 0);
     treeform_free(made);
     treeform_free(mesh);

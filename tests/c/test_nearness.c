@@ -73,7 +73,7 @@ static void test_inside(void) {
 static void test_rays(void) {
     treeform_mesh* mesh = cube(0, 0, 0, 1);
     treeform_ray rays[2];
-    treeform_hit hits[2];
+    treeform_mesh_hit hits[2];
     treeform_hits* all = NULL;
     uint8_t any[2];
     memset(rays, 0, sizeof rays);
@@ -103,7 +103,7 @@ static void test_relations(void) {
     treeform_mesh* b = cube(0.75, 0, 0, 1);
     treeform_mesh* apart = cube(3, 0, 0, 1);
     treeform_measure_options options;
-    treeform_mesh_measure* relation = NULL;
+    treeform_relation_result* relation = NULL;
     treeform_mesh_relation how = 9;
     double depth = 0.0, move[3];
     treeform_search_effort effort;

@@ -11,12 +11,23 @@ static void test_writing_a_placement(void) {
     treeform_mesh* part = cube(0, 0, 4, 1);
     treeform_placement_options options;
     treeform_placement* low = NULL;
+    treeform_mesh *there = NULL, *none = NULL, *other = NULL;
+    treeform_arrays arrays;
     const char* const stl = path_in_work("low.stl");
     treeform_placement_options_init(&options, sizeof options);
     options.bed = 0.7; /* no float */
+    OK(treeform_mesh_create(down, 1, NULL, 0, TREEFORM_COPY, &other));
     OK(treeform_drop(part, NULL, 0, NULL, &options, &low));
     OK(treeform_write_placement(path_in_work("low.ply"), part, low, NULL, NULL));
     ENDS(TREEFORM_FILE, "float32", treeform_write_placement(stl, part, low, NULL, NULL));
+    OK(treeform_moved(low, part, &there));
+    OK(treeform_mesh_arrays(there, &arrays));
+    CHECK(arrays.face_count == 12 && arrays.point_count == low->point_count);
+    CHECK(memcmp(arrays.points, low->points, 24 * low->point_count) == 0);
+    INVALID("1 points, not 8", treeform_moved(low, other, &none));
+    CHECK(none == NULL);
+    treeform_free(there);
+    treeform_free(other);
     treeform_free(low);
     options.precision = TREEFORM_FLOAT32;
     OK(treeform_drop(part, NULL, 0, NULL, &options, &low));
@@ -104,7 +115,7 @@ static void test_other_moves(void) {
     OK(treeform_separate(inside, fixed, 1, &options, &placement));
     CHECK(placement->outcome == TREEFORM_OUTCOME_MOVED_APART && placement->travel > 0.5);
     treeform_free(placement);
-    OK(treeform_measure_among(inside, fixed, 1, NULL, &placement));
+    OK(treeform_measure_in_place(inside, fixed, 1, NULL, &placement));
     CHECK(placement->relation == TREEFORM_RELATION_PENETRATING && placement->contact_count > 0);
     treeform_free(placement);
     OK(treeform_find_features(moving, TREEFORM_PLANE, NULL, &of_moving));
@@ -152,7 +163,7 @@ static void test_motion(void) {
           impact->contact_listed == 1);
     CHECK(impact->contact_count > 1 && impact->contacts[0].point[0] == 5.0);
     treeform_free(impact);
-    options.move_a = shift;
+    options.transform_a = shift;
     OK(treeform_time_of_impact(a, b, along, &options, &impact));
     CHECK(impact->time == 1.0);
     treeform_free(impact);

@@ -20,7 +20,7 @@ typedef struct answers {
     double points[COUNT * 3];
     uint8_t where[COUNT];
     int32_t winding[COUNT];
-    treeform_hit hits[COUNT];
+    treeform_mesh_hit hits[COUNT];
     size_t begin[COUNT + 1];
     size_t listed;
     unsigned char list[COUNT * 400];

@@ -41,7 +41,7 @@ static void test_open_mesh(void) {
     treeform_mesh* open = NULL;
     treeform_mesh* closed = cube(0, 0, 0, 1);
     treeform_certificate* certificate = NULL;
-    treeform_topology* topology = NULL;
+    treeform_topology_counts* topology = NULL;
     treeform_invalid_faces* defects = NULL;
     uint32_t edge[2] = {0, 0}, component[12];
     const double tolerances[2] = {0.5, 0.75};

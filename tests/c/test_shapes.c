@@ -60,7 +60,7 @@ static void test_measured_shapes(void) {
     treeform_thickness_result* walls = NULL;
     treeform_oriented_box* box = NULL;
     OK(treeform_wall_thickness(mesh, TREEFORM_THICKNESS_BY_RAY, NULL, NULL, &walls));
-    CHECK(walls && walls->least == 2 && walls->of_face[11] == 2);
+    CHECK(walls && walls->min == 2 && walls->of_face[11] == 2);
     treeform_free(walls);
     OK(treeform_find_oriented_box(mesh, &box));
     CHECK(box && box->size[0] == 2 && box->size[2] == 2 && box->center[1] == 1);

@@ -119,9 +119,9 @@ static void test_teams(void) {
     const char* inputs[1];
     const char* const output = path_in_work("team.ply");
     treeform_weld_stream_options options;
-    treeform_stream_search_options search;
+    treeform_file_search_options search;
     treeform_weld_stream_result* result = NULL;
-    treeform_stream_search_result* found = NULL;
+    treeform_file_search_result* found = NULL;
     int calls = 0;
     treeform_communicator team = {1, 2, fail, NULL};
     team.data = &calls;
@@ -143,7 +143,7 @@ static void test_teams(void) {
     OK(treeform_weld_stream(inputs, 1, output, &options, &result));
     CHECK(calls == 1 && result->kept == 1000);
     treeform_free(result);
-    treeform_stream_search_options_init(&search, sizeof search);
+    treeform_file_search_options_init(&search, sizeof search);
     search.folder = path_in_work("team_search");
     search.communicator = &team;
     OK(treeform_self_intersections_of_file("data/two_spheres.stl", &search, &found));

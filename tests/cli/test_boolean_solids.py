@@ -126,11 +126,11 @@ class Solids(BooleanTest):
         self.mesh("both.obj", together(cube(), speck))
         entry = self.made("union", "both.obj", name="out.stl")
         self.assertEqual(entry["output"]["lost_parts"],
-                         {"count": 1, "list": [[5, 5, 5]], "reach": 0.0})
+                         {"count": 1, "list": [[5, 5, 5]], "distance": 0.0})
         self.assertIn("1 part of the exact result dropped, the first at (5, 5, 5)",
                       " ".join(w["text"] for w in entry["warnings"]))
         entry = self.made("union", "both.obj")
-        self.assertEqual(entry["output"]["lost_parts"], {"count": 0, "list": [], "reach": 0.0})
+        self.assertEqual(entry["output"]["lost_parts"], {"count": 0, "list": [], "distance": 0.0})
 
     def test_what_is_too_large_to_be_cut_is_bad_input(self):
         self.mesh("huge.obj", ([tuple(1e302 * x for x in p) for p in cube()[0]], cube()[1]))
@@ -256,7 +256,7 @@ class Solids(BooleanTest):
         self.assertLessEqual(sources - {"4294967295"}, set(map(str, range(12))))
         write(self.path("sheet.obj"), grid(2))
         entry = self.entry("union", "sheet.obj", "b.obj", "--repair", "-n", status=1)
-        self.assertEqual(entry["error"]["code"], "not-mended")
+        self.assertEqual(entry["error"]["code"], "not-repaired")
         for options in (["--check", "--repair"], ["union", "--repair", "--accept-open", "-n"]):
             self.run_tool(*options, "b.obj", status=2)
 

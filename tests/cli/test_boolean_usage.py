@@ -20,7 +20,7 @@ OUTPUT = {"file": (str, NULL), "format": (str, NULL), "precision_out": str, "ver
           "cut_vertices": int, "faces": int, "components": int, "nonmanifold_edges": int,
           "volume": (*NUMBER, NULL), "closed": bool, "oriented": (bool, NULL),
           "self_intersections": int, "meeting": list, "exact_faces": int, "lost_parts": dict,
-          "certified": bool, "max_move": NUMBER, "step": NUMBER, "slivers": int,
+          "certified": bool, "max_move": NUMBER, "step": NUMBER, "rounding_repairs": int,
           "rounding_rounds": int}
 
 

@@ -94,14 +94,14 @@ class Cut(ToolTest):
                                 status=0)["files"][0]
             self.assertTrue(entry["pieces"][0]["certified"])
             self.assertTrue(least < entry["pieces"][0]["volume"] < greatest, msg=words)
-            self.assertLess(entry["distances"]["least"], abs(float(words[2])) + 1e-9)
+            self.assertLess(entry["distances"]["min"], abs(float(words[2])) + 1e-9)
             done = subprocess.run([MEND, "--check", "out.stl"], cwd=self.folder,
                                   capture_output=True)
             self.assertEqual(done.returncode, 0, msg=done.stdout)
         entry = self.report("simplify", "--distance", "0.01", part, "-f", "-o", "out.stl",
                             status=0)["files"][0]
         self.assertEqual(entry["pieces"][0]["faces"], 12)
-        self.assertLessEqual(entry["distances"]["greatest"], 0.01)
+        self.assertLessEqual(entry["distances"]["max"], 0.01)
         run = self.run_tool("hollow", "--wall", "0.2", "--drain", "0,2,0,0.5", part, "-f", "-o",
                             "out.stl", status=0)
         self.assertRegex(run.text, r" 0\.19\d* to 0\.2\d* away\n$")
@@ -178,7 +178,7 @@ class Cut(ToolTest):
         entry = self.report("isolines", part, "--to", "to.obj", "--levels",
                             "1", "-o", "a.dxf", status=0)["files"][0]
         self.assertTrue(entry["isolines"]["signed"])
-        self.assertAlmostEqual(entry["isolines"]["greatest"], 2 ** 0.5)
+        self.assertAlmostEqual(entry["isolines"]["max"], 2 ** 0.5)
         lines = [line + (f" {i % 2} 0.5 0" if line.startswith("v ") else "")
                  for i, line in enumerate(self.read("part.obj").splitlines())]
         self.put("colors.obj", "\n".join(lines) + "\n")

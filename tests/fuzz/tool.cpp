@@ -11,7 +11,7 @@
 #include "tool.hpp"
 
 #include "bytes.hpp"
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/point_location.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
@@ -234,7 +234,7 @@ class tool_test {
     }
 
     void check_parts(const tf::mesh_file& written) const {
-        const tf::solid_defects found = tf::find_solid_defects(tf::carry_source{&written, {}});
+        const tf::solid_defects found = tf::find_solid_defects(tf::attribute_source{&written, {}});
         require(found.degenerate == 0, "wrote a degenerate face");
         require(found.meeting_pairs == 0, "wrote faces that meet");
         require(found.boundary_edges == 0, "wrote an open edge");

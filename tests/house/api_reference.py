@@ -27,7 +27,7 @@ GROUPS = {
     "files": ("How do I read and write files?", "mesh",
               "read write mesh_file point_stream"),
     "meshes": ("What is a mesh, and what does it carry?", "mesh",
-               "mesh as_mesh properties attributes carry"),
+               "mesh as_mesh properties attributes attribute_sources"),
     "meeting": ("Which faces meet?", "mesh",
                 "self_intersections intersections predicates"),
     "solids": ("How do I make, mend and combine solids?", "mesh",

@@ -128,10 +128,10 @@ TEST_CASE("clash: of all pairs of a kitchen's parts, those meet that do by CGAL"
     std::vector<tf::prepared_mesh> parts;
     std::vector<std::unique_ptr<cgal_part>> theirs;
     for (const tf::prepared_mesh& one : set.shapes) {
-        const tf::mesh_view view = one.view();
+        const tf::mesh_view view = one.indexed_view();
         parts.emplace_back(without_degenerate(
             {{view.points.begin(), view.points.end()}, {view.faces.begin(), view.faces.end()}}));
-        theirs.push_back(std::make_unique<cgal_part>(parts.back().view()));
+        theirs.push_back(std::make_unique<cgal_part>(parts.back().indexed_view()));
     }
     tf::clash_options options;
     options.volumes = options.depths = false;
@@ -180,8 +180,8 @@ TEST_CASE("check_poses: of a Franka arm in 100 poses, those links meet that do b
         CAPTURE(p);
         std::vector<std::unique_ptr<cgal_part>> theirs;
         for (std::size_t i = 0; i < parts.size(); ++i) {
-            tf::mesh there{{parts[i].view().points.begin(), parts[i].view().points.end()},
-                           {parts[i].view().faces.begin(), parts[i].view().faces.end()}};
+            const auto [points, faces] = parts[i].indexed_view();
+            tf::mesh there{{points.begin(), points.end()}, {faces.begin(), faces.end()}};
             for (tf::point3& q : there.points) q = poses[p * parts.size() + i](q);
             theirs.push_back(std::make_unique<cgal_part>(there));
         }

@@ -272,7 +272,7 @@ TEST_CASE("lib3mf writes: base materials are materials and colors") {
     REQUIRE(file.attributes.parts.size() == 2);
     CHECK(file.attributes.parts[0].material == "red PLA");
     CHECK(file.attributes.parts[1] ==
-          tf::part{.object = "box", .material = "blue", .first_face = 6});
+          tf::named_faces{.object = "box", .material = "blue", .first_face = 6});
     const std::vector<int> half{255, 255, 255, 255, 255, 255, 0, 0, 0, 0, 0, 0};
     CHECK(test::whole_values(file, "face", "red") == half);
     CHECK(test::whole_values(file, "face", "green") == std::vector<int>(12, 0));

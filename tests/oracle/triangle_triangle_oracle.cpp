@@ -147,9 +147,9 @@ std::string describe(const triangle_pair& pair) {
 /// Whether the answer for (b, a) is the mirror image of the one for (a, b). An area's corners come
 /// in another order then, so the ends are compared as a set.
 bool mirrors(const triangle_contact& swapped, const triangle_contact& found) {
-    const auto has = [&](tf::contact c) {
+    const auto has = [&](tf::feature_pair c) {
         return std::find(found.ends.begin(), found.ends.begin() + found.count,
-                         tf::contact{c.on_b, c.on_a}) != found.ends.begin() + found.count;
+                         tf::feature_pair{c.on_b, c.on_a}) != found.ends.begin() + found.count;
     };
     return swapped.coplanar == found.coplanar && swapped.crossing == found.crossing &&
            swapped.count == found.count &&

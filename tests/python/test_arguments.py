@@ -28,7 +28,7 @@ TAKES = {
     "clip": {"sheet": CUBE}, "contains": AT, "convex_hull": {"points": POINTS},
     "components": ONE, "concatenate": {"meshes": [CUBE]}, "cut": {**ONE, "at": [0.5, 0.5, 0.5]},
     "cut_to_fit": {"mesh": CUBE, "size": [1, 1, 0.5]}, "mass_properties": ONE,
-    "split_parts": ONE, "submesh": {"mesh": CUBE, "faces": [0]},
+    "file_parts": ONE, "submesh": {"mesh": CUBE, "faces": [0]},
     "transformed": {"mesh": CUBE, "matrix": np.eye(4)}, "count_inside_out": ONE,
     "count_nearly_equal": {"points": POINTS, "distance": 0.1}, "count_topology": ONE,
     "deviation": TWO, "distance": TWO, "drop": PLACED, "face_components": ONE,
@@ -79,7 +79,7 @@ KINDS = {"mesh": "mesh", "moving": "mesh", "fixed": "mesh", "a": "mesh",
          "directions": "points", "placed": "points", "min": "vector", "max": "vector",
          "direction": "vector", "at": "vector", "normal": "vector", "axis": "vector",
          "origin": "vector", "motion": "vector",
-         "move_a": "matrix", "matrix": "matrix", "meshes": "several", "move_b": "matrix",
+         "transform_a": "matrix", "matrix": "matrix", "meshes": "several", "transform_b": "matrix",
          "start": "matrix", "parts": "several",
          "ignored": "several", "kinds": "several", "steps": "several", "ignored_seams": "several",
          "same": "several", "communicator": "several", "found": "found", "of_moving": "feature",
@@ -148,7 +148,7 @@ def test_what_is_confused_is_said_with_the_way_out():
         with pytest.raises(ValueError, match=text):
             call()
     with pytest.raises(ValueError, match="the map is not finite$"):
-        tf.mesh_intersections(CUBE, CUBE, move_a=np.diag([np.inf, 1, 1, 1])[:3])
+        tf.mesh_intersections(CUBE, CUBE, transform_a=np.diag([np.inf, 1, 1, 1])[:3])
 
 
 def test_files_that_cannot_be():

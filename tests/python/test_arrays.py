@@ -74,8 +74,8 @@ MOVED = (CUBE.vertices + 0.5, CUBE.faces)
     lambda: tf.faces_in_box(CUBE, [0] * 3, [1] * 3), lambda: tf.closest_pair(CUBE, MOVED),
     lambda: tf.penetration_depth(CUBE, MOVED), lambda: tf.time_of_impact(CUBE, MOVED, [1, 0, 0]),
     lambda: tf.check_poses([CUBE, MOVED], np.eye(4)[None]), lambda: CUBE.bounds,
-    lambda: tf.intersects(CUBE, CUBE, move_b=np.eye(4)[None]),
-    lambda: tf.distance(CUBE, CUBE, move_b=np.eye(4)[None]),
+    lambda: tf.intersects(CUBE, CUBE, transform_b=np.eye(4)[None]),
+    lambda: tf.distance(CUBE, CUBE, transform_b=np.eye(4)[None]),
     lambda: tf.PointTree(POINTS).query(POINTS, 2), lambda: tf.PointTree(POINTS).query_pairs(
         2, output_type="ndarray"), lambda: tf.BoxTree(POINTS, POINTS + 1).pairs()])
 def test_arrays_of_results_can_be_written_to(result):
@@ -295,5 +295,5 @@ def test_points_may_come_in_anything_that_lists_them():
 
 def test_a_matrix_that_is_none_is_refused():
     for wrong in (np.eye(3), np.full((4, 4), 1.0), np.eye(4)[:2]):
-        with pytest.raises(ValueError, match="move_b"):
-            tf.intersects(CUBE, SHEET, move_b=wrong)
+        with pytest.raises(ValueError, match="transform_b"):
+            tf.intersects(CUBE, SHEET, transform_b=wrong)

@@ -45,16 +45,17 @@ def test_many_positions_are_as_one_by_one():
     offsets = np.random.default_rng(1).random((600, 3)) * 4 - 2
     moves = matrices(offsets)
     ball = sphere(2)
-    hit, far = tf.intersects(ball, ball, move_b=moves), tf.distance(ball, ball, move_b=moves)
+    hit = tf.intersects(ball, ball, transform_b=moves)
+    far = tf.distance(ball, ball, transform_b=moves)
     assert hit.shape == far.shape == (600,) and hit.dtype == bool
     assert np.array_equal(hit, far == 0)
     for i in range(0, 600, 60):
-        assert tf.intersects(ball, ball, move_b=moves[i]) == hit[i]
-        assert tf.distance(ball, ball, move_b=moves[i]) == far[i]
+        assert tf.intersects(ball, ball, transform_b=moves[i]) == hit[i]
+        assert tf.distance(ball, ball, transform_b=moves[i]) == far[i]
         other = tf.Mesh(ball.vertices + offsets[i], ball.faces)
         assert tf.intersects(ball, other) == hit[i]
     with pytest.raises(ValueError, match="3 positions of a, 2 of b"):
-        tf.intersects(ball, ball, move_a=moves[:3], move_b=moves[:2])
+        tf.intersects(ball, ball, transform_a=moves[:3], transform_b=moves[:2])
 
 
 def test_parts_of_an_assembly():

@@ -104,7 +104,7 @@ def test_names_of_parts_and_polygons_travel(tmp_path):
     (tmp_path / "m.obj").write_text("o first\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
     mesh = tf.read(tmp_path / "m.obj")
     assert len(mesh.faces) == 2
-    assert mesh.attributes.stored_face.tolist() == [0, 0]
+    assert mesh.attributes.face_of_triangle.tolist() == [0, 0]
     assert mesh.attributes.parts[0][0] == "first"
     tf.write(tmp_path / "again.obj", mesh)
     text = (tmp_path / "again.obj").read_text()
@@ -236,9 +236,9 @@ def test_several_meshes_are_parts(tmp_path):
         again = tf.read(path)
         assert [(p[0], p[3]) for p in again.attributes.parts] == [("base", 0), ("lid", 12)]
         assert again.volume == 2 and len(again.faces) == 24
-        parts = tf.split_parts(again)
+        parts = tf.file_parts(again)
         assert list(parts) == ["base", "lid"] and parts["lid"].bounds[0].tolist() == [0, 0, 2]
-    assert [len(one.faces) for one in tf.split_parts((CUBE.vertices, CUBE.faces)).values()] == [12]
+    assert [len(one.faces) for one in tf.file_parts((CUBE.vertices, CUBE.faces)).values()] == [12]
     assert "not written to PLY" in tf.write(tmp_path / "m.ply",
                                             (m for m in (CUBE, lid))).warnings[0]
     assert len(tf.read(tmp_path / "m.ply").faces) == 24

@@ -30,7 +30,7 @@ def test_pairs_are_those_of_the_tool(tmp_path):
             continue
         mesh = tf.read(model(row["file"]))
         report, pairs, kinds = pairs_of_tool(model(row["file"]), tmp_path)
-        if mesh.attributes.stored_face is not None or report["files"][0].get("joined"):
+        if mesh.attributes.face_of_triangle is not None or report["files"][0].get("joined"):
             continue
         found = tf.self_intersections(mesh)
         assert np.array_equal(found.pairs, pairs), row["file"]
@@ -119,10 +119,10 @@ def test_a_file_in_tiles_that_is_of_another_format_is_refused(tmp_path):
 def test_two_meshes_that_are_moved():
     away = np.eye(4)
     away[0, 3] = 3
-    assert len(tf.mesh_intersections(CUBE, CUBE, move_b=away)) == 0
+    assert len(tf.mesh_intersections(CUBE, CUBE, transform_b=away)) == 0
     half = np.eye(4)
     half[:3, 3] = 0.5
-    moved_b = tf.mesh_intersections(CUBE, CUBE, move_b=half)
+    moved_b = tf.mesh_intersections(CUBE, CUBE, transform_b=half)
     assert np.array_equal(moved_b.pairs,
                           tf.mesh_intersections(CUBE, moved(CUBE, 0.5, 0.5, 0.5)).pairs)
     assert tf.mesh_intersections(CUBE, box([1, 0, 0], [2, 1, 1])).counts["crossing"] == 0

@@ -170,7 +170,7 @@ def test_queries_of_two_meshes_take_clouds_too():
         assert not tf.intersects(cloud, CUBE)
         lower = np.eye(4)
         lower[2, 3] = -1
-        assert tf.intersects(CUBE, cloud, move_b=[np.eye(4), lower]).tolist() == [False, True]
+        assert tf.intersects(CUBE, cloud, transform_b=[np.eye(4), lower]).tolist() == [False, True]
         near = tf.closest_pair(CUBE, cloud)
         assert near.face_b == 1 and near.on_a.tolist() == [0.5, 0.5, 1]
         assert tf.closest_point(cloud, [[0.5, 0.5, 0]]).distance.tolist() == [2]

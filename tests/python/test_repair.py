@@ -193,4 +193,4 @@ def test_touching_pairs_and_equal_corners_count_unless_told():
     assert tf.self_intersections((soup, faces), vertices="by_index").counts["touching"] == 1
     assert len(tf.self_intersections((soup, faces), vertices="by_index", kinds=["crossing"])) == 0
     text = " ".join(tf.self_intersections.__doc__.split())
-    assert "pairs that only touch and degenerate ones are included" in text
+    assert "degenerate pairs are included" in text

@@ -245,7 +245,8 @@ def test_what_is_wrong_is_named_by_its_number():
                  lambda: tf.raycast_any(CUBE, points, none), lambda: tree.query(wrong),
                  lambda: tree.query_ball_point(wrong, 0.01), lambda: boxes.query(wrong, wrong),
                  lambda: boxes.nearest(wrong), lambda: tf.PointTree(wrong),
-                 lambda: tf.intersects(CUBE, CUBE, move_a=moves), lambda: tf.BoxTree(wrong, wrong),
+                 lambda: tf.intersects(CUBE, CUBE, transform_a=moves),
+                 lambda: tf.BoxTree(wrong, wrong),
                  lambda: tf.deviation(wrong, CUBE)):
         with pytest.raises(ValueError, match=r"\b15000\b"):
             call()

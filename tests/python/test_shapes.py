@@ -65,7 +65,7 @@ def test_borders_of_groups_and_values_stay():
 
 def test_walls_and_boxes_are_measured():
     assert tf.wall_thickness(CUBE).of_face.tolist() == [1.0] * 12
-    assert tf.wall_thickness(CUBE, by="sphere").least <= 1.0
+    assert tf.wall_thickness(CUBE, by="sphere").min <= 1.0
     box = tf.oriented_box([[0, 0, 0], [3, 4, 0], [1.5, 2, 0]])
     assert box.size == pytest.approx([5, 0, 0]) and box.center == pytest.approx([1.5, 2, 0])
     assert tf.oriented_box(np.zeros((0, 3))) is None

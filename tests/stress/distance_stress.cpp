@@ -84,8 +84,8 @@ TEST_CASE("no pose has another distance than all pairs of faces give") {
         const double most = 1e-14;  // 16 u times the largest distance of corners
         const auto by_trees =
             tf::detail::nearness::closest_pair(a, tree_a, b, tf::transformed<3>(tree_b, pose));
-        const auto by_models = tf::closest_pair(model_a, model_b, {.move_b = pose});
-        const auto other_way = tf::closest_pair(model_b, model_a, {.move_a = pose});
+        const auto by_models = tf::closest_pair(model_a, model_b, {.transform_b = pose});
+        const auto other_way = tf::closest_pair(model_b, model_a, {.transform_a = pose});
         const auto measured = tf::measure(a, moved);
         for (const double found : {by_trees->distance, by_models->distance, other_way->distance,
                                    measured->surface_distance}) {

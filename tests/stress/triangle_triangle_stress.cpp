@@ -24,15 +24,15 @@
 
 namespace {
 
-using tf::feature;
 using tf::intersect;
 using tf::point3;
 using tf::triangle3;
 using tf::triangle_contact;
+using tf::triangle_feature;
 using tf::test::stress_family;
 using tf::test::triangle_pair;
 
-using names = std::set<std::pair<feature, feature>>;
+using names = std::set<std::pair<triangle_feature, triangle_feature>>;
 using order = std::array<std::size_t, 3>;
 constexpr std::array<order, 6> orders{
     {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
@@ -42,13 +42,13 @@ triangle3 reordered(const triangle3& t, const order& corners) {
 }
 
 /// What a feature of the reordered triangle is called on the original.
-feature original_name(feature f, const order& corners) {
-    if (f == feature::interior) return f;
+triangle_feature original_name(triangle_feature f, const order& corners) {
+    if (f == triangle_feature::interior) return f;
     const std::size_t i = static_cast<std::size_t>(f) % 3;
     const std::size_t from = corners[i];
-    if (f <= feature::v2) return static_cast<feature>(from);
+    if (f <= triangle_feature::v2) return static_cast<triangle_feature>(from);
     const std::size_t to = corners[(i + 1) % 3];
-    return static_cast<feature>(3 + ((from + 1) % 3 == to ? from : to));
+    return static_cast<triangle_feature>(3 + ((from + 1) % 3 == to ? from : to));
 }
 
 names ends_of(const triangle_contact& found, const order& order_a = orders[0],

@@ -22,8 +22,8 @@ namespace test {
 /// What two triangles have in common, as far as the kind of a pair depends on it.
 struct common_set {
     bool crossing;
-    bool degenerate;                  ///< one of the two is a segment or a point
-    std::vector<tf::contact> ends{};  ///< of a point, a segment or an area
+    bool degenerate;                       ///< one of the two is a segment or a point
+    std::vector<tf::feature_pair> ends{};  ///< of a point, a segment or an area
 };
 
 /// By the library's own triangle-triangle intersection: any finite coordinates.
@@ -56,7 +56,7 @@ inline bool reaches_beyond(const common_set& common, const tf::triangle3& a,
     if (shared.empty() || shared.size() == 3) return true;
     if (shared.size() == 1) return common.ends.size() > 1;
     if (common.ends.size() > 2) return true;
-    return std::any_of(common.ends.begin(), common.ends.end(), [&](const tf::contact& end) {
+    return std::any_of(common.ends.begin(), common.ends.end(), [&](const tf::feature_pair& end) {
         const auto corner = static_cast<std::size_t>(end.on_a);
         return corner > 2 || (a[corner] != shared[0] && a[corner] != shared[1]);
     });

@@ -47,8 +47,8 @@ inline void reduce(homogeneous<std::int64_t>& p) {
 struct reference_contact {
     bool coplanar = false;
     bool crossing = false;
-    bool degenerate = false;    ///< at least one of the two is a segment or a point
-    std::vector<contact> ends;  ///< an area's in the order `a` runs
+    bool degenerate = false;         ///< at least one of the two is a segment or a point
+    std::vector<feature_pair> ends;  ///< an area's in the order `a` runs
 };
 
 template <class Integer>
@@ -183,9 +183,9 @@ class reference_intersection {
     }
 
     /// The point is known to lie in `t`.
-    static feature name(const point& p, const triangle& t) {
+    static triangle_feature name(const point& p, const triangle& t) {
         for (std::size_t i = 0; i < 3; ++i)
-            if (same(p, {t[i], 1})) return static_cast<feature>(i);
+            if (same(p, {t[i], 1})) return static_cast<triangle_feature>(i);
         for (std::size_t i = 0; i < 3; ++i) {
             const vec edge = minus(t[(i + 1) % 3], t[i]);
             vec offset;
@@ -193,9 +193,9 @@ class reference_intersection {
                 offset[axis] = p.x[axis] - t[i][axis] * p.w;
             const Integer along = dot(offset, edge);
             if (is_zero(cross(offset, edge)) && along > 0 && along < dot(edge, edge) * p.w)
-                return static_cast<feature>(3 + i);
+                return static_cast<triangle_feature>(3 + i);
         }
-        return feature::interior;
+        return triangle_feature::interior;
     }
 
     static int side(const triangle& plane, const vec& p) {

@@ -49,7 +49,7 @@ class unfiltered_contacts {
         return found.coplanar == coplanar_ && found.crossing == crossing_ &&
                found.count == count_ &&
                std::all_of(found.ends.begin(), found.ends.begin() + found.count,
-                           [&](const contact& c) { return has(c); });
+                           [&](const feature_pair& c) { return has(c); });
     }
 
   private:
@@ -62,7 +62,7 @@ class unfiltered_contacts {
                 if ((up = integer_orient2d(axis, t[0], t[1], t[2])) != 0) return;
         }
         /// Where a point of its plane is: in which part of it, if any.
-        [[nodiscard]] std::optional<feature> name_of(const point3& p) const {
+        [[nodiscard]] std::optional<triangle_feature> name_of(const point3& p) const {
             return part_of({turn(0, p), turn(1, p), turn(2, p)});
         }
         /// +1 when p is on the inner side of an edge, seen in its plane.
@@ -75,16 +75,18 @@ class unfiltered_contacts {
     };
 
     /// The part of a triangle on which a point lies that has these sides of its edges.
-    static std::optional<feature> part_of(const signs& sides) {
+    static std::optional<triangle_feature> part_of(const signs& sides) {
         if (std::ranges::count(sides, -1) > 0) return {};
         switch (std::ranges::count(sides, 0)) {
             case 0:
-                return feature::interior;
+                return triangle_feature::interior;
             case 1:
-                return static_cast<feature>(3 + (std::ranges::find(sides, 0) - sides.begin()));
+                return static_cast<triangle_feature>(3 +
+                                                     (std::ranges::find(sides, 0) - sides.begin()));
             default:  // edges i - 1 and i meet in corner i
                 for (std::size_t i = 0; i < 3; ++i)
-                    if (sides[i] == 0 && sides[(i + 2) % 3] == 0) return static_cast<feature>(i);
+                    if (sides[i] == 0 && sides[(i + 2) % 3] == 0)
+                        return static_cast<triangle_feature>(i);
                 return {};
         }
     }
@@ -95,16 +97,18 @@ class unfiltered_contacts {
         coplanar_ = of_a == signs{} && of_b == signs{};
         for (std::size_t i = 0; i < 3; ++i) {
             if (of_a[i] == 0)
-                if (const auto on_b = b.name_of(a.t[i])) add({static_cast<feature>(i), *on_b});
+                if (const auto on_b = b.name_of(a.t[i]))
+                    add({static_cast<triangle_feature>(i), *on_b});
             if (of_b[i] == 0)
-                if (const auto on_a = a.name_of(b.t[i])) add({*on_a, static_cast<feature>(i)});
+                if (const auto on_a = a.name_of(b.t[i]))
+                    add({*on_a, static_cast<triangle_feature>(i)});
         }
         for (std::size_t i = 0; i < 3; ++i) {
-            const auto edge = static_cast<feature>(3 + i);
+            const auto edge = static_cast<triangle_feature>(3 + i);
             if (const auto on_b = pierced(a, of_a, i, b)) add({edge, *on_b});
             if (const auto on_a = pierced(b, of_b, i, a)) add({*on_a, edge});
             for (std::size_t k = 0; coplanar_ && k < 3; ++k)
-                if (cross(a, i, b, k)) add({edge, static_cast<feature>(3 + k)});
+                if (cross(a, i, b, k)) add({edge, static_cast<triangle_feature>(3 + k)});
         }
         crossing_ = count_ == 2 && !coplanar_ && straddles(of_a) && straddles(of_b);
     }
@@ -120,8 +124,8 @@ class unfiltered_contacts {
     }
 
     /// The part of `b` that edge i of `a` passes through; none where it ends there.
-    static std::optional<feature> pierced(const view& a, const signs& of_a, std::size_t i,
-                                          const view& b) {
+    static std::optional<triangle_feature> pierced(const view& a, const signs& of_a, std::size_t i,
+                                                   const view& b) {
         const std::size_t next = (i + 1) % 3;
         if (of_a[i] * of_a[next] >= 0) return {};
         signs around;
@@ -129,7 +133,7 @@ class unfiltered_contacts {
             around[k] = of_a[next] * integer_orient3d(a.t[i], a.t[next], b.t[k], b.t[(k + 1) % 3]);
         const auto part = part_of(around);
         // A corner of b on the edge has been met as a corner.
-        return part && *part <= feature::v2 ? std::nullopt : part;
+        return part && *part <= triangle_feature::v2 ? std::nullopt : part;
     }
 
     /// Whether two edges in one plane cross in their interiors.
@@ -141,15 +145,15 @@ class unfiltered_contacts {
         return parted(a, i, b, k) && parted(b, k, a, i);
     }
 
-    void add(const contact& c) {
+    void add(const feature_pair& c) {
         if (!has(c)) ends_[count_++] = c;
     }
-    [[nodiscard]] bool has(const contact& c) const {
+    [[nodiscard]] bool has(const feature_pair& c) const {
         const auto last = ends_.begin() + static_cast<std::ptrdiff_t>(count_);
         return std::find(ends_.begin(), last, c) != last;
     }
 
-    std::array<contact, 16> ends_{};
+    std::array<feature_pair, 16> ends_{};
     std::size_t count_ = 0;
     bool coplanar_ = false;
     bool crossing_ = false;

@@ -7,7 +7,7 @@
 namespace test {
 
 [[nodiscard]] inline bool was_mended(const treeform::boolean_statistics& did) {
-    return did.slivers > 0 || did.rounding_rounds > 0;
+    return did.rounding_repairs > 0 || did.rounding_rounds > 0;
 }
 
 }  // namespace test

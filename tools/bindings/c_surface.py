@@ -15,7 +15,7 @@ ENUMS = {
     "pair_kind": ("treeform_pair_kind", ""),
     "location": ("treeform_location", ""),
     "mesh_relation": ("treeform_mesh_relation", "RELATION_"),
-    "feature": ("treeform_triangle_feature", "AT_"),
+    "triangle_feature": ("treeform_triangle_feature", "AT_"),
     "feature_kind": ("treeform_feature_kind", ""),
     "placement_outcome": ("treeform_placement_outcome", "OUTCOME_"),
     "urdf_joint_kind": ("int32_t", ""),
@@ -36,36 +36,36 @@ FILE = Member("const treeform_file* file", "for a file: the result with its attr
 
 BOUND = [
     # base.h
-    Bound("operand_element", "element", "same"),
+    Bound("operand_element", kind="same"),
     Bound("search_effort", kind="same"),
     Bound("certificate", names={"status": "status"},
           counts={"meeting": "meeting_listed", "meeting_at": "", "open_edges": "open_listed",
                   "open_faces": ""},
           custom={"+": [MESSAGE]}),
     # mesh.h
-    Bound("rounding_effects", "rounding"),
+    Bound("rounding_effects"),
     # properties.h
     Bound("mass_properties", kind="part"),
-    Bound("topology_counts", "topology"),
+    Bound("topology_counts"),
     Bound("invalid_faces"),
-    Bound("mesh_feature", "feature", "part"),
+    Bound("mesh_feature", kind="part"),
     Bound("feature_options"),
     Bound("hull_side", kind="same"),
     # intersections.h
     Bound("face_pair", kind="same"),
-    Bound("intersection_result", "pairs", counts={"pairs": "count"},
+    Bound("face_pair_result", counts={"pairs": "count"},
           leave="exact_pairs predicates tree_seconds pair_seconds"),
-    Bound("intersection_options", custom={
+    Bound("face_pair_options", custom={
         "component_of_face": [Member("const uint32_t* component_of_face",
                                      "[F] for `between` and `within`; or null")]}),
-    Bound("intersection_region", "region", "part"),
-    Bound("curve_path", "path", "part", leave="pairs", counts={"points": "count"}),
-    Bound("curve_network", "paths", custom={"points": [
+    Bound("intersection_region", kind="part"),
+    Bound("curve_path", kind="part", leave="pairs", counts={"points": "count"}),
+    Bound("curve_network", custom={"points": [
         Member("const double* points", "[point_count][3]",
                "to.points = positions_of(kept, from.points);"),
         Member("size_t point_count", "", "to.point_count = from.points.size();")]}),
-    Bound("stream_search_options", leave="step_done"),
-    Bound("stream_search_result", leave="bounds header started_anew", custom={
+    Bound("file_search_options", leave="step_done"),
+    Bound("file_search_result", leave="bounds header started_anew", custom={
         "part": [
             Member("treeform_arrays mesh", "only the intersecting faces",
                    "to.mesh = arrays(from.part.mesh);"),
@@ -77,7 +77,7 @@ BOUND = [
                    "to.non_finite = from.part.non_finite;")]}),
     # solids.h
     Bound("boolean_options"),
-    Bound("operand_volumes", "volumes", "part"),
+    Bound("operand_volumes", kind="part"),
     Bound("boolean_result", counts={"vanished_at": "vanished_listed"}),
     Bound("resolve_options"),
     Bound("repair_options"),
@@ -104,9 +104,9 @@ BOUND = [
     Bound("isoline", kind="same"),
     Bound("isolines_result"),
     # nearness.h
-    Bound("mesh_hit", "hit", "same"),
+    Bound("mesh_hit", kind="same"),
     Bound("measure_options"),
-    Bound("mesh_measure", custom={
+    Bound("relation_result", custom={
         f"on_{x}": [
             Member(f"uint32_t nearest_{x}", f"the face of `{x}` that contains `on_{x}`",
                    f"to.nearest_{x} = from.on_{x}.face;"),
@@ -174,7 +174,7 @@ BOUND = [
                    "to.mergeable_known = from.mergeable.has_value();")]}),
     # placement.h
     Bound("placement_options"),
-    Bound("placement_contact", "contact", "part", custom={"fixed": [
+    Bound("placement_contact", kind="part", custom={"fixed": [
         Member("uint32_t fixed", "number of the fixed mesh",
                "to.fixed = static_cast<std::uint32_t>(from.fixed);")]}),
     Bound("placement", leave="max_travel predicates", counts={"contacts": "contact_listed",
@@ -182,7 +182,7 @@ BOUND = [
         "+": [Member(MESSAGE.decl, f"{MESSAGE.doc}; empty if the placement succeeded",
                      MESSAGE.fill)]}),
     Bound("impact", leave="predicates", counts={"contacts": "contact_listed"}),
-    Bound("face_contact", "impact_contact", "same", custom={"at": [
+    Bound("face_contact", kind="same", custom={"at": [
         Member("uint8_t on_a", "corner, edge or interior of the face "
                               "(a `treeform_triangle_feature`)"),
         Member("uint8_t on_b")]}),
@@ -194,7 +194,7 @@ BOUND = [
     Bound("packed_part", kind="part", counts={"points": "point_count"}),
     Bound("packing", counts={"parts": "part_count"}, custom={"+": [MESSAGE]}),
     Bound("align_options"),
-    Bound("align_freedom", "freedom", "same"),
+    Bound("align_freedom", kind="same"),
     Bound("align_result", leave="converged", counts={"points": "point_count"},
           custom={"+": [MESSAGE, Member(
               "size_t undetermined", "number of `freedoms` that the data do not determine",
@@ -212,10 +212,10 @@ BOUND = [
                    "copy(from.nearest ? (*from.nearest)[0] : nowhere, to.on_a);"),
             Member("double on_b[3]", "the same on b",
                    "copy(from.nearest ? (*from.nearest)[1] : nowhere, to.on_b);")]}),
-    Bound("clash_result", "clashes", counts={"pairs": "count"}),
+    Bound("clash_result", counts={"pairs": "count"}),
     Bound("pose_clash", kind="same"),
     # files.h
-    Bound("io_warning", "warning", "part"),
+    Bound("io_warning", kind="part"),
     Bound("column", kind="part", leave="role", custom={
         "list_length": [
             Member("int32_t is_list", "whether each row has a list of values",
@@ -229,8 +229,8 @@ BOUND = [
         "list_begin": [Member("const uint64_t* list_begin",
                               "[rows + 1] first value of each list; else null",
                               "if (from.list_length) to.list_begin = from.list_begin.data();")]}),
-    Bound("element", "rows", "part"),
-    Bound("part", "named_faces", "part"),
+    Bound("element", kind="part"),
+    Bound("named_faces", kind="part"),
     Bound("mesh_file", "file_view", leave="ranges has_w header", custom={
         "texture": [Member("const double* texture", "[texture_count][3] u, v, w",
                            "to.texture = flat(from.attributes.corners.texture);"),
@@ -247,8 +247,8 @@ BOUND = [
                                                                      "content")]}),
     Bound("write_options", leave="keep_names round"),
     Bound("write_result", "written"),
-    Bound("part_options"),
-    Bound("usable_mesh", leave="distinct stored_face", custom={
+    Bound("usable_options"),
+    Bound("usable_mesh", leave="distinct face_of_triangle", custom={
         "+": [Member("const uint32_t* face_in_file",
                      "[F] number of each face in the file, counting polygons",
                      "to.face_in_file = faces_in_file(kept, from).data();")],
@@ -259,14 +259,14 @@ BOUND = [
         "component": [Member("const uint32_t* component",
                              "[F] with `details`: component of each face; else null",
                              "to.component = or_null(from.component);")]}),
-    Bound("urdf_joint", "robot_joint", "part", leave="origin axis mimics mimic_line", custom={
+    Bound("urdf_joint", kind="part", leave="origin axis mimics mimic_multiplier mimic_offset", custom={
         "kind": [Member("int32_t kind", "0 fixed, 1 revolute, 2 continuous, 3 prismatic",
                         "to.kind = static_cast<int32_t>(from.kind);")],
         "limits": [Member("double lower", "least value; NaN without limits",
                           "to.lower = from.limits ? (*from.limits)[0] : not_known;"),
                    Member("double upper", "greatest value",
                           "to.upper = from.limits ? (*from.limits)[1] : not_known;")]}),
-    Bound("urdf_mesh", "robot_mesh", "part", custom={
+    Bound("urdf_mesh", kind="part", custom={
         "file": [Member("const char* file", 'empty for a box, a cylinder or a sphere',
                         "to.file = kept.keep(from.file.string()).c_str();")],
         "shape": [

@@ -15,8 +15,8 @@ from headers import GENERATED, ROOT, Enum
 INCLUDE = ROOT / "tools/c/include/treeform/c"
 MADE = ROOT / "tools/c/made"
 #: Phrases of C++ docstrings, and those of C.
-IN_C = {"operand_element::none": "TREEFORM_NONE", "carry_sources": "treeform_carry",
-        "carry_sources::corner_groups": "treeform_corner_groups",
+IN_C = {"operand_element::none": "TREEFORM_NONE", "attribute_sources": "treeform_transfer_attributes",
+        "attribute_sources::corner_groups": "treeform_corner_groups",
         "shared_search": "treeform_shared_search",
         "shared_weld": "treeform_shared_weld",
         "convex_hull_result::faces": "treeform_hull::faces", "part.mesh": "mesh",

@@ -8,7 +8,7 @@ from python_language import Attribute, Result
 #: Words of C++ in sentences, and those of Python.
 WORDS = {"columns as in `las_header`": "columns are the fields of its records",
          "the dimensions listed at `las_header`": "the fields of their records",
-         "each part (`split_parts`)": "each part",
+         "each part (`file_parts`)": "each part",
          " (table in `libmesh/attributes/known_columns.cpp`)": "",
          "what it can of `file.attributes`": "what it can of `Attributes`",
          "`mesh_file::": "`Attributes.",
@@ -86,6 +86,8 @@ RESULTS = [
                                       "oriented.",
                  "meeting_count": "Number of pairs of faces that meet where they should not.",
                  "open_count": "Number of edges whose signed face count is not zero.",
+                 "size_before": "For status `excessive_loss`: the volume before the operation, or "
+                                "the area if there is no solid.",
                  "size_after": "The same after the operation.",
                  "size_is_volume": "Whether these are volumes, not areas."}),
     # _booleans
@@ -103,12 +105,12 @@ RESULTS = [
                "volumes", "tuple[float, float, float, float] | None",
                "With `volumes`: volumes of the first operand, the second, their union and "
                "their intersection.", "volumes_of(from)")],
-               "vanished_components": [], "vanished_reach": [],
+               "vanished_components": [], "vanished_distance": [],
                "statistics": [Attribute("statistics", "dict[str, Any]",
                                         "Counts of the steps.",
                                         "with(with(counters(from.statistics), "
                                         '"vanished_components", from.vanished_components), '
-                                        '"vanished_reach", from.vanished_reach)')]}),
+                                        '"vanished_distance", from.vanished_distance)')]}),
     # _cuts
     Result("section_loop", "SectionLoop", "_cuts", context="whole",
            docs={"closed": "Whether the loop is a closed polygon.",
@@ -159,11 +161,14 @@ RESULTS = [
            doc="An offset, hollowed, thickened or wrapped solid.",
            inherited="mesh certificate"),
     Result("simplify_result", "SimplifyResult", "_shapes", "MadeMesh", context="attributes",
-           doc="A mesh with fewer faces.", inherited="mesh certificate"),
+           doc="A mesh with fewer faces.", inherited="mesh certificate",
+           docs={"fixed_vertices": "Number of vertices that cannot be removed, since they are at "
+                                   "nonmanifold edges or vertices."}),
     Result("thickness_result", "Thickness", "_shapes"),
     Result("oriented_box", "OrientedBox", "_shapes"),
     Result("isoline", "Isoline", "_shapes"),
-    Result("isolines_result", "Isolines", "_shapes"),
+    Result("isolines_result", "Isolines", "_shapes",
+           docs={"lines": "The lines; `points_of` returns the points of one."}),
     # _repair
     Result("repair_result", "RepairResult", "_repair", "MadeMesh", context="attributes",
            doc="A repaired mesh.", inherited="mesh certificate",
@@ -196,7 +201,7 @@ RESULTS = [
     Result("topology_counts", "Topology", "_properties"),
     Result("mesh_feature", "Feature", "_properties", docs={"kind": "'plane' or 'axis'."}),
     # _intersections
-    Result("intersection_result", "FacePairs", "_intersections",
+    Result("face_pair_result", "FacePairs", "_intersections",
              leave="box_pairs exact_pairs predicates tree_seconds pair_seconds",
              custom={"pairs": [
                  column("pairs", "Ids", "(n, 2) uint32, ascending; for one mesh, the lower face "
@@ -210,7 +215,7 @@ RESULTS = [
     Result("intersection_region", "Region", "_intersections", custom={
         "min": [Attribute("bounds", "Floats", "(2, 3) bounding box of the faces.",
                           "as_python(std::array{from.min, from.max})")], "max": []}),
-    Result("stream_search_result", "FilePairs", "_intersections", "FacePairs",
+    Result("file_search_result", "FilePairs", "_intersections", "FacePairs",
            inherited="pairs kinds counts",
            doc="Pairs of faces of a file that meet, as numbers of faces of `mesh`.",
            leave="triangles searched points bounds header finished_tiles started_anew",
@@ -238,7 +243,7 @@ RESULTS = [
                                           "list_of(from.warnings, &tf::io_warning::text)")]}),
     # _robots
     Result("urdf_joint", "Joint", "_robots", "NamedTuple", context="robot",
-           leave="origin axis mimics mimic_line", doc="A joint of two links.",
+           leave="origin axis mimics mimic_multiplier mimic_offset", doc="A joint of two links.",
            docs={"name": "Name in the file.",
                  "kind": "'fixed', 'revolute', 'continuous' or 'prismatic'.",
                  "limits": "Least and greatest value, in radians or meters; None without limits."},
@@ -265,8 +270,9 @@ RESULTS = [
                              "of the link.", "meshes_of(std::move(parts))"),
                    Attribute("link_of_part", "Ids", "(N,) the link of each part.",
                              "column(parts, &tf::urdf_mesh::link)"),
-                   Attribute("adjacent", "Ids", "(n, 2) parts connected by a joint, the lower "
-                             "number first: they always touch.",
+                   Attribute("adjacent", "Ids", "(n, 2) pairs of parts connected by a joint, "
+                             "directly or through links without a mesh; the lower number first. "
+                             "They usually touch, so pass them as `ignored`.",
                              "column(from.adjacent(parts), std::identity{})")],
                "+": [Attribute("_data", "_core.RobotData", "",
                                "py::cast(robot_data(from, parts))")]}),
@@ -330,7 +336,7 @@ RESULTS = [
                "at", "NDArray[np.uint8]", "(n,) uint8: the corner (0, 1, 2), edge (3, 4, 5) or "
                "interior (6) of the face that was hit.",
                "column(from, [](const auto& one) { return one ? one->at : "
-               "tf::feature::interior; })")]}),
+               "tf::triangle_feature::interior; })")]}),
     # _placement
     Result("placement_contact", "Contacts", "_placement", "NamedTuple", rows="tf::{}",
            doc="Pairs of faces that touch in the final position, or are at the clearance.",
@@ -343,7 +349,7 @@ RESULTS = [
                                        "column(from, "
                    "[](const auto& one) { return static_cast<std::uint32_t>(one.fixed); })")]}),
     Result("search_effort", "SearchEffort", "_placement", "NamedTuple"),
-    Result("mesh_measure", "Measure", "_placement", leave="face_a face_b", custom={
+    Result("relation_result", "Measure", "_placement", leave="face_a face_b", custom={
         f"on_{x}": [
             Attribute(f"on_{x}", "Floats", f"(3,) the nearest point on the surface of `{x}`; a "
                       "common point if they meet.", f"as_python(from.on_{x}.point)"),
@@ -457,7 +463,7 @@ COUNTERS = {"boolean_statistics": "", "repair_statistics": "",
             "weld_statistics": ""}
 
 #: Structs that can be pickled, and the fields that are left out.
-STATES = {"io_warning": "", "column": "", "element": "", "part": "", "corner_values": "",
+STATES = {"io_warning": "", "column": "", "element": "", "named_faces": "", "corner_values": "",
           "attributes": "", "las_record": "", "las_header": "", "value_range": "",
           "mesh_file": "mesh"}
 
@@ -467,8 +473,8 @@ OPTIONS = {
     "boolean_options": "face_groups", "cut_options": "keep_cuts",
     "resolve_options": "removal_rounds", "repair_options": "as_one",
     "offset_options": "drains", "simplify_options": "face_groups corner_groups",
-    "feature_options": "", "intersection_options": "component_of_face between within",
-    "stream_search_options": "box communicator",
+    "feature_options": "", "face_pair_options": "component_of_face between within",
+    "file_search_options": "box communicator",
     "weld_options": "label may_merge", "weld_stream_options": "communicator shared "
                                                                      "las_scale las_offset",
     "placement_options": "max_steps close_in normals face_pairs limit vertices",

@@ -6,11 +6,11 @@ from __future__ import annotations
 
 from python_language import Function
 
-_MOVES = {"move_a": "(4, 4) an affine transform applied to `a` first.",
-          "move_b": "(4, 4) an affine transform applied to `b` first."}
-_POSES = {"move_a": "an affine transform of `a`, (4, 4), or several, (n, 4, 4). With several, the"
-                    " result is an array (n,).",
-          "move_b": "likewise for `b`."}
+_MOVES = {"transform_a": "(4, 4) an affine transform applied to `a` first.",
+          "transform_b": "(4, 4) an affine transform applied to `b` first."}
+_POSES = {"transform_a": "an affine transform of `a`, (4, 4), or several, (n, 4, 4). With several,"
+                         " the result is an array (n,).",
+          "transform_b": "likewise for `b`."}
 _PLANE = {"normal": "(3,) the normal of the plane, of any length.",
           "at": "(3,) a point on the plane."}
 _HEIGHTS = {"heights": "(K,) the distances of K parallel planes from this plane, measured along "
@@ -125,8 +125,9 @@ FUNCTIONS = [
              also="Attributes of the operands are carried over. A face gets the values of the "
                   "operand face that it lies in; a new vertex on a cut gets interpolated values. "
                   "The value is 0 or NaN if an operand does not have the attribute. Coplanar "
-                  "faces are merged only if their values are equal, and if vertices have values, "
-                  "only with `merge_coplanar`.",
+                  "faces are merged only if their values are equal; faces whose corners differ in "
+                  "texture coordinates or normals are never merged, and if vertices have values, "
+                  "faces are merged only with `merge_coplanar`.",
              docs=_VOLUMES | _FILL_RULE | {
                    "expression": "a formula of `operands`, named `a`, `b`, `c`, ..., and of "
                                  "`meshes` by their names: `+` or `|` for union, `*` or `&` for "
@@ -298,19 +299,19 @@ FUNCTIONS = [
     Function("find_solid_defects(mesh: Mesh) -> SolidDefects",
              "tf::find_solid_defects($mesh, report)", cpp="find_solid_defects in repair"),
     # _intersections
-    Function("self_intersections(mesh: Mesh, options: intersection_options) -> FacePairs",
-             "tf::self_intersections($mesh, options)", leave="move_a move_b",
-             also="By default, pairs that only touch and degenerate ones are included, and "
-                  "corners are joined by coordinates; the tool tf-selfintersect leaves out these "
-                  "pairs, and uses the vertex numbers of the file, if it has any. `kinds` and "
-                  "`vertices` choose.",
+    Function("self_intersections(mesh: Mesh, options: face_pair_options) -> FacePairs",
+             "tf::self_intersections($mesh, options)", leave="transform_a transform_b",
+             also="The defaults differ from those of the tool tf-selfintersect. Here, touching and "
+                  "degenerate pairs are included, and corners with equal coordinates are one "
+                  "vertex; the tool leaves out such pairs, and uses the vertex numbers of the "
+                  "file, if it has any. `kinds` and `vertices` change this.",
              docs={"kinds": "the kinds to search for, from `KINDS`; None: all. 'crossing': the "
                             "faces pass through each other and share no vertex; 'pierce': "
                             "likewise, with one shared vertex; 'overlap': coplanar, with a common"
                             " area; 'fold': coplanar, on the same side of a shared edge; "
                             "'duplicate': the same three vertices; 'touching': contact without "
                             "crossing; 'degenerate': a face has no area."}),
-    Function("mesh_intersections(a: Mesh, b: Mesh, options: intersection_options) -> "
+    Function("mesh_intersections(a: Mesh, b: Mesh, options: face_pair_options) -> "
              "FacePairs",
              "tf::mesh_intersections($a, $b, options)", leave="vertices",
              docs=_MOVES | {"kinds": "the kinds to search for, from `KINDS`; None: all."}),
@@ -334,7 +335,7 @@ FUNCTIONS = [
                  "repeats its first point at the end. Segments are found exactly; their points "
                  "are rounded to nearest. A segment common to several pairs appears only once.",
              docs={"found": "pairs of faces of `mesh`; the faces must not be degenerate."}),
-    Function("self_intersections_of_file(path: Path, options: stream_search_options, "
+    Function("self_intersections_of_file(path: Path, options: file_search_options, "
              "communicator: Communicator = None) -> FilePairs",
              body="in_communicator(communicator, lambda all: _core.self_intersections_of_file(\n"
                   "        path_of(path), how, all, progress=progress))",
@@ -343,7 +344,7 @@ FUNCTIONS = [
                              "If a run was interrupted, the same call resumes it.",
                    "communicator": "processes that share the work, as for `weld_stream`. Rank 0 "
                                    "gets the result, all others an empty one."}),
-    Function("SharedSearch(path: Path, options: stream_search_options) -> None",
+    Function("SharedSearch(path: Path, options: file_search_options) -> None",
              steps="SearchInSteps",
              doc=_IN_STEPS.format("self_intersections_of_file", "search_tile", "searched"),
              also="The folder is locked until `close`, the end of a `with` block, or the end of "
@@ -357,7 +358,7 @@ FUNCTIONS = [
     Function("read(path: Path | IO[bytes], format: str = \"\", *, join: bool = True, "
              "options: read_options) -> Mesh", body="read_from(path, format, join, how, progress)",
              also="Each of `Attributes.warnings` is also a warning of Python (`warnings.warn`). "
-                  "Polygons are triangulated (`Attributes.stored_face`). A point cloud has no "
+                  "Polygons are triangulated (`Attributes.face_of_triangle`). A point cloud has no "
                   "faces. DAE and some other formats require a build with assimp. If the file "
                   "does not exist, the FileError is also a FileNotFoundError, and likewise for "
                   "other system errors.",
@@ -373,7 +374,7 @@ FUNCTIONS = [
                               "given by number, from 1.",
                    "drop_non_finite": "drop points with a NaN or infinite coordinate, and their "
                                       "faces."}),
-    Function("split_parts(mesh: Mesh, *, combine_patches: bool = False) -> dict[str, Mesh]",
+    Function("file_parts(mesh: Mesh, *, combine_patches: bool = False) -> dict[str, Mesh]",
              doc="The parts of a mesh that was read from a file, by name: the objects, groups or "
                  "nodes of the file. Each has its own vertices and faces, and their attributes. "
                  "Parts without a name are \"1\", \"2\", ... For the connected parts of any mesh, "
@@ -594,16 +595,17 @@ FUNCTIONS = [
              given="size=extent_of(size)", leave="size",
              docs={"size": "(2,) or (3,) the width, depth and height of a plate."}),
     # _assembly
-    Function("intersects(a: Body, b: Body, *, move_a: Poses = None, move_b: Poses = None) -> Bytes",
+    Function("intersects(a: Body, b: Body, *, transform_a: Poses = None, transform_b: Poses = "
+             "None) -> Bytes",
              cpp="intersects in intersections", also=_BODIES, docs=_POSES, made="Any",
-             value="one_or_all({}.view(np.bool_), move_a, move_b)"),
-    Function("distance(a: Body, b: Body, *, move_a: Poses = None, move_b: Poses = None, "
+             value="one_or_all({}.view(np.bool_), transform_a, transform_b)"),
+    Function("distance(a: Body, b: Body, *, transform_a: Poses = None, transform_b: Poses = None, "
              "radius: float = np.inf) -> Floats", cpp="distance in distance", made="Any",
              also=_BODIES, docs=_POSES | {"radius": "larger distances are returned as infinite."},
-             value="one_or_all({}, move_a, move_b)"),
-    Function("closest_pair(a: Body, b: Body, *, move_a: Matrix = None, move_b: Matrix = None, "
-             "radius: float = np.inf) -> Optional[ClosestPair]",
-             "tf::closest_pair(a.prepared(), b.prepared(), {$move_a, $move_b, radius})",
+             value="one_or_all({}, transform_a, transform_b)"),
+    Function("closest_pair(a: Body, b: Body, *, transform_a: Matrix = None, "
+             "transform_b: Matrix = None, radius: float = np.inf) -> Optional[ClosestPair]",
+             "tf::closest_pair(a.prepared(), b.prepared(), {$transform_a, $transform_b, radius})",
              also=_BODIES,
              docs=_MOVES | {"radius": "return None if the meshes are farther apart than this."}),
     Function("clash_parts(parts: Parts, options: clash_options, ignored: Pairs) -> ClashResult",
@@ -623,6 +625,13 @@ FUNCTIONS = [
              "ignored: PartPairs = ()) -> PoseClashes",
              body="clashes_in_poses(parts, poses, how, ignored, progress)",
              leave="volumes depths limit",
+             doc="The clashes in each of many poses. All pairs are tested, also of parts that do "
+                 "not move: if such a pair meets, every pose is in collision, unless `ignored` has "
+                 "it.",
+             also="Exact, like `clash` and `measure`, for the moved corners, rounded to double. "
+                  "Two parts are only copied and indexed again for a pose if they touch, if a "
+                  "corner of one is so near the surface of the other that rounding might change "
+                  "its side, or if a transform is not a rigid motion.",
              docs={"poses": "(P, N, 4, 4) for each of P poses, an affine transform for each of "
                             "the N parts; or (P, 4, 4), to move only the first part.",
                    "ignored": "pairs of part numbers to ignore."}),

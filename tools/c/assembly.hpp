@@ -25,8 +25,9 @@ inline answer_of<treeform_bodies> bodies_of(const treeform_file* const* files,
     auto& bodies = made->keep(std::vector<treeform_body>(set.shapes.size()));
     made->value.meshes = handles(*made, set.shapes);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-        auto& faces = made->keep(std::vector<std::uint32_t>(set.shapes[i].view().faces.size()));
-        for (std::uint32_t f = 0; f < faces.size(); ++f) faces[f] = set.stored_face(i, f);
+        const std::size_t face_count = set.shapes[i].indexed_view().faces.size();
+        auto& faces = made->keep(std::vector<std::uint32_t>(face_count));
+        for (std::uint32_t f = 0; f < faces.size(); ++f) faces[f] = set.face_in_file(i, f);
         bodies[i] = {made->value.meshes[i],
                      static_cast<std::uint32_t>(set.file_number(i)),
                      set.part_name(i).c_str(),
@@ -48,7 +49,7 @@ inline tf::mesh_file move_in_file(treeform_bodies* bodies, std::size_t body, con
     auto& set = kept_in<tf::body_set>(need(bodies, "bodies"), "bodies");
     if (body >= set.shapes.size())
         throw std::invalid_argument("body " + std::to_string(body) + " does not exist");
-    const std::size_t wanted = set.shapes[body].view().points.size();
+    const std::size_t wanted = set.shapes[body].indexed_view().points.size();
     if (count != wanted)
         throw std::invalid_argument(std::to_string(count) + " points for a body of " +
                                     std::to_string(wanted));

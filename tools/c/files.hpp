@@ -3,7 +3,7 @@
 /// Files, scenes and robots in C.
 
 #include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/write.hpp>
 
@@ -74,7 +74,7 @@ inline answer_of<treeform_file_view> file_content(const tf::mesh_file& file) {
 inline std::size_t rows_in(const tf::mesh_file& file, std::string_view element) {
     if (element == "vertex") return file.mesh.points.size();
     if (element == "face")
-        return file.stored_face.empty() ? file.mesh.faces.size() : file.stored_faces;
+        return file.face_of_triangle.empty() ? file.mesh.faces.size() : file.stored_faces;
     const tf::element* const found = file.attributes.find(element);
     return found ? found->rows : static_cast<std::size_t>(-1);
 }
@@ -87,12 +87,12 @@ inline void file_set_points(tf::mesh_file& file, std::span<const tf::point3> poi
         throw std::invalid_argument(std::to_string(points.size()) + " points for a file of " +
                                     std::to_string(file.mesh.points.size()));
     file.mesh.points.assign(points.begin(), points.end());
-    if (!tf::fits_single(file.mesh.points)) file.stored_as = tf::precision::float64;
+    if (!tf::fits_float32(file.mesh.points)) file.stored_as = tf::precision::float64;
 }
 
 /// Sets a column of `element` ("vertex", "face") with one value for each row: `values` [rows] of
-/// `type`. For vertices and faces, `rows` must be their number in the file. Names of columns of
-/// coordinates or corners are an error.
+/// `type`. For vertices and faces, `rows` must be their number in the file. The columns of
+/// coordinates and corners cannot be set: their names are an error.
 inline void file_set_column(tf::mesh_file& file, const std::string& element,
                             const std::string& name, tf::scalar_type type, const void* values,
                             std::size_t rows) {
@@ -109,7 +109,8 @@ inline void file_set_column(tf::mesh_file& file, const std::string& element,
     tf::column column = tf::with_type(type, [&]<class T>(T) {
         return tf::column::of<T>(name, array(static_cast<const T*>(values), rows, "values"));
     });
-    if (element == "face" && file.stored_face.empty()) file.stored_faces = file.mesh.faces.size();
+    if (element == "face" && file.face_of_triangle.empty())
+        file.stored_faces = file.mesh.faces.size();
     file.attributes.find_or_add(element, rows).set(std::move(column));
 }
 
@@ -131,14 +132,15 @@ inline void file_set_texture(tf::mesh_file& file, const double* texture, std::si
 /// Names the faces from `first_face` on; strings may be null. Call it in ascending order of faces.
 inline void file_add_part(tf::mesh_file& file, const char* object, const char* group,
                           const char* material, std::uint32_t first_face) {
-    std::vector<tf::part>& parts = file.attributes.parts;
+    std::vector<tf::named_faces>& parts = file.attributes.parts;
     if (first_face > rows_in(file, "face") ||
         (!parts.empty() && first_face < parts.back().first_face))
         throw std::invalid_argument("a part cannot begin at face " + std::to_string(first_face));
     parts.push_back({text(object), text(group), text(material), first_face});
 }
 
-/// Adds a line of text: a comment, a remark, or the name of a material or texture file, by `kind`.
+/// Adds a line of text, by `kind`: a comment, a line `obj_info` of PLY, or the name of a material
+/// or texture file.
 inline void file_add_text(tf::mesh_file& file, treeform_text_kind kind, const std::string& text) {
     tf::attributes& a = file.attributes;
     const std::array lists{&a.comments, &a.obj_info, &a.material_files, &a.texture_files};
@@ -181,8 +183,8 @@ inline tf::write_result write_mesh(const std::filesystem::path& path, const tree
     return tf::write(path, copy_of(mesh), options);
 }
 
-/// The mesh of a result, in its certified coordinates: fails instead of rounding them. Fails also
-/// if the certificate's status is not ok. `written` may be null.
+/// Writes the mesh of a result in its certified coordinates. Fails if the format would round them,
+/// or if the certificate's status is not ok. `written` may be null.
 inline tf::write_result write_result(const std::filesystem::path& path, const treeform_arrays* mesh,
                                      const treeform_certificate* certificate,
                                      const tf::write_options& options) {
@@ -214,8 +216,8 @@ inline answer_of<treeform_bytes> write_memory(const tf::mesh_file& file,
 // ---- meshes and scenes ----
 
 /// The usable part of a file's mesh. Points that only dropped faces use are dropped as well.
-inline tf::usable_mesh usable_part(const tf::mesh_file& file, const tf::part_options& options) {
-    return tf::usable_part(file.mesh, file.stored_face, options);
+inline tf::usable_mesh usable_faces(const tf::mesh_file& file, const tf::usable_options& options) {
+    return tf::usable_faces(file.mesh, file.face_of_triangle, options);
 }
 
 /// The whole mesh of a file: corners with equal coordinates become one vertex, triangles that are
@@ -223,7 +225,7 @@ inline tf::usable_mesh usable_part(const tf::mesh_file& file, const tf::part_opt
 inline tf::usable_mesh as_mesh(const tf::mesh_file& file) {
     tf::mesh_file plain;
     plain.mesh = file.mesh;
-    plain.stored_face = file.stored_face;
+    plain.face_of_triangle = file.face_of_triangle;
     plain.stored_faces = file.stored_faces;
     plain.indexed = file.indexed;
     return tf::as_mesh(std::move(plain));
@@ -261,13 +263,12 @@ inline tf::mesh_file scene_of(const treeform_file* const* files, const char* con
 
 /// The parts of a file, by its objects, groups or nodes, each as a file of its own. With
 /// `combine_patches`, parts with a common point, or whose open edges coincide, are combined.
-inline answer_of<treeform_scene_parts> split_parts(const tf::mesh_file& file,
-                                                   bool combine_patches) {
+inline answer_of<treeform_scene_parts> file_parts(const tf::mesh_file& file, bool combine_patches) {
     auto made = make<treeform_scene_parts>();
     auto& all = made->keep(std::vector<treeform_scene_part>());
-    for (tf::file_part& one : made->keep(tf::split_parts({.file = &file}, combine_patches)))
-        all.push_back({one.name.c_str(), keep(*made, std::move(one.file)), one.stored_face.data(),
-                       one.stored_face.size()});
+    for (tf::file_part& one : made->keep(tf::file_parts({.file = &file}, combine_patches)))
+        all.push_back({one.name.c_str(), keep(*made, std::move(one.file)), one.face_in_file.data(),
+                       one.face_in_file.size()});
     made->value.count = all.size();
     made->value.parts = all.data();
     return made;

@@ -99,14 +99,14 @@ void give_written(const Write& write, treeform_written** out) {
 /// Calls `ask(a, b, positions)` for `count` positions, given as consecutive matrices; null: the
 /// mesh is not moved. Writes the answers to `out`.
 template <class Ask, class T>
-void in_positions(const treeform_mesh* a, const treeform_mesh* b, const double* moves_a,
-                  const double* moves_b, std::size_t count, const Ask& ask, std::span<T> out,
+void in_positions(const treeform_mesh* a, const treeform_mesh* b, const double* transforms_a,
+                  const double* transforms_b, std::size_t count, const Ask& ask, std::span<T> out,
                   double radius = infinity) {
-    std::vector<tf::mesh_positions> where(count);
+    std::vector<tf::mesh_pair_options> where(count);
     for (std::size_t i = 0; i < count; ++i) {
         where[i].radius = radius;
-        if (moves_a) where[i].move_a = matrix(moves_a + 12 * i);
-        if (moves_b) where[i].move_b = matrix(moves_b + 12 * i);
+        if (transforms_a) where[i].transform_a = matrix(transforms_a + 12 * i);
+        if (transforms_b) where[i].transform_b = matrix(transforms_b + 12 * i);
     }
     const tf::mesh_ref x = ref_for_pieces(a, "a"), y = ref_for_pieces(b, "b");
     in_pieces(count, [&](std::size_t begin, std::size_t end) {

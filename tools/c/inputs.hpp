@@ -3,7 +3,7 @@
 /// Files as inputs of operations that carry attributes.
 
 #include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 
 #include <tools/c/handles.hpp>
 
@@ -18,7 +18,7 @@ class usable_input {
         : file_(file),
           triangle_of_face_(tf::drop_unusable_faces(file_.mesh)),
           non_finite_(file.mesh.faces.size() - file_.mesh.faces.size()) {}
-    [[nodiscard]] tf::carry_source source() const { return {&file_, triangle_of_face_}; }
+    [[nodiscard]] tf::attribute_source source() const { return {&file_, triangle_of_face_}; }
     [[nodiscard]] std::size_t non_finite() const { return non_finite_; }  ///< faces
 
   private:
@@ -27,12 +27,12 @@ class usable_input {
     std::size_t non_finite_;
 };
 
-/// Inputs for `carry_sources`: with the faces that the operation used. A file is not copied if all
-/// of its faces were used.
+/// Inputs for `attribute_sources`: with the faces that the operation used. A file is not copied if
+/// all of its faces were used.
 class carry_inputs {
   public:
-    carry_inputs(const treeform_carry_source* inputs, std::size_t count) {
-        for (const treeform_carry_source& one : array(inputs, count, "inputs")) {
+    carry_inputs(const treeform_attribute_source* inputs, std::size_t count) {
+        for (const treeform_attribute_source& one : array(inputs, count, "inputs")) {
             const tf::mesh_file& file = content(one.file, "the file of an input");
             sources_.push_back({&file, {}});
             if (!one.triangle_of_face) continue;
@@ -47,11 +47,11 @@ class carry_inputs {
             sources_.back() = {&copy, {one.triangle_of_face, one.face_count}};
         }
     }
-    [[nodiscard]] std::span<const tf::carry_source> sources() const { return sources_; }
+    [[nodiscard]] std::span<const tf::attribute_source> sources() const { return sources_; }
 
   private:
     std::deque<tf::mesh_file> files_;
-    std::vector<tf::carry_source> sources_;
+    std::vector<tf::attribute_source> sources_;
 };
 
 }  // namespace glue

@@ -2,7 +2,7 @@
 /// \file
 /// Intersections of meshes, in C.
 
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/clash.hpp>
 #include <treeform/mesh/intersections.hpp>
 #include <treeform/mesh/self_intersections.hpp>
@@ -18,9 +18,9 @@ namespace glue {
 
 /// All pairs of faces that meet in a point that is neither a shared corner nor on a shared edge.
 /// Exact on the coordinates as given.
-inline tf::intersection_result self_intersections(const tf::mesh_ref& mesh,
-                                                  const treeform_intersection_options* options) {
-    tf::intersection_options how = read(options);
+inline tf::face_pair_result self_intersections(const tf::mesh_ref& mesh,
+                                               const treeform_face_pair_options* options) {
+    tf::face_pair_options how = read(options);
     if (options && options->component_of_face)
         how.component_of_face = {options->component_of_face, mesh.view().faces.size()};
     return tf::self_intersections(mesh, how);
@@ -28,18 +28,19 @@ inline tf::intersection_result self_intersections(const tf::mesh_ref& mesh,
 
 /// Whether a face of `a` and a face of `b` have a common point, each moved by a matrix (null: not
 /// moved); exact.
-inline bool intersects(const tf::mesh_ref& a, const tf::mesh_ref& b, const tf::transform<3>& move_a,
-                       const tf::transform<3>& move_b) {
-    return tf::intersects(a, b, tf::mesh_positions{move_a, move_b});
+inline bool intersects(const tf::mesh_ref& a, const tf::mesh_ref& b,
+                       const tf::transform<3>& transform_a, const tf::transform<3>& transform_b) {
+    return tf::intersects(a, b, tf::mesh_pair_options{transform_a, transform_b});
 }
 
-/// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null if
-/// the mesh is not moved; `meet` is [count].
-inline void intersects_poses(const treeform_mesh* a, const treeform_mesh* b, const double* moves_a,
-                             const double* moves_b, std::size_t count, std::uint8_t* meet) {
+/// The same for many positions, in parallel: `transforms_a` and `transforms_b` are [count][12], or
+/// null if the mesh is not moved; `meet` is [count].
+inline void intersects_poses(const treeform_mesh* a, const treeform_mesh* b,
+                             const double* transforms_a, const double* transforms_b,
+                             std::size_t count, std::uint8_t* meet) {
     const std::span out = array(meet, count, "meet");
     in_positions(
-        a, b, moves_a, moves_b, count,
+        a, b, transforms_a, transforms_b, count,
         [&](const auto& x, const auto& y, auto where) { return tf::intersects(x, y, where); }, out);
 }
 
@@ -76,7 +77,7 @@ inline void color_pairs(tf::mesh_file& file, const treeform_usable_mesh* part,
     searched.mesh.faces = copied_as<tf::face>(p.mesh.faces, faces, "faces");
     if (p.triangle_of_face)
         searched.triangle_of_face.assign(p.triangle_of_face, p.triangle_of_face + faces);
-    searched.stored_face = file.stored_face;
+    searched.face_of_triangle = file.face_of_triangle;
     for (std::uint32_t f = 0; f < faces; ++f)
         if (searched.triangle(f) >= file.mesh.faces.size())
             throw std::invalid_argument("the part is not of this file");
@@ -92,7 +93,7 @@ inline bool is_searched_in_tiles(const std::filesystem::path& path, std::string_
 
 /// Begins a search. All processes must pass the same input and options, except for `progress`.
 inline tf::shared_search shared_search_create(const std::filesystem::path& path,
-                                              const tf::stream_search_options& options) {
+                                              const tf::file_search_options& options) {
     return {path, options};
 }
 
@@ -118,7 +119,7 @@ inline void shared_search_tile(tf::shared_search& search, std::size_t tile) {
 
 /// Combines the results of all tiles; an error unless all tiles are finished. A step that is called
 /// too early fails, and ends the search.
-inline tf::stream_search_result shared_search_finish(tf::shared_search& search) {
+inline tf::file_search_result shared_search_finish(tf::shared_search& search) {
     return search.finish();
 }
 

@@ -81,7 +81,8 @@ inline answer_of<treeform_mesh> mesh_create_float(const float* points, std::size
                    flags);
 }
 
-/// The mesh of the arrays of a result, as `result->mesh`; `flags` as in `treeform_mesh_create`.
+/// A mesh of arrays that a result owns, such as `&result->mesh`; `flags` as in
+/// `treeform_mesh_create`.
 inline answer_of<treeform_mesh> mesh_of(const treeform_arrays* arrays, std::uint32_t flags) {
     const treeform_arrays& of = need(arrays, "arrays");
     return mesh_create(of.points, of.point_count, of.faces, of.face_count, flags);
@@ -92,6 +93,13 @@ inline answer_of<treeform_mesh> mesh_of_box(const treeform_box* box) {
     tf::mesh own = glue::box(need(box, "box")).mesh();
     const std::span<const tf::face> faces = own.faces;
     return mesh_of(std::move(own), {}, faces, 0);
+}
+
+/// Sets `matrix` [12] to the rotation about an axis through the origin, counterclockwise if the
+/// axis points to the viewer. Quarter turns about a coordinate axis are exact.
+inline void rotation(const double* axis, double degrees, double* matrix) {
+    const tf::point3 a = point(axis, "axis");
+    copy(tf::transform<3>::rotation({a.x, a.y, a.z}, degrees).rows, &need(matrix, "matrix"));
 }
 
 /// The arrays of a mesh, valid as long as the mesh exists.
@@ -133,7 +141,7 @@ inline tf::mesh select_faces(const tf::mesh_ref& mesh, std::span<const std::uint
 }
 
 /// The mesh with each coordinate rounded to the nearest number of the precision; infinite beyond
-/// its range. `treeform_rounding_effects` finds the defects that this causes.
+/// its range. `treeform_find_rounding_effects` finds the defects that this causes.
 inline tf::mesh rounded(tf::mesh_view mesh, tf::precision precision) {
     return {tf::rounded(mesh.points, precision), {mesh.faces.begin(), mesh.faces.end()}};
 }
@@ -142,15 +150,15 @@ inline tf::mesh rounded(tf::mesh_view mesh, tf::precision precision) {
 /// `before`, moved by `matrix` [12] (null: not moved). If coordinates became coarser, or with
 /// `always_compare`, also finds the faces that became degenerate, and the pairs of faces that newly
 /// meet; exact (`treeform_self_intersections`).
-inline tf::rounding_effects rounding_effects(const treeform_mesh* mesh,
-                                             const tf::transform<3>& matrix, const double* placed,
-                                             tf::precision before, tf::precision after,
-                                             bool always_compare,
-                                             const tf::progress_callback& progress) {
+inline tf::rounding_effects find_rounding_effects(const treeform_mesh* mesh,
+                                                  const tf::transform<3>& matrix,
+                                                  const double* placed, tf::precision before,
+                                                  tf::precision after, bool always_compare,
+                                                  const tf::progress_callback& progress) {
     const tf::mesh_view view = glue::view(mesh);
     const tf::points_view there = points(placed, view.points.size(), "placed");
     tf::rounding_effects found =
-        tf::effects_of_rounding(ref(mesh, "mesh"), matrix, there, before, after, progress);
+        tf::find_rounding_effects(ref(mesh, "mesh"), matrix, there, before, after, progress);
     if (found.status == tf::status::ok && always_compare && !found.compared) {
         const tf::rounding_effects defects = tf::find_rounding_defects(view, there, progress);
         check(defects.status);

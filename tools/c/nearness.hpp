@@ -37,28 +37,28 @@ inline void closest_point(const treeform_mesh* mesh, const double* queries, std:
 /// The nearest points of the surfaces `a` and `b`, each moved by a matrix (null: not moved), at
 /// most `radius` apart.
 inline treeform_closest closest_pair(const tf::mesh_ref& a, const tf::mesh_ref& b,
-                                     const tf::transform<3>& move_a, const tf::transform<3>& move_b,
-                                     double radius) {
+                                     const tf::transform<3>& transform_a,
+                                     const tf::transform<3>& transform_b, double radius) {
     return same<treeform_closest>(
-        tf::closest_pair(a, b, {move_a, move_b, radius})
+        tf::closest_pair(a, b, {transform_a, transform_b, radius})
             .value_or(
                 tf::closest_pair_result{TREEFORM_NONE, TREEFORM_NONE, infinity, nowhere, nowhere}));
 }
 
 /// The distance of the surfaces; infinite if one has no faces.
-inline double distance(const tf::mesh_ref& a, const tf::mesh_ref& b, const tf::transform<3>& move_a,
-                       const tf::transform<3>& move_b) {
-    return tf::distance(a, b, tf::mesh_positions{move_a, move_b});
+inline double distance(const tf::mesh_ref& a, const tf::mesh_ref& b,
+                       const tf::transform<3>& transform_a, const tf::transform<3>& transform_b) {
+    return tf::distance(a, b, tf::mesh_pair_options{transform_a, transform_b});
 }
 
-/// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null if
-/// the mesh is not moved; `distances` [count] are infinite beyond `radius`.
-inline void distance_poses(const treeform_mesh* a, const treeform_mesh* b, const double* moves_a,
-                           const double* moves_b, std::size_t count, double radius,
-                           double* distances) {
+/// The same for many positions, in parallel: `transforms_a` and `transforms_b` are [count][12], or
+/// null if the mesh is not moved; `distances` [count] are infinite beyond `radius`.
+inline void distance_poses(const treeform_mesh* a, const treeform_mesh* b,
+                           const double* transforms_a, const double* transforms_b,
+                           std::size_t count, double radius, double* distances) {
     const std::span out = array(distances, count, "distances");
     in_positions(
-        a, b, moves_a, moves_b, count,
+        a, b, transforms_a, transforms_b, count,
         [&](const auto& x, const auto& y, auto where) { return tf::distance(x, y, where); }, out,
         radius);
 }
@@ -139,12 +139,12 @@ void along_rays(const treeform_mesh* mesh, const treeform_ray* rays, std::size_t
 /// `hits` [count]: the first face that each ray hits, exactly; of several faces at the same point,
 /// the lowest. For a ray that hits none, `face` is `TREEFORM_NONE`, `t` and `t_end` are NaN.
 inline void raycast(const treeform_mesh* mesh, const treeform_ray* rays, std::size_t count,
-                    treeform_hit* hits) {
+                    treeform_mesh_hit* hits) {
     const std::span out = array(hits, count, "hits");
     along_rays(mesh, rays, count, [&](const auto& m, auto some, std::size_t begin) {
         for (const auto& found : tf::raycast(m, some))
-            out[begin++] = found ? same<treeform_hit>(*found)
-                                 : treeform_hit{TREEFORM_NONE, 0, 0, not_known, not_known};
+            out[begin++] = found ? same<treeform_mesh_hit>(*found)
+                                 : treeform_mesh_hit{TREEFORM_NONE, 0, 0, not_known, not_known};
     });
 }
 
@@ -168,7 +168,7 @@ inline answer_of<treeform_hits> raycast_all(const treeform_mesh* mesh, const tre
         append(found.begin, found.answers, std::move(more.begin), std::move(more.answers));
     });
     made->value.begin = found.begin.data();
-    made->value.hits = same<treeform_hit>(found.answers);
+    made->value.hits = same<treeform_mesh_hit>(found.answers);
     made->value.count = count;
     return made;
 }
@@ -198,8 +198,8 @@ inline void penetration_depth(const tf::mesh_ref& a, const tf::mesh_ref& b,
 }
 
 /// Counts `points` [points_count][3] by their position relative to `solids` [solids_count],
-/// exactly: counts[0] strictly inside any solid, counts[1] else on the surface of any, counts[2]
-/// outside of all.
+/// exactly: counts[0] is the number of points strictly inside at least one solid, counts[1] that of
+/// other points on a surface, counts[2] that of points outside all solids.
 inline void count_sides(std::span<const tf::point3> points, const tf::mesh_refs& solids,
                         std::uint64_t counts[3]) {
     (void)need(counts, "counts");

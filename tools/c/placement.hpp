@@ -8,6 +8,7 @@
 #include <treeform/mesh/write.hpp>
 
 #include <tools/c/made/structs.hpp>
+#include <tools/c/mesh.hpp>
 
 namespace glue {
 
@@ -27,8 +28,8 @@ inline tf::placement drop(const tf::mesh_ref& moving, const tf::mesh_refs& fixed
                     direction ? point(direction, "direction") : tf::point3{0.0, 0.0, -1.0});
 }
 
-inline tf::mesh_feature feature_of(const treeform_feature* from, const char* name) {
-    const treeform_feature& f = need(from, name);
+inline tf::mesh_feature feature_of(const treeform_mesh_feature* from, const char* name) {
+    const treeform_mesh_feature& f = need(from, name);
     tf::mesh_feature feature;
     feature.kind = choice<tf::feature_kind>(f.kind, 2, "kind");
     feature.origin = point(f.origin, "origin");
@@ -43,15 +44,24 @@ inline tf::mesh_feature feature_of(const treeform_feature* from, const char* nam
 
 /// Aligns two planes, or two axes, and slides `moving` until it meets one of `fixed`.
 inline tf::placement mate_features(const tf::mesh_ref& moving, const tf::mesh_refs& fixed,
-                                   const treeform_feature* of_moving,
-                                   const treeform_feature* of_fixed,
+                                   const treeform_mesh_feature* of_moving,
+                                   const treeform_mesh_feature* of_fixed,
                                    const tf::placement_options& options) {
     return tf::mate_features(moving, fixed, feature_of(of_moving, "of_moving"),
                              feature_of(of_fixed, "of_fixed"), options);
 }
 
-/// Writes `moving` at its place, in the coordinates that were checked: fails instead of rounding
-/// them, and if there is no place. `written` may be null.
+/// The mesh that was placed, with the points of the placement.
+inline answer_of<treeform_mesh> moved(const treeform_placement* placement,
+                                      const tf::mesh_ref& moving) {
+    const auto& at = kept_in<tf::placement>(need(placement, "placement"), "placement");
+    tf::mesh own = at.moved(moving).value();
+    const std::vector<tf::face> faces = own.faces;
+    return mesh_of(std::move(own), {}, faces, TREEFORM_COPY);
+}
+
+/// Writes `moving` at its place, in the coordinates that were checked. Fails if the format would
+/// round them, or if there is no place. `written` may be null.
 inline tf::write_result write_placement(const std::filesystem::path& path,
                                         const tf::mesh_ref& moving,
                                         const treeform_placement* placement,
@@ -67,10 +77,11 @@ inline answer_of<treeform_face_relations> find_face_relations(const treeform_mes
                                                               const treeform_placement* placement) {
     const tf::prepared_mesh& m = *need(moving, "moving").prepared;
     const auto& at = kept_in<tf::placement>(need(placement, "placement"), "placement");
-    if (at.points.size() != m.view().points.size())
+    if (at.points.size() != m.indexed_view().points.size())
         throw std::invalid_argument("placement is not of this moving mesh");
     for (const tf::placement_contact& one : at.contacts)
-        if (one.moving >= m.view().faces.size() || (one.fixed_face && one.fixed >= fixed.size()))
+        if (one.moving >= m.indexed_view().faces.size() ||
+            (one.fixed_face && one.fixed >= fixed.size()))
             throw std::invalid_argument("placement is not of these meshes");
     auto made = make<treeform_face_relations>();
     const auto& found = made->keep(at.face_relations(m, fixed));

@@ -52,7 +52,7 @@ inline tf::boolean_result difference_all(const tf::mesh_ref& a, const tf::mesh_r
 }
 
 /// An open surface cut by solids: the pieces of operand number `sheet` for which `expression` is
-/// true.
+/// true. With the sheet as a, "a-b" keeps the pieces outside of b, and "a*b" those inside.
 inline tf::boolean_result clip(const tf::mesh_refs& operands, std::uint32_t sheet,
                                const std::string& expression, const tf::boolean_options& options) {
     return tf::clip(operands, sheet, tf::boolean_expression(expression, operands.size()), options);

@@ -69,8 +69,8 @@ inline tf::weld_stream_result weld_stream(const char* const* inputs, std::size_t
     return tf::weld_stream(inputs_of(inputs, count, o), outputs_of(o, output), read(o));
 }
 
-/// Begins a weld in steps, and shares the lock of the folder until the handle is freed; fails while
-/// another handle scatters or finishes. All processes must pass the same inputs and options.
+/// Begins a weld in steps. Until it is freed, the handle holds a shared lock on the folder. Fails
+/// while another handle scatters or finishes. All processes must pass the same inputs and options.
 /// Options of outputs are used by `finish`; `communicator` is not used.
 inline shared_weld shared_weld_create(const char* const* inputs, std::size_t count,
                                       const treeform_weld_stream_options* options) {

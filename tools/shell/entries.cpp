@@ -56,10 +56,10 @@ const char* numbers_of(tf::precision precision) {
     return precision == tf::precision::float32 ? "float32" : "double";
 }
 
-json open_entry(const tf::certificate& known, const face_numbers& stored_face) {
+json open_entry(const tf::certificate& known, const face_numbers& face_in_file) {
     json list = json::array();
     for (std::size_t i = 0; i < known.open_edges.size(); ++i)
-        list.push_back({{"face", stored_face(known.open_faces[i].index)},
+        list.push_back({{"face", face_in_file(known.open_faces[i].index)},
                         {"from", known.open_edges[i][0]},
                         {"to", known.open_edges[i][1]}});
     const bool known_edges =
@@ -118,9 +118,9 @@ std::string repair_summary(const tf::repair_statistics& did) {
     return text.empty() ? "nothing to repair" : text;
 }
 
-std::string message_of(tf::certificate known, const face_numbers& stored_face) {
+std::string message_of(tf::certificate known, const face_numbers& face_in_file) {
     for (tf::operand_element& face : known.open_faces)
-        face = {tf::operand_element::none, stored_face(face.index)};
+        face = {tf::operand_element::none, face_in_file(face.index)};
     return known.message();
 }
 

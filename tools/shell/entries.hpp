@@ -36,7 +36,7 @@ template <class T>
 using face_numbers = std::function<std::uint32_t(std::uint32_t)>;
 
 /// Where the surface ends.
-[[nodiscard]] json open_entry(const tf::certificate& known, const face_numbers& stored_face);
+[[nodiscard]] json open_entry(const tf::certificate& known, const face_numbers& face_in_file);
 /// The faces that meet.
 [[nodiscard]] json meeting_entry(const tf::certificate& known);
 /// What was lost, where that is more than is allowed; else null.
@@ -46,6 +46,6 @@ using face_numbers = std::function<std::uint32_t(std::uint32_t)>;
 /// "1 hole filled (3 edges), 2 pairs cut", or "nothing to mend".
 [[nodiscard]] std::string repair_summary(const tf::repair_statistics& did);
 /// Its message, with the face by its number in the file.
-[[nodiscard]] std::string message_of(tf::certificate known, const face_numbers& stored_face);
+[[nodiscard]] std::string message_of(tf::certificate known, const face_numbers& face_in_file);
 
 }  // namespace tools

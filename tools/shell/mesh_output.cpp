@@ -2,7 +2,7 @@
 
 #include "tools/shell/console.hpp"
 #include "tools/shell/output_file.hpp"
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/properties.hpp>
@@ -68,7 +68,7 @@ written_form form_of(const job& work, const tf::mesh_file& input,
 
 bool is_single(const tf::mesh_file& file) {
     return file.stored_as == tf::precision::float32 && !is_text(file.format) &&
-           tf::fits_single(file.mesh.points);
+           tf::fits_float32(file.mesh.points);
 }
 
 tf::precision written_precision(const common_options& options,
@@ -157,10 +157,10 @@ void enter_rounding(job& work, const tf::rounding_effects& lost, tf::precision p
 }
 
 void warn_of_ambiguous_materials(job& work, std::span<const tf::mesh_file* const> inputs) {
-    std::vector<tf::carry_source> sources;
+    std::vector<tf::attribute_source> sources;
     for (const tf::mesh_file* input : inputs) sources.push_back({input});
     const std::vector<std::string> names =
-        tf::carry_sources(std::move(sources)).ambiguous_materials();
+        tf::attribute_sources(std::move(sources)).ambiguous_materials();
     if (names.empty()) return;
     work.warn("materials", "inputs with different material files use the same name for " +
                                (names.size() == 1 ? "material " + names.front()

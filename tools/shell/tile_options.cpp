@@ -132,7 +132,7 @@ void add_tile_options(command_line& line, tile_options& target, const std::strin
     line.option({"--work", "DIR",
                  "folder for the tiles; kept if the run is stopped, so\n"
                  "that the same command can resume",
-                 "beside the output"},
+                 "beside the output, or in /tmp"},
                 [&target](std::string_view text) { target.folder = text; });
     line.option({.names = per_tile, .value = "N"}, [&target, per_tile](std::string_view text) {
         target.per_tile = parse_count(per_tile, text);

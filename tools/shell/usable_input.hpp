@@ -5,7 +5,7 @@
 #include "tools/shell/abrupt_exit.hpp"
 #include "tools/shell/exit_status.hpp"
 #include "tools/shell/run.hpp"
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tf.hpp>
@@ -37,7 +37,7 @@ struct usable_input {
     std::vector<std::uint32_t> triangle_of_face{};  ///< in the file; empty: the same
     std::uint64_t non_finite = 0;                   ///< triangles with a corner that is not finite
 
-    [[nodiscard]] tf::carry_source source() const { return {&file, triangle_of_face}; }
+    [[nodiscard]] tf::attribute_source source() const { return {&file, triangle_of_face}; }
 };
 
 /// Reads the job's input, and warns of what is left out.

@@ -46,8 +46,11 @@ void add_options(command_line& line, boolean_settings& s) {
     line.flag(s.keep_cuts, {"--keep-cuts", "",
                             "do not merge coplanar faces that were cut, or\n"
                             "that overlap"});
-    line.flag(s.simplify, {"--merge-coplanar", "", "merge all coplanar faces, also those not cut"});
-    line.option({"--min-volume", "V", "drop parts and fill voids of the result below V", "0"},
+    line.flag(s.simplify, {"--merge-coplanar", "",
+                           "merge all coplanar faces with equal properties, also\n"
+                           "those not cut; faces with texture coordinates or\n"
+                           "normals of corners are not merged"});
+    line.option({"--min-volume", "V", "drop parts, and fill voids, of less volume than V", "0"},
                 [&s](std::string_view v) {
                     s.min_volume = tools::parse_volume("--min-volume", v);
                     s.min_volume_given = true;
@@ -62,8 +65,8 @@ void add_outputs(command_line& line, boolean_settings& s, common_options& option
     line.group("Output");
     line.output(options.output, {"-o, --output", "FILE", "the result"});
     line.option(s.source, {"--source", "P",
-                           "write source mesh and face of each face to\n"
-                           "properties P_mesh, P_face of a PLY or GLB",
+                           "for each face, write the input mesh and face that it\n"
+                           "comes from to properties P_mesh, P_face (PLY, GLB)",
                            "source"});
     line.flag(s.no_attributes, {"--no-attributes", "",
                                 "omit colors, normals, uv and other properties, also\n"
@@ -160,7 +163,7 @@ exit_status operate(tools::job& work, const boolean_settings& s) {
         if (open.size() > 1)
             return refuse_open(work, solids, open, "--accept-open allows one open input; ");
         if (!open.empty()) sheet = open.front();
-        if (sheet && !tools::formula_of(s, solids.size()).needs(*sheet))
+        if (sheet && !tools::formula_of(s, solids.size()).is_inside(*sheet))
             return refuse_open(work, solids, open,
                                "an open surface can be cut, but not united with a solid; ");
     }

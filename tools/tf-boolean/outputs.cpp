@@ -4,7 +4,7 @@
 #include "tools/shell/curve_file.hpp"
 #include "tools/shell/mesh_output.hpp"
 #include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/self_intersections.hpp>
@@ -119,11 +119,11 @@ void enter_result(job& work, const boolean_settings& settings, const std::vector
         {"lost_parts",
          {{"count", result.vanished_components},
           {"list", result.vanished_at},
-          {"reach", result.vanished_reach}}},
+          {"distance", result.vanished_distance}}},
         {"certified", static_cast<bool>(known)},
         {"max_move", known.max_displacement},
         {"step", tf::coordinate_step(result.mesh.points, known.precision)},
-        {"slivers", did.slivers},
+        {"rounding_repairs", did.rounding_repairs},
         {"rounding_rounds", did.rounding_rounds}};
 }
 
@@ -135,8 +135,8 @@ void write_surface(job& work, const boolean_settings& settings, const std::vecto
     const written_form form = form_of(o);
     tf::mesh_file file = file_of(std::move(result.mesh), result.certificate);
     if (!settings.no_attributes) {
-        sources_of(solids).carry(file, result.face_source, result.vertex_source,
-                                 result.face_of_cut_vertex);
+        sources_of(solids).transfer(file, result.face_source, result.vertex_source,
+                                    result.face_of_cut_vertex);
         if (form.format == "obj") warn_of_ambiguous_materials(work, files_of(solids));
     }
     if (holds_sources(form.format)) {
@@ -144,7 +144,7 @@ void write_surface(job& work, const boolean_settings& settings, const std::vecto
         std::ranges::transform(solids, inputs.begin(),
                                [](const solid& s) { return s.part.empty() ? s.path : name_of(s); });
         for (tf::operand_element& e : result.face_source)
-            e.index = solids[e.operand].stored_face(e.index);
+            e.index = solids[e.operand].face_in_file(e.index);
         tf::set_source_columns(file, settings.source, result.face_source, inputs);
     }
     write_certified(work, file, form, o.output, result.certificate.max_displacement);

@@ -34,7 +34,7 @@ void add_result(scene& shown, const numbering& kinds, const std::vector<solid>& 
     std::vector<std::uint64_t> counts(solids.size(), 0);
     for (const tf::operand_element& source : made.face_source) {
         mesh.kind.push_back(kinds.source(source.operand));
-        mesh.group.push_back(solids[source.operand].stored_face(source.index));
+        mesh.group.push_back(solids[source.operand].face_in_file(source.index));
         ++counts[source.operand];
     }
     for (std::size_t i = 0; i < kinds.inputs; ++i)
@@ -49,7 +49,7 @@ void add_input(scene& shown, const numbering& kinds, const solid& input, std::si
                     .name = name_of(input),
                     .ghost = ghost};
     for (std::uint32_t f = 0; f < input.file.mesh.faces.size(); ++f)
-        mesh.number.push_back(input.stored_face(f));
+        mesh.number.push_back(input.face_in_file(f));
     shown.meshes.push_back(std::move(mesh));
 }
 

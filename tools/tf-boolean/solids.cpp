@@ -4,7 +4,7 @@
 #include "tools/shell/curve_file.hpp"
 #include "tools/shell/usable_input.hpp"
 #include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/mesh.hpp>
 #include <treeform/mesh/properties.hpp>
@@ -60,7 +60,7 @@ void mend(job& work, const boolean_settings& settings, solid& s, json& about) {
     about["repair"] = steps_entry(made.statistics, options);
     if (!made.certificate) {
         about["reason"] = made.certificate.message();
-        throw failure(found, "not-mended",
+        throw failure(found, "not-repaired",
                       name + ": cannot be repaired: " + made.certificate.message());
     }
     work.out.info(name + ": " + repair_summary(made.statistics));
@@ -68,8 +68,8 @@ void mend(job& work, const boolean_settings& settings, solid& s, json& about) {
     s.file = std::move(made.file);
     s.triangle_of_face.clear();
     for (std::uint32_t& f : made.face_source)
-        if (f != tf::repair_result::none && !s.face_in_file.empty()) f = s.face_in_file[f];
-    s.face_in_file = std::move(made.face_source);
+        if (f != tf::repair_result::none && !s.faces_in_file.empty()) f = s.faces_in_file[f];
+    s.faces_in_file = std::move(made.face_source);
 }
 
 /// The parts of these names, in place of the inputs that they are of. Of one input they may be
@@ -79,7 +79,7 @@ std::vector<solid> named_parts(job& work, std::vector<std::string> names,
     std::vector<std::string> known;
     std::vector<std::vector<tf::file_part>> parts;
     for (const solid& whole : wholes)
-        for (const tf::file_part& part : parts.emplace_back(tf::split_parts(whole.source(), true)))
+        for (const tf::file_part& part : parts.emplace_back(tf::file_parts(whole.source(), true)))
             known.push_back(part.name);
     const auto is_name = [&](auto& name) { return std::ranges::count(known, name) > 0; };
     if (wholes.size() == 1 && !std::ranges::all_of(names, is_name))
@@ -98,9 +98,9 @@ std::vector<solid> named_parts(job& work, std::vector<std::string> names,
             about["faces"] = about["triangles"] = part.file.mesh.faces.size();
             named[at] = {.path = wholes[i].path,
                          .file = std::move(part.file),
-                         .triangles = part.stored_face.size(),
+                         .triangles = part.face_in_file.size(),
                          .part = part.name,
-                         .face_in_file = std::move(part.stored_face)};
+                         .faces_in_file = std::move(part.face_in_file)};
         }
     for (std::size_t k = 0; k < names.size(); ++k)
         if (named[k].path.empty())
@@ -119,7 +119,7 @@ std::vector<std::string> operand_names(job& work, const boolean_settings& settin
     std::vector<std::string> names;
     bool is_mixed = !unites;
     if (has_parts)
-        for (const tf::file_part& one : tf::split_parts(s.source(), true)) {
+        for (const tf::file_part& one : tf::file_parts(s.source(), true)) {
             names.push_back(one.name);
             is_mixed = is_mixed || tf::count_inside_out(one.file.mesh) > 0;
         }
@@ -176,8 +176,8 @@ std::vector<tf::mesh_view> views_of(const std::vector<solid>& solids) {
     return views;
 }
 
-tf::carry_sources sources_of(const std::vector<solid>& solids) {
-    std::vector<tf::carry_source> sources;
+tf::attribute_sources sources_of(const std::vector<solid>& solids) {
+    std::vector<tf::attribute_source> sources;
     for (const solid& s : solids) sources.push_back(s.source());
     return sources;
 }
@@ -198,13 +198,13 @@ std::vector<std::uint32_t> check_operands(job& work, const std::vector<solid>& s
         const tf::certificate known =
             tf::check_operand(solids[i].file.mesh, work.progress("check"));
         work.call_ended(known.status == tf::status::cancelled);
-        const auto stored_face = [&](std::uint32_t f) { return solids[i].stored_face(f); };
+        const auto face_in_file = [&](std::uint32_t f) { return solids[i].face_in_file(f); };
         json& about = work.entry["inputs"][i];
         about["closed"] = known.open_edges.empty();
-        about["open"] = open_entry(known, stored_face);
+        about["open"] = open_entry(known, face_in_file);
         if (known.open_edges.empty()) continue;
         open.push_back(i);
-        about["reason"] = message_of(known, stored_face);
+        about["reason"] = message_of(known, face_in_file);
     }
     return open;
 }

@@ -4,8 +4,8 @@
 
 #include "tools/shell/run.hpp"
 #include "tools/tf-boolean/settings.hpp"
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tf.hpp>
 
@@ -23,12 +23,12 @@ struct solid {
     std::uint64_t triangles = 0;                    ///< in the file
     std::string part{};                             ///< its name in the file, of which it is a part
     /// Of a part and by --repair: the number in the file of each face, or `repair_result::none`.
-    std::vector<std::uint32_t> face_in_file{};
+    std::vector<std::uint32_t> faces_in_file{};
 
-    [[nodiscard]] tf::carry_source source() const { return {&file, triangle_of_face}; }
+    [[nodiscard]] tf::attribute_source source() const { return {&file, triangle_of_face}; }
     /// The number in the file; `repair_result::none` of what fills a hole.
-    [[nodiscard]] std::uint32_t stored_face(std::uint32_t face) const {
-        return face_in_file.empty() ? source().stored_face(face) : face_in_file[face];
+    [[nodiscard]] std::uint32_t face_in_file(std::uint32_t face) const {
+        return faces_in_file.empty() ? source().face_in_file(face) : faces_in_file[face];
     }
 };
 
@@ -43,7 +43,7 @@ struct solid {
 [[nodiscard]] std::vector<solid> read_solids(job& work, const boolean_settings& settings);
 
 [[nodiscard]] std::vector<tf::mesh_view> views_of(const std::vector<solid>& solids);
-[[nodiscard]] tf::carry_sources sources_of(const std::vector<solid>& solids);
+[[nodiscard]] tf::attribute_sources sources_of(const std::vector<solid>& solids);
 
 /// Length of the diagonal of the box of all solids.
 [[nodiscard]] double diagonal_of(const std::vector<solid>& solids);

@@ -1,6 +1,6 @@
 #include "tools/shell/console.hpp"
 #include "tools/tf-boolean/outputs.hpp"
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/tf.hpp>
 
 #include <algorithm>
@@ -64,12 +64,12 @@ void warn_of_surprises(job& work, const boolean_settings& settings,
                                     ": thinner than the spacing of " +
                                     numbers_of(result.certificate.precision) + " numbers there");
     // Beyond what all else may have moved.
-    if (result.certificate && result.vanished_reach > result.certificate.max_displacement &&
-        result.vanished_reach > 64.0 * work.entry["output"]["step"].get<double>())
+    if (result.certificate && result.vanished_distance > result.certificate.max_displacement &&
+        result.vanished_distance > 64.0 * work.entry["output"]["step"].get<double>())
         work.warn("lost-parts", std::string("regions thinner than the spacing of ") +
                                     numbers_of(result.certificate.precision) +
                                     " numbers there were dropped; they reached up to " +
-                                    brief(result.vanished_reach) + " from the rest");
+                                    brief(result.vanished_distance) + " from the rest");
     if (result.statistics.degenerate > 0)
         work.warn("degenerate", counted(result.statistics.degenerate, "face", "faces") +
                                     " without area dropped, which does not change the solids");
@@ -104,10 +104,10 @@ void say_details(job& work, const tf::boolean_result& result) {
                   " of faces meet, " + counted(result.statistics.cut_faces, "face", "faces") +
                   " cut");
     const auto rounds = static_cast<std::uint64_t>(result.statistics.rounding_rounds);
-    if (result.statistics.slivers + rounds > 0)
+    if (result.statistics.rounding_repairs + rounds > 0)
         work.out.info(work.name + ": rounding made faces meet: " +
-                      counted(result.statistics.slivers, "sliver", "slivers") +
-                      " removed, faces cut again " + counted(rounds, "time", "times"));
+                      counted(result.statistics.rounding_repairs, "repair", "repairs") +
+                      ", faces cut again " + counted(rounds, "time", "times"));
 }
 
 }  // namespace tools

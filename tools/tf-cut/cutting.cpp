@@ -51,15 +51,15 @@ std::string thinnest_wall(job& work, const cut_settings& s, const usable_input& 
         s.walls == measured_walls::ray ? tf::thickness_by::ray : tf::thickness_by::sphere,
         work.progress("walls"));
     work.call_ended(found.status == tf::status::cancelled);
-    if (!std::isfinite(found.least)) return {};
+    if (!std::isfinite(found.min)) return {};
     tf::point3 middle{};
     for (const std::uint32_t v : input.file.mesh.faces[found.thinnest])
         for (std::size_t k = 0; k < 3; ++k) middle[k] += input.file.mesh.points[v][k] / 3;
     work.entry["info"]["thinnest"] = {{"by", wall_measures[static_cast<std::size_t>(s.walls)]},
-                                      {"thickness", found.least},
-                                      {"face", input.source().stored_face(found.thinnest)},
+                                      {"thickness", found.min},
+                                      {"face", input.source().face_in_file(found.thinnest)},
                                       {"at", middle}};
-    return ", thinnest wall " + brief(found.least) + " at " + in_words(middle);
+    return ", thinnest wall " + brief(found.min) + " at " + in_words(middle);
 }
 
 bool has_caps(const cut_settings& s) {
@@ -223,8 +223,8 @@ void say_pieces(job& work, const cut_settings& s, const usable_input& input,
     if (const json& reached = work.entry["distances"]; reached.is_object())
         text +=
             (s.mode == cut_mode::simplify ? ", at most "
-                                          : ", " + brief(reached["least"].get<double>()) + " to ") +
-            brief(reached["greatest"].get<double>()) + " away";
+                                          : ", " + brief(reached["min"].get<double>()) + " to ") +
+            brief(reached["max"].get<double>()) + " away";
     work.out.result(work.name + ": " + grouped(pieces.size()) + word_for(s, pieces.size()) + text);
     warn_of_missing(work, s, input, pieces.size());
 }

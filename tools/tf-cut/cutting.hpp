@@ -8,7 +8,7 @@
 #include "tools/shell/parse_value.hpp"
 #include "tools/shell/run.hpp"
 #include "tools/shell/usable_input.hpp"
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/offset.hpp>

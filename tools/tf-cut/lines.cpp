@@ -148,8 +148,8 @@ void say_isolines(job& work, const cut_settings& s, const vertex_values& values,
     }
     work.entry["isolines"] = {{"value", s.lines.value},
                               {"signed", or_null(s.lines.value == "distance", values.is_signed)},
-                              {"least", range[0]},
-                              {"greatest", range[1]},
+                              {"min", range[0]},
+                              {"max", range[1]},
                               {"levels", std::move(list)}};
     std::string text = counted(levels.size(), "level", "levels") + ", " +
                        counted(made.lines.size(), "line", "lines");

@@ -61,10 +61,10 @@ tf::precision precision_of(tools::job& work, const usable_input& input) {
 
 tf::cut_result cut(tools::job& work, const usable_input& input, const cut_settings& s) {
     const auto timing = work.time("cut");
-    const tf::carry_source source = input.source();
+    const tf::attribute_source source = input.source();
     const tf::cut_options options{.precision = precision_of(work, input),
                                   .caps = !s.open,
-                                  .keep_cuts = tf::carry_sources(source).merging_mixes_values(),
+                                  .keep_cuts = tf::attribute_sources(source).merging_mixes_values(),
                                   .progress = work.progress("cut")};
     tf::cut_result made = tools::suitable(s.bed ? "--bed" : "--height", [&] {
         return s.bed ? tf::cut_to_fit(input.file.mesh, *s.bed, options)
@@ -77,7 +77,7 @@ tf::cut_result cut(tools::job& work, const usable_input& input, const cut_settin
 exit_status not_made(tools::job& work, const cut_settings& s, const usable_input& input,
                      const tf::certificate& why) {
     work.out.result(work.name + ": not made: " + tools::message_of(why, [&](std::uint32_t f) {
-                        return input.source().stored_face(f);
+                        return input.source().face_in_file(f);
                     }));
     if (why.status == tf::status::open_input)
         work.warn("no-solid",
@@ -116,7 +116,7 @@ exit_status look_at(tools::job& work, const cut_settings& s) {
         tf::cut_result made = cut(work, input, s);
         if (!made.certificate) {
             const std::string why = tools::message_of(
-                made.certificate, [&](std::uint32_t f) { return input.source().stored_face(f); });
+                made.certificate, [&](std::uint32_t f) { return input.source().face_in_file(f); });
             work.out.result(work.name + ": not cut: " + why);
             if (made.certificate.status == tf::status::open_input)
                 work.warn("no-solid",

@@ -36,9 +36,9 @@ bool has_objects(const std::string& format) {
 /// The file of what was made, with the attributes of the input.
 tf::mesh_file carried(const cut_settings& s, const usable_input& input, cut_off&& piece) {
     tf::mesh_file file = file_of(std::move(piece.mesh), piece.certificate);
-    tf::carry_sources(input.source())
-        .carry(file, piece.face_source, piece.vertex_source, piece.face_of_new_vertex,
-               piece.corner_source);
+    tf::attribute_sources(input.source())
+        .transfer(file, piece.face_source, piece.vertex_source, piece.face_of_new_vertex,
+                  piece.corner_source);
     input.source().texture_caps(file, piece.cap);
     if (!s.caps.empty()) {
         std::vector<std::int32_t> cap(piece.cap.begin(), piece.cap.end());  // none is -1
@@ -49,7 +49,7 @@ tf::mesh_file carried(const cut_settings& s, const usable_input& input, cut_off&
 }
 
 /// All pieces as one, and where the faces of each begin.
-cut_off together(std::vector<cut_off>& pieces, std::vector<tf::part>& parts) {
+cut_off together(std::vector<cut_off>& pieces, std::vector<tf::named_faces>& parts) {
     cut_off all;
     std::vector<tf::mesh_view> views;
     for (const cut_off& piece : pieces) {
@@ -110,8 +110,8 @@ void write_pieces(job& work, const cut_settings& s, const usable_input& input,
     if (!output || o.dry_run) return;
     const auto timing = work.time("write");
     const written_form form = form_of(work, input.file, *output);
-    if (const tf::carry_source source = input.source();
-        tf::carry_sources(source).has_values_left_out())
+    if (const tf::attribute_source source = input.source();
+        tf::attribute_sources(source).has_values_left_out())
         work.warn("attributes", "not all properties of the input are carried over");
     const auto write = [&](tf::mesh_file&& file, const std::filesystem::path& path, double moved,
                            bool certified) {
@@ -121,7 +121,7 @@ void write_pieces(job& work, const cut_settings& s, const usable_input& input,
         write_mesh(work, file, how, path, moved);
     };
     if (!has_number(*output) && pieces.size() != 1) {
-        std::vector<tf::part> parts;
+        std::vector<tf::named_faces> parts;
         cut_off all = together(pieces, parts);
         tf::mesh_file file = carried(s, input, std::move(all));
         file.attributes.parts = std::move(parts);

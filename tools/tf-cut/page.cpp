@@ -59,7 +59,7 @@ void write_page(job& work, const usable_input& input, const std::string& verdict
         shown.classes.push_back({"the mesh", "#b4bac2", {}, true});
         scene_mesh mesh{.mesh = input.file.mesh, .kind = {0}, .name = work.name};
         for (std::uint32_t f = 0; f < input.file.mesh.faces.size(); ++f)
-            mesh.number.push_back(input.source().stored_face(f));
+            mesh.number.push_back(input.source().face_in_file(f));
         mesh.ghost = lines != nullptr;
         shown.meshes.push_back(std::move(mesh));
     }

@@ -15,8 +15,8 @@ json distances_entry(const cut_settings& s, double used, double resolution, doub
     return {{"given", s.shape.distance.given},
             {"used", used},
             {"resolution", or_null(resolution > 0.0, resolution)},
-            {"least", least},
-            {"greatest", greatest}};
+            {"min", least},
+            {"max", greatest}};
 }
 
 /// Enters what cavities have no way out, and says which drains lead nowhere.
@@ -39,7 +39,8 @@ cut_off shape_of(job& work, const cut_settings& s, const usable_input& input,
     const tf::mesh& mesh = input.file.mesh;
     const double distance = s.shape.distance.used(diagonal_of(input));
     if (s.mode == cut_mode::simplify) {
-        const std::vector<std::uint32_t> groups = tf::carry_sources(input.source()).corner_groups();
+        const std::vector<std::uint32_t> groups =
+            tf::attribute_sources(input.source()).corner_groups();
         tf::simplify_result made = tf::simplify(mesh, distance,
                                                 {.precision = precision,
                                                  .target_faces = s.shape.fewest_faces,

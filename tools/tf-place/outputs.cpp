@@ -1,7 +1,7 @@
 #include "tools/shell/mesh_output.hpp"
 #include "tools/tf-place/place.hpp"
 #include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/write.hpp>
 #include <treeform/tf.hpp>
@@ -19,9 +19,10 @@ tf::rounding_effects rounding_of(job& work, const tf::body_set& moving,
     tf::rounding_effects sum;
     for (const placed_body& at : placed) {
         const bool was_single = is_single(moving.file_of(at.number).content);
-        sum += tf::effects_of_rounding(moving.shapes[at.number], at.matrix, at.points,
-                                       was_single ? tf::precision::float32 : tf::precision::float64,
-                                       precision, work.progress("rounding"));
+        sum +=
+            tf::find_rounding_effects(moving.shapes[at.number], at.matrix, at.points,
+                                      was_single ? tf::precision::float32 : tf::precision::float64,
+                                      precision, work.progress("rounding"));
         work.call_ended();
     }
     return sum;

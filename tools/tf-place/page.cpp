@@ -58,8 +58,8 @@ void add_body(scene& shown, const tf::body_set& set, std::size_t body, tf::point
     const tf::prepared_mesh& shape = set.shapes[body];
     std::vector<std::uint32_t> numbers;
     std::vector<std::uint8_t> kinds;
-    for (std::uint32_t f = 0; f < shape.view().faces.size(); ++f) {
-        numbers.push_back(set.stored_face(body, f));
+    for (std::uint32_t f = 0; f < shape.indexed_view().faces.size(); ++f) {
+        numbers.push_back(set.face_in_file(body, f));
         const auto how = relations.empty() ? tf::mesh_relation::separate : relations[f];
         const int worse = place_of_relation[static_cast<std::size_t>(how)];
         kinds.push_back(
@@ -71,7 +71,7 @@ void add_body(scene& shown, const tf::body_set& set, std::size_t body, tf::point
                               .number = std::move(numbers),
                               .value = std::move(values)});
     else
-        shown.meshes.push_back({.mesh = {points, shape.view().faces},
+        shown.meshes.push_back({.mesh = {points, shape.indexed_view().faces},
                                 .kind = std::move(kinds),
                                 .number = std::move(numbers),
                                 .name = set.label(body),
@@ -198,7 +198,7 @@ std::vector<std::vector<tf::mesh_relation>> face_relations(const placing& p) {
     const tf::prepared_mesh& shape = p.moving.shapes[0];
     const double clearance = p.used(p.settings.clearance);
     const tf::placement at =
-        p.at ? p.at : tf::measure_among(shape, p.fixed.shapes, {.clearance = clearance});
+        p.at ? p.at : tf::measure_in_place(shape, p.fixed.shapes, {.clearance = clearance});
     return at.face_relations(shape, p.fixed.shapes);
 }
 
@@ -213,12 +213,12 @@ void add_parts(scene& shown, const tf::body_set& parts, const tf::packing& found
             static_cast<std::size_t>(std::ranges::find(labels, file.label) - labels.begin()),
             labels.size() - 1);
         const std::uint8_t kind = at.placed ? static_cast<std::uint8_t>(number) : no_place;
-        scene_mesh mesh{.mesh = {at.points, parts.shapes[i].view().faces},
+        scene_mesh mesh{.mesh = {at.points, parts.shapes[i].indexed_view().faces},
                         .kind = {kind},
                         .name = parts.label(i),
                         .ghost = !at.placed};
         for (std::uint32_t f = 0; f < mesh.mesh.faces.size(); ++f)
-            mesh.number.push_back(parts.stored_face(i, f));
+            mesh.number.push_back(parts.face_in_file(i, f));
         shown.meshes.push_back(std::move(mesh));
         const tf::box3 box = tf::bounding_box(at.points).value_or(tf::box3{});
         tf::point3 top = center_of(box);
@@ -271,7 +271,7 @@ void write_page(job& work, const placing& p, const tf::deviation_result* known) 
                  p.at.relation != tf::mesh_relation::penetrating;
     shown.classes = classes_of(p);
     const tf::prepared_mesh& shape = p.moving.shapes[0];
-    const tf::points_view before = shape.view().points;
+    const tf::points_view before = shape.indexed_view().points;
     const bool measures = p.settings.mode == place_mode::measure;
     const bool moves = p.at && !measures && !p.at.points.empty();
     const tf::points_view points = moves ? tf::points_view(p.at.points) : before;
@@ -288,7 +288,8 @@ void write_page(job& work, const placing& p, const tf::deviation_result* known) 
     const tf::box3 to = tf::bounding_box(points).value_or(tf::box3{});
     if (moves && from != to) add_body(shown, p.moving, 0, before, mark::start, {});
     for (std::size_t i = 0; i < p.fixed.shapes.size(); ++i)
-        add_body(shown, p.fixed, i, p.fixed.shapes[i].view().points, mark::fixed, relations[1 + i]);
+        add_body(shown, p.fixed, i, p.fixed.shapes[i].indexed_view().points, mark::fixed,
+                 relations[1 + i]);
     tf::mesh floor;
     if (p.at.bed || p.laid) floor = bed_under(to, p.at.bed.value_or(to.min.z));
     if (!floor.faces.empty())

@@ -150,7 +150,8 @@ tf::placement search(placing& p, const tf::progress_callback& progress) {
         case place_mode::separate:
             return tf::separate(mesh, fixed, options);
         default:
-            return tf::measure_among(mesh, fixed, {.clearance = clearance, .progress = progress});
+            return tf::measure_in_place(mesh, fixed,
+                                        {.clearance = clearance, .progress = progress});
     }
 }
 

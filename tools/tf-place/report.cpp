@@ -46,7 +46,7 @@ void enter_skipped(json& entry, const placing& p) {
     for (std::size_t i = 0; i < p.fixed.shapes.size(); ++i) {
         const std::string& part = p.fixed.part_name(i);
         const tf::prepared_mesh& shape = p.fixed.shapes[i];
-        const tf::mesh_view mesh = shape.view();
+        const tf::mesh_view mesh = shape.indexed_view();
         const bool indexed = shape.indexes_built() > 0;
         json& file = entry["fixed"][p.fixed.file_number(i)];
         if (indexed) file["indexed"] = true;

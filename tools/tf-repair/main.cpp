@@ -62,7 +62,9 @@ void add_options(command_line& line, repair_settings& s) {
     line.option(s.steps.largest_hole, {"--holes", "N", "fill holes of at most N edges", "all"});
     line.option(
         {"--strays", "SHARE", "drop loose open pieces below this share of the area", "0.1%"},
-        [&s](std::string_view text) { s.steps.strays = tools::parse_share("--strays", text); });
+        [&s](std::string_view text) {
+            s.steps.stray_share = tools::parse_share("--strays", text);
+        });
     line.option(
         {.names = "--fill-rule",
          .value = "RULE",

@@ -78,8 +78,8 @@ void write_solid(job& work, const dirty_mesh& input, const repair_settings& sett
                  tf::repaired_file& made, const std::filesystem::path& path) {
     const auto timing = work.time("write");
     const written_form form = form_of(work, input.file, path);
-    if (const tf::carry_source source = input.source();
-        tf::carry_sources(source).has_values_left_out())
+    if (const tf::attribute_source source = input.source();
+        tf::attribute_sources(source).has_values_left_out())
         work.warn("attributes", "not all properties of the input are carried over");
     if (!settings.source.empty()) add_sources(made.file, settings.source, made.face_source);
     write_certified(work, made.file, form, path, made.certificate.max_displacement);

@@ -5,7 +5,7 @@
 #include "tools/shell/change_limits.hpp"
 #include "tools/shell/run.hpp"
 #include "tools/shell/usable_input.hpp"
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/repair.hpp>
 #include <treeform/tf.hpp>

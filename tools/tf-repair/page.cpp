@@ -52,7 +52,7 @@ fate compare(const dirty_mesh& input, tf::mesh_view made,
     const tf::mesh_view before = input.file.mesh;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> of_number;  // in the file, in `before`
     for (std::uint32_t f = 0; f < before.faces.size(); ++f)
-        of_number.emplace_back(input.source().stored_face(f), f);
+        of_number.emplace_back(input.source().face_in_file(f), f);
     std::sort(of_number.begin(), of_number.end());
     fate result{
         std::vector<std::uint8_t>(before.faces.size(), mark::removed),
@@ -178,7 +178,7 @@ void write_page(job& work, const dirty_mesh& input, const std::string& verdict, 
     if (!after) shown.classes[mark::kept].name = "other";
     scene_mesh first{.mesh = before, .kind = was.before, .name = after ? "the input" : ""};
     for (std::uint32_t f = 0; f < before.faces.size(); ++f)
-        first.number.push_back(input.source().stored_face(f));
+        first.number.push_back(input.source().face_in_file(f));
     first.variant = after ? "before" : "";
     shown.meshes.push_back(std::move(first));
     if (after)

@@ -28,7 +28,7 @@ std::string offers(const repair_settings& settings, const tf::repaired_file& mad
     if (!settings.steps.sheet && works(tried)) offer("--sheet writes it");
     tried = settings;
     tried.steps.max_loss = 1.0;
-    if (made.statistics.sheets > 0 && works(tried)) offer("--accept-loss makes a solid");
+    if (made.statistics.unfilled_rims > 0 && works(tried)) offer("--accept-loss makes a solid");
     offer("--wrap 2% wraps it");
     return text + ")";
 }
@@ -39,7 +39,7 @@ std::string accepted(const repair_settings& settings, const tf::repaired_file& m
                      const attempt& works) {
     repair_settings tried = settings;
     tried.steps.max_loss = 1.0;
-    const bool is_made = made.parts.empty() && made.statistics.sheets == 0;
+    const bool is_made = made.parts.empty() && made.statistics.unfilled_rims == 0;
     return is_made || works(tried) ? " (--accept-loss writes it)" : " (--wrap 2% wraps it)";
 }
 

@@ -35,7 +35,7 @@ void enter_source(job& work, const tf::mesh_file& header, const std::string& sum
     work.warn(header.warnings);
 }
 
-findings findings_of(tf::stream_search_result&& r) {
+findings findings_of(tf::file_search_result&& r) {
     findings result;
     result.part = std::move(r.part);
     result.found = std::move(r.found);
@@ -84,10 +84,10 @@ bool needs_tiles(job& work, const search_settings& settings, const tile_options&
 
 namespace {
 
-tf::stream_search_options library_options(job& work, const search_settings& settings,
-                                          const tile_options& tiles,
-                                          const std::filesystem::path& folder) {
-    tf::stream_search_options options;
+tf::file_search_options library_options(job& work, const search_settings& settings,
+                                        const tile_options& tiles,
+                                        const std::filesystem::path& folder) {
+    tf::file_search_options options;
     options.vertices = settings.vertices;
     options.kinds = settings.looked_for();
     options.box = settings.box;
@@ -141,7 +141,7 @@ findings search_in_tiles(job& work, const search_settings& settings, const tile_
                          const std::filesystem::path& folder) {
     const auto options = library_options(work, settings, tiles, folder);
     const double before = work.seconds["read"];
-    tf::stream_search_result r = take(work, [&] {
+    tf::file_search_result r = take(work, [&] {
         const job::timer timing = work.time("read");
         if (!tiles.finish) return tf::self_intersections_of_file(work.path, options);
         tf::shared_search search(work.path, options);

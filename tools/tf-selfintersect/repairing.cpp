@@ -2,8 +2,8 @@
 #include "tools/shell/mesh_output.hpp"
 #include "tools/shell/usable_input.hpp"
 #include "tools/tf-selfintersect/outputs.hpp"
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/attributes.hpp>
-#include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/tf.hpp>
 
@@ -18,8 +18,8 @@ namespace {
 /// Merging is not to lose what is written of vertices and faces.
 bool keeps_cuts(const tf::mesh_file& input, const repair_settings& settings) {
     if (settings.keep_cuts || settings.mode != tf::resolve_mode::outer) return true;
-    const tf::carry_source source{&input, {}};
-    return tf::carry_sources(source).merging_mixes_values();
+    const tf::attribute_source source{&input, {}};
+    return tf::attribute_sources(source).merging_mixes_values();
 }
 
 tf::repair_result compute(job& work, const tf::mesh_file& input, const findings& result,
@@ -144,15 +144,15 @@ void add_source_faces(tf::mesh_file& file, const findings& result,
 /// may stand for several.
 void carry(job& work, tf::mesh_file& file, tf::mesh_file& input, const findings& result,
            const tf::repair_result& repaired) {
-    const tf::carry_source source{&input, result.part.triangle_of_face};
-    bool all = !tf::carry_sources(source).has_values_left_out();
+    const tf::attribute_source source{&input, result.part.triangle_of_face};
+    bool all = !tf::attribute_sources(source).has_values_left_out();
     if (input.mesh.points.size() != result.part.mesh.points.size()) {
-        all = all && !tf::carry_sources(source).has_vertex_values();
+        all = all && !tf::attribute_sources(source).has_vertex_values();
         input.mesh = result.part.mesh;
         std::erase_if(input.attributes.elements,
                       [](const tf::element& e) { return e.name == "vertex"; });
     }
-    tf::carry_sources(source).carry(file, repaired.face_source, repaired.vertex_source);
+    tf::attribute_sources(source).transfer(file, repaired.face_source, repaired.vertex_source);
     if (!all) work.warn("attributes", "not all properties of the input are carried over");
 }
 

@@ -10,8 +10,8 @@
 namespace tools {
 namespace {
 
-tf::part_options part_options_of(const job& work, const tf::mesh_file& file,
-                                 const search_settings& settings, double tolerance) {
+tf::usable_options part_options_of(const job& work, const tf::mesh_file& file,
+                                   const search_settings& settings, double tolerance) {
     const auto by_format =
         file.indexed ? tf::vertex_identity::by_index : tf::vertex_identity::by_coordinates;
     return {.vertices = settings.vertices.value_or(by_format),
@@ -20,8 +20,8 @@ tf::part_options part_options_of(const job& work, const tf::mesh_file& file,
             .details = settings.between || settings.within || work.options.detailed()};
 }
 
-tf::intersection_options search_options(job& work, const findings& result,
-                                        const search_settings& settings) {
+tf::face_pair_options search_options(job& work, const findings& result,
+                                     const search_settings& settings) {
     return {.vertices = tf::vertex_identity::by_index,  // joined as asked
             .first_only = settings.first,
             .kinds = settings.looked_for(),
@@ -65,8 +65,8 @@ findings search(job& work, tf::mesh_file& file, const search_settings& settings,
     {
         const job::timer timing = work.time("prepare");
         result.part =
-            tf::usable_part(keep_mesh ? file.mesh : std::move(file.mesh), file.stored_face,
-                            part_options_of(work, file, settings, result.tolerance_used));
+            tf::usable_faces(keep_mesh ? file.mesh : std::move(file.mesh), file.face_of_triangle,
+                             part_options_of(work, file, settings, result.tolerance_used));
         work.warn_of_non_finite(result.part.non_finite, "face", "faces");
         if (result.part.non_finite == result.triangles)
             throw failure(bad_input, "no-triangles",

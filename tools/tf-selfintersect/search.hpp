@@ -5,7 +5,7 @@
 #include "tools/shell/parse_value.hpp"
 #include "tools/shell/run.hpp"
 #include <treeform/mesh/as_mesh.hpp>
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tf.hpp>
@@ -33,8 +33,8 @@ struct search_settings {
 };
 
 struct findings {
-    tf::usable_mesh part{};           ///< what was searched
-    tf::intersection_result found{};  ///< only pairs that count; all counts
+    tf::usable_mesh part{};        ///< what was searched
+    tf::face_pair_result found{};  ///< only pairs that count; all counts
     std::vector<tf::intersection_region> regions{};
     tf::face_marks marks{};
     std::optional<tf::box3> box{};  ///< of all finite points

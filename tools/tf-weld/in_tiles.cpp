@@ -107,7 +107,7 @@ void enter_sources(job& work, const tf::cloud_survey& survey, const tf::cloud_in
     const json& first = work.entry["sources"].front();
     for (const char* key : {"format", "sha256"})
         work.entry[key] = inputs.paths.size() == 1 ? first[key] : json(nullptr);
-    work.entry["precision_in"] = precision(survey.single);
+    work.entry["precision_in"] = precision(survey.fits_float32);
     for (const tf::io_warning& w : survey.warnings)
         work.warn(w.code, w.code == "data-dropped" ? w.text + " by --join" : w.text);
 }

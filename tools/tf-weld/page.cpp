@@ -129,7 +129,7 @@ void write_page(job& work, const tf::mesh_file& file, const welding& w,
                      {"dropped", "#e02020"},
                      {"ways", "#10131a"}};
     if (w.triangles > 0) {
-        scene_mesh mesh{.mesh = file.mesh, .kind = {mark::faces}, .number = file.stored_face};
+        scene_mesh mesh{.mesh = file.mesh, .kind = {mark::faces}, .number = file.face_of_triangle};
         const auto finite = [&](std::uint32_t p) { return is_finite(file.mesh.points[p]); };
         const bool all = std::ranges::all_of(
             file.mesh.faces, [&](const tf::face& f) { return std::ranges::all_of(f, finite); });

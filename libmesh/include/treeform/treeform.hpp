@@ -5,9 +5,9 @@
 
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/clash.hpp>
 #include <treeform/mesh/convex_hull.hpp>

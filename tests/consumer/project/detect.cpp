@@ -6,7 +6,7 @@
 
 int main() {
     const tf::usable_mesh part = tf::read_mesh("data/two_spheres.stl");
-    const tf::intersection_result found = tf::self_intersections(part);
+    const tf::face_pair_result found = tf::self_intersections(part);
     for (const tf::face_pair& pair : found.pairs)  // ascending
         if (pair.kind == tf::pair_kind::crossing)
             std::printf("face %u crosses face %u\n", pair.a, pair.b);

@@ -210,7 +210,7 @@ def open3d_beside():
 
     row("ICP of 16,386 points, plane to cloud", {
         "treeform": lambda: found.update(ours=tf.align(scan, bump, method="point_to_plane",
-                                                       samples=0)),
+                                                       max_samples=0)),
         "Open3D, normals included": theirs})
     if found:
         print(f"  rms: treeform {found['ours'].rms:.2g}, Open3D {found['theirs'].inlier_rmse:.2g}")

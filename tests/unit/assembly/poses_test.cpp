@@ -70,28 +70,29 @@ void check_by_moving(const std::vector<tf::mesh>& parts, const std::vector<motio
 TEST_CASE("poses: batches say what single questions say, in their order") {
     test::random source(1);
     const tf::prepared_mesh a(ball(2, 1.0)), b(test::ring(1.5, 0.3, 20, 8));
-    std::vector<tf::mesh_positions> positions;
+    std::vector<tf::mesh_pair_options> positions;
     for (int i = 0; i < 300; ++i)
         positions.push_back(
-            {.move_a = random_motion(source, 1.5), .move_b = random_motion(source, 1.5)});
+            {.transform_a = random_motion(source, 1.5), .transform_b = random_motion(source, 1.5)});
     const auto meet = tf::intersects(a, b, positions);
     const auto apart = tf::distance(a, b, positions);
     auto within = positions;
-    for (tf::mesh_positions& one : within) one.radius = 0.5;
+    for (tf::mesh_pair_options& one : within) one.radius = 0.5;
     const auto near = tf::distance(a, b, within);
     std::size_t meeting = 0;
     for (std::size_t i = 0; i < positions.size(); ++i) {
         REQUIRE(meet[i] == tf::intersects(a, b, positions[i]));
-        REQUIRE(apart[i] == tf::distance(a, b, {positions[i].move_a, positions[i].move_b}));
+        REQUIRE(apart[i] ==
+                tf::distance(a, b, {positions[i].transform_a, positions[i].transform_b}));
         REQUIRE((apart[i] == 0.0) == meet[i]);
         REQUIRE(near[i] == (apart[i] <= 0.5 ? apart[i] : std::numeric_limits<double>::infinity()));
         meeting += meet[i] ? 1 : 0;
     }
     CHECK(meeting > 50);
     CHECK(meeting < 250);
-    CHECK(tf::intersects(a.view(), b.view(), positions) == meet);
-    CHECK(tf::distance(a.view(), b.view(), positions) == apart);
-    CHECK(tf::intersects(a, b, std::span<const tf::mesh_positions>()).empty());
+    CHECK(tf::intersects(a.indexed_view(), b.indexed_view(), positions) == meet);
+    CHECK(tf::distance(a.indexed_view(), b.indexed_view(), positions) == apart);
+    CHECK(tf::intersects(a, b, std::span<const tf::mesh_pair_options>()).empty());
 }
 
 TEST_CASE("poses: parts in many poses lie to each other as `clash` says of the moved ones") {

@@ -143,20 +143,20 @@ TEST_CASE("expression: random formulas have the values they were made with") {
     }
 }
 
-TEST_CASE("boolean expression: what it needs is false without it") {
-    const auto needs = [](const char* text, std::size_t operand) {
-        return tf::boolean_expression(text, 3).needs(operand);
+TEST_CASE("boolean expression: what it is_inside is false without it") {
+    const auto is_inside = [](const char* text, std::size_t operand) {
+        return tf::boolean_expression(text, 3).is_inside(operand);
     };
-    CHECK(needs("a-b", 0));
-    CHECK_FALSE(needs("a-b", 1));
-    CHECK(needs("a*b", 0));
-    CHECK(needs("a*b", 1));
-    CHECK_FALSE(needs("a+b", 0));
-    CHECK_FALSE(needs("a^b", 0));
-    CHECK(needs("(b+c)*a-c", 0));
-    CHECK(needs("(a-b)+(a-c)", 0));
-    CHECK_FALSE(needs("(a-b)+(c-b)", 0));
-    CHECK(tf::boolean_expression::union_of(0).needs(0));
+    CHECK(is_inside("a-b", 0));
+    CHECK_FALSE(is_inside("a-b", 1));
+    CHECK(is_inside("a*b", 0));
+    CHECK(is_inside("a*b", 1));
+    CHECK_FALSE(is_inside("a+b", 0));
+    CHECK_FALSE(is_inside("a^b", 0));
+    CHECK(is_inside("(b+c)*a-c", 0));
+    CHECK(is_inside("(a-b)+(a-c)", 0));
+    CHECK_FALSE(is_inside("(a-b)+(c-b)", 0));
+    CHECK(tf::boolean_expression::union_of(0).is_inside(0));
 }
 
 TEST_CASE("expression: names of operands") {

@@ -111,7 +111,7 @@ TEST_CASE("manifold operands: what is examined is told") {
     const tf::mesh touching = together(test::box(1, 1, 1), moved(test::box(1, 1, 1), {1, 1, 0}));
     CHECK(without_fan(touching) == 2);
     CHECK(known(touching, [](const auto& of, const auto& prepared) {
-        return of.open.count == 0 && of.mesh(prepared).view().points.size() == 14;
+        return of.open.count == 0 && of.mesh(prepared).indexed_view().points.size() == 14;
     }));
     // A face without an area, on an edge that its neighbors have in parts, is left out.
     tf::mesh flat = test::box(1, 1, 1);

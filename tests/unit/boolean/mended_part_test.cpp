@@ -55,7 +55,7 @@ TEST_CASE("mended parts: what is near is mended alone, to the solid that mending
                 const tf::thread_scope scope(threads);
                 CHECK(tf::boolean({both[0], both[1]}, {text, 2}).mesh == result.mesh);
             }
-            slivers += result.statistics.slivers;
+            slivers += result.statistics.rounding_repairs;
         }
     }
     CHECK(slivers > 20);

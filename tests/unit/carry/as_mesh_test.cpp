@@ -1,6 +1,6 @@
 #include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/attributes.hpp>
-#include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/self_intersections.hpp>
 #include <treeform/tf.hpp>
 
@@ -38,7 +38,7 @@ TEST_CASE("as_mesh: points of a cloud that are not finite go, and are counted") 
         tf::as_mesh(file_of({{{NAN, 0, 0}, {1, 0, 0}, {0, INFINITY, 0}, {2, 0, 0}}, {}}));
     CHECK(m.mesh.points == std::vector<tf::point3>{{1, 0, 0}, {2, 0, 0}});
     CHECK(m.non_finite == 2);
-    CHECK(tf::usable_part({{{NAN, 0, 0}, {1, 0, 0}}, {}}, {}).mesh.points.size() == 1);
+    CHECK(tf::usable_faces({{{NAN, 0, 0}, {1, 0, 0}}, {}}, {}).mesh.points.size() == 1);
     const tf::mesh joined = tf::join_meshes(std::vector<tf::mesh_view>{m.mesh, {}});
     CHECK(joined.points.size() == 2);
 }
@@ -47,7 +47,7 @@ TEST_CASE(
     "as_mesh: faces that are not finite go, and the rest is known by the numbers of the file") {
     tf::mesh_file file = file_of({{{NAN, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {INFINITY, 1, 0}},
                                   {{0, 1, 2}, {1, 2, 3}, {2, 3, 4}, {3, 2, 1}}});
-    file.stored_face = {0, 1, 1, 2};
+    file.face_of_triangle = {0, 1, 1, 2};
     const tf::usable_mesh m = tf::as_mesh(file);
     CHECK(m.mesh.faces == std::vector<tf::face>{{1, 2, 3}, {3, 2, 1}});
     CHECK(m.triangle_of_face == std::vector<std::uint32_t>{1, 3});
@@ -66,19 +66,19 @@ TEST_CASE("as_mesh: of nothing nothing, and a corner that is no vertex is refuse
                          std::invalid_argument);
 }
 
-TEST_CASE("usable_part: a box cuts the search down, and faces keep the way back to the file") {
+TEST_CASE("usable_faces: a box cuts the search down, and faces keep the way back to the file") {
     tf::mesh_file file = file_of(
         {{{NAN, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {9, 9, 9}, {9, 8, 9}, {8, 9, 9}, {1, 0, 0}},
          {{0, 1, 2}, {4, 5, 6}, {1, 7, 3}}});
     const tf::box3 box{{-1, -1, -1}, {2, 2, 2}};
     const tf::usable_mesh part =
-        tf::usable_part(file.mesh, {0, 4, 7}, {.box = box, .details = true});
+        tf::usable_faces(file.mesh, {0, 4, 7}, {.box = box, .details = true});
     CHECK(part.mesh.faces.size() == 1);
     CHECK(part.triangle(0) == 2);
     CHECK(part.face_in_file(0) == 7);
     CHECK(part.non_finite == 1);
     CHECK(part.component == std::vector<std::uint32_t>{1});
-    CHECK(tf::usable_part(file.mesh, {}, {.tolerance = 0.0}).mesh.faces.size() == 2);
+    CHECK(tf::usable_faces(file.mesh, {}, {.tolerance = 0.0}).mesh.faces.size() == 2);
 }
 
 TEST_CASE("join_meshes: equal points of several meshes are one") {

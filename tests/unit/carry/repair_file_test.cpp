@@ -1,5 +1,5 @@
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/attributes.hpp>
-#include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/tf.hpp>
 
@@ -124,7 +124,7 @@ TEST_CASE("repair_file: coplanar faces are merged, but not where that would mix 
         CHECK(std::ranges::count(made.is_kept, 0) == 4);  // the two ends within
         return made.file.mesh.faces.size();
     };
-    const tf::carry_source source{&file, {}};
+    const tf::attribute_source source{&file, {}};
     const auto set = [&](const char* element, const std::vector<std::int32_t>& values) {
         file.attributes.find_or_add(element, values.size())
             .set(tf::column::of<std::int32_t>("number", values));
@@ -132,17 +132,17 @@ TEST_CASE("repair_file: coplanar faces are merged, but not where that would mix 
     CHECK(faces_made() == 12);
     std::vector<std::int32_t> numbers(24, 1);
     set("face", numbers);
-    CHECK_FALSE(tf::carry_sources(source).merging_mixes_values());
+    CHECK_FALSE(tf::attribute_sources(source).merging_mixes_values());
     CHECK(faces_made() == 12);
     numbers[23] = 2;
     set("face", numbers);
-    CHECK(tf::carry_sources(source).merging_mixes_values());
+    CHECK(tf::attribute_sources(source).merging_mixes_values());
     const std::size_t as_cut = faces_made();
     CHECK(as_cut > 12);
     CHECK(as_cut == tf::repair(pair, {.keep_cuts = true}).mesh.faces.size());
     file.attributes = {};
     set("vertex", std::vector<std::int32_t>(16, 1));
-    CHECK(tf::carry_sources(source).merging_mixes_values());
+    CHECK(tf::attribute_sources(source).merging_mixes_values());
     CHECK(faces_made() == as_cut);
 }
 

@@ -1,7 +1,7 @@
 /// \file
 /// Caps of cuts get texture coordinates by their planes: as far apart as their points, to scale.
 
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/cut.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/tf.hpp>
@@ -45,9 +45,9 @@ std::map<triple, triple> on_caps(const tf::mesh_file& file, const std::vector<st
 tf::mesh_file textured(const tf::cut_piece& piece, const tf::mesh_file& of) {
     tf::mesh_file file;
     file.mesh = piece.mesh;
-    tf::carry_sources(tf::carry_source{&of, {}})
-        .carry(file, piece.face_source, piece.vertex_source);
-    tf::carry_source{&of, {}}.texture_caps(file, piece.cap);
+    tf::attribute_sources(tf::attribute_source{&of, {}})
+        .transfer(file, piece.face_source, piece.vertex_source);
+    tf::attribute_source{&of, {}}.texture_caps(file, piece.cap);
     return file;
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("both sides in one file, several planes, and no texture") {
     }
     tf::mesh_file together;
     together.mesh = tf::concatenate(meshes);
-    tf::carry_source{&file, {}}.texture_caps(together, all.cap);
+    tf::attribute_source{&file, {}}.texture_caps(together, all.cap);
     for (const auto& [p, t] : on_caps(together, all.cap))
         CHECK(t == triple{0.5 * p[0], 0.5 * p[1], 0});
     CHECK(together.attributes.corners.fault(together.mesh.faces.size()).empty());

@@ -1,6 +1,6 @@
 // A file that is moved, and mirrored.
 
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/write.hpp>
@@ -53,7 +53,7 @@ TEST_CASE("transform_file: what does not mirror leaves faces as they are") {
     CHECK(cloud.mesh.points[0] == tf::point3{2, 2, 3});
 }
 
-TEST_CASE("split_parts: solids that touch are parts, patches of one surface are one") {
+TEST_CASE("file_parts: solids that touch are parts, patches of one surface are one") {
     const std::string box =
         "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
     const std::string other =
@@ -63,14 +63,14 @@ TEST_CASE("split_parts: solids that touch are parts, patches of one surface are 
         "-1\n";
     const auto parts_of_obj = [](const std::string& text) {
         const tf::mesh_file file = tf::read(std::as_bytes(std::span(text)), "a.obj", "obj");
-        return tf::split_parts({&file, {}}, true);
+        return tf::file_parts({&file, {}}, true);
     };
     const auto two = parts_of_obj(box + "o one\n" + sides + other + "o two\n" + sides);
     REQUIRE(two.size() == 2);
     CHECK(two[0].name == "one");
     CHECK(two[1].name == "two");
     CHECK(tf::signed_volume(two[1].file.mesh) == doctest::Approx(1.0));
-    CHECK(two[1].stored_face.front() == 6);
+    CHECK(two[1].face_in_file.front() == 6);
     // The same box, its first side with points of its own.
     const auto patches =
         parts_of_obj(box + "g low\n" + sides.substr(0, 15) + box + "g rest\n" + sides.substr(15));

@@ -13,13 +13,13 @@
 namespace {
 
 using tf::approximate_point;
-using tf::contact;
+using tf::feature_pair;
 using tf::intersect;
 using tf::point3;
 using tf::triangle3;
 using tf::triangle_contact;
 using tf::test::integral;
-using enum tf::feature;
+using enum tf::triangle_feature;
 
 const triangle3 half_square{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
 
@@ -74,7 +74,7 @@ TEST_CASE("on small lattices the point is right to a few units in the last place
         const triangle3 b = small_triangle(random);
         const tf::test::reference_intersection<std::int64_t> reference(integral(a), integral(b));
         for (std::size_t i = 0; i < reference.points().size(); ++i) {
-            const contact end = reference.answer().ends[i];
+            const feature_pair end = reference.answer().ends[i];
             const auto& exact = reference.points()[i];
             const point3 p = approximate_point(a, b, end);
             constructed += end.on_a > v2 && end.on_b > v2;

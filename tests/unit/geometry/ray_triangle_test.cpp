@@ -53,7 +53,7 @@ struct subject {
 
     struct answer {
         ratio line_entry, entry, exit;
-        tf::feature at;
+        tf::triangle_feature at;
         bool coplanar;
     };
 
@@ -94,18 +94,18 @@ struct subject {
         return answer{begin, entry, exit, name_of(entry), dot(n, direction) == 0};
     }
 
-    [[nodiscard]] tf::feature name_of(const ratio& t) const {
+    [[nodiscard]] tf::triangle_feature name_of(const ratio& t) const {
         const vec x = sum_of(times(origin, t.den), times(direction, t.num));
         const auto corner = [&](std::size_t i) { return times(corners[i % 3], t.den); };
         for (std::size_t i = 0; i < 3; ++i)
-            if (x == corner(i)) return static_cast<tf::feature>(i);
+            if (x == corner(i)) return static_cast<tf::triangle_feature>(i);
         for (std::size_t i = 0; i < 3; ++i) {
             const vec to_from = minus(corner(i), x);
             const vec to_next = minus(corner(i + 1), x);
             if (cross(to_from, to_next) == vec{} && dot(to_from, to_next) < 0)
-                return static_cast<tf::feature>(3 + i);
+                return static_cast<tf::triangle_feature>(3 + i);
         }
-        return tf::feature::interior;
+        return tf::triangle_feature::interior;
     }
 };
 
@@ -267,8 +267,8 @@ TEST_CASE("ray and triangle: two triangles with a common edge leave no gap betwe
         if (f > 0.01 && f < 0.99) REQUIRE((one || other));
         CHECK((one && other) >= exact);
         if (one && other) {
-            CHECK(one->at == tf::feature::e2);
-            CHECK(other->at == tf::feature::e2);
+            CHECK(one->at == tf::triangle_feature::e2);
+            CHECK(other->at == tf::triangle_feature::e2);
             CHECK(tf::compare(ray, *one, *other) == 0);
             ++edge;
         }

@@ -13,14 +13,14 @@
 
 namespace {
 
-using tf::contact;
-using tf::feature;
+using tf::feature_pair;
 using tf::intersect;
 using tf::point3;
 using tf::triangle3;
 using tf::triangle_contact;
+using tf::triangle_feature;
 using tf::test::integral;
-using enum tf::feature;
+using enum tf::triangle_feature;
 
 /// The triangle every hand-made case is about: the half of a square, 4 wide, normal upwards.
 const triangle3 base{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
@@ -29,8 +29,8 @@ const triangle3 base{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
 const std::array<point3, 7> witness{
     {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 1, 0}}};
 
-feature nth(std::size_t i) { return static_cast<feature>(i); }
-int index_of(feature f) { return static_cast<int>(f) % 3; }
+triangle_feature nth(std::size_t i) { return static_cast<triangle_feature>(i); }
+int index_of(triangle_feature f) { return static_cast<int>(f) % 3; }
 
 point3 plus(const point3& p, const point3& v) { return {p.x + v.x, p.y + v.y, p.z + v.z}; }
 triangle3 moved(const triangle3& t, const point3& v) {
@@ -38,31 +38,31 @@ triangle3 moved(const triangle3& t, const point3& v) {
 }
 triangle3 flipped(const triangle3& t) { return {t[0], t[2], t[1]}; }
 
-bool has(const triangle_contact& found, contact end) {
+bool has(const triangle_contact& found, feature_pair end) {
     return std::find(found.ends.begin(), found.ends.begin() + found.count, end) !=
            found.ends.begin() + found.count;
 }
 
-std::set<std::pair<feature, feature>> ends_of(const triangle_contact& found) {
-    std::set<std::pair<feature, feature>> ends;
+std::set<std::pair<triangle_feature, triangle_feature>> ends_of(const triangle_contact& found) {
+    std::set<std::pair<triangle_feature, triangle_feature>> ends;
     for (std::size_t i = 0; i < found.count; ++i)
         ends.emplace(found.ends[i].on_a, found.ends[i].on_b);
     CHECK(ends.size() == found.count);
     return ends;
 }
-using names = std::set<std::pair<feature, feature>>;
+using names = std::set<std::pair<triangle_feature, triangle_feature>>;
 
 /// `t` with corner i at the place of corner order[i], and what that makes of a name.
 triangle3 reordered(const triangle3& t, const std::array<int, 3>& order) {
     const auto at = [&](std::size_t i) { return t[static_cast<std::size_t>(order[i])]; };
     return {at(0), at(1), at(2)};
 }
-feature original_name(feature f, const std::array<int, 3>& order) {
+triangle_feature original_name(triangle_feature f, const std::array<int, 3>& order) {
     if (f == interior) return f;
     const int i = order[static_cast<std::size_t>(index_of(f))];
-    if (f <= v2) return static_cast<feature>(i);
+    if (f <= v2) return static_cast<triangle_feature>(i);
     const int k = order[static_cast<std::size_t>((index_of(f) + 1) % 3)];
-    return static_cast<feature>(3 + ((i + 1) % 3 == k ? i : k));
+    return static_cast<triangle_feature>(3 + ((i + 1) % 3 == k ? i : k));
 }
 constexpr std::array<std::array<int, 3>, 6> orders{
     {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
@@ -137,10 +137,10 @@ TEST_CASE("a corner on any feature is a touch at one named point") {
             const auto found = intersect(base, above);
             CHECK(found.count == 1);
             CHECK(found.count == 1);
-            CHECK(found.ends[0] == contact{nth(f), nth(corner)});
+            CHECK(found.ends[0] == feature_pair{nth(f), nth(corner)});
             const auto swapped = intersect(above, base);
             CHECK(swapped.count == 1);
-            CHECK(swapped.ends[0] == contact{nth(corner), nth(f)});
+            CHECK(swapped.ends[0] == feature_pair{nth(corner), nth(f)});
         }
 }
 
@@ -214,9 +214,9 @@ TEST_CASE("coplanar triangles can touch at a corner or along an edge") {
 
 TEST_CASE("the corners of a coplanar area come counter-clockwise as the first triangle runs") {
     const auto ends = [](const triangle_contact& found) {
-        return std::vector<contact>(found.ends.begin(), found.ends.begin() + found.count);
+        return std::vector<feature_pair>(found.ends.begin(), found.ends.begin() + found.count);
     };
-    using list = std::vector<contact>;
+    using list = std::vector<feature_pair>;
     SUBCASE("identical") {
         const auto found = intersect(base, base);
         CHECK(found.count >= 3);
@@ -264,9 +264,9 @@ TEST_CASE("a point meets a triangle where it lies") {
         const auto found = intersect(base, point);
         CHECK(found.count == 1);
         CHECK(found.coplanar);
-        CHECK(found.ends[0] == contact{nth(f), v0});
-        CHECK(intersect(point, base).ends[0] == contact{v0, nth(f)});
-        CHECK(intersect(point, point).ends[0] == contact{v0, v0});
+        CHECK(found.ends[0] == feature_pair{nth(f), v0});
+        CHECK(intersect(point, base).ends[0] == feature_pair{v0, nth(f)});
+        CHECK(intersect(point, point).ends[0] == feature_pair{v0, v0});
     }
     const point3 off{1, 1, 1};
     CHECK(intersect(base, {off, off, off}).count == 0);
@@ -350,7 +350,7 @@ TEST_CASE("neither the order of corners nor of triangles nor of axes changes the
         const auto expected = reference(a, b);
         if (expected.degenerate) continue;  // named by number, which the order changes
         names ends;
-        for (const contact c : expected.ends) ends.emplace(c.on_a, c.on_b);
+        for (const feature_pair c : expected.ends) ends.emplace(c.on_a, c.on_b);
 
         for (const auto& order_a : orders)
             for (const auto& order_b : orders) {

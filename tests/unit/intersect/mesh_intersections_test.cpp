@@ -42,18 +42,19 @@ pairs by_brute_force(const tf::mesh& a, const tf::mesh& b, const Common& common)
 
 /// The pairs, after the counts and the short answer have been compared with them, and the answer of
 /// the same meshes prepared. Those are indexed whole, the others where their boxes overlap.
-pairs found_in(const tf::mesh& a, const tf::mesh& b, const tf::intersection_options& options = {}) {
-    const tf::intersection_result result = tf::mesh_intersections(a, b, options);
+pairs found_in(const tf::mesh& a, const tf::mesh& b, const tf::face_pair_options& options = {}) {
+    const tf::face_pair_result result = tf::mesh_intersections(a, b, options);
     std::array<std::uint64_t, tf::pair_kind_count> counts{};
     for (const tf::face_pair& pair : result.pairs) ++counts[static_cast<std::size_t>(pair.kind)];
     CHECK(result.counts == counts);
     CHECK(result.box_pairs >= result.pairs.size());
-    CHECK(tf::intersects(a, b, {options.move_a, options.move_b}) == !result.pairs.empty());
+    CHECK(tf::intersects(a, b, {options.transform_a, options.transform_b}) ==
+          !result.pairs.empty());
     const auto of_prepared =
         tf::mesh_intersections(tf::prepared_mesh::borrow(a), tf::prepared_mesh::borrow(b), options);
     CHECK(of_prepared.pairs == result.pairs);
     CHECK(of_prepared.counts == result.counts);
-    if (options.move_a == tf::transform<3>{} && options.move_b == tf::transform<3>{})
+    if (options.transform_a == tf::transform<3>{} && options.transform_b == tf::transform<3>{})
         CHECK(of_prepared.box_pairs >= result.box_pairs);
     return result.pairs;
 }
@@ -213,12 +214,13 @@ TEST_CASE("mesh_intersections: a move gives the pairs of the moved mesh, with th
         test::random source(seed);
         const tf::mesh a = test::random_soup(source, 400, 0.2);
         const tf::mesh b = test::lattice_soup(source, 100, 60, 2);
-        tf::intersection_options options;
-        if (seed % 3 != 0) options.move_a = random_map(source);
-        if (seed % 3 != 1) options.move_b = random_map(source);
-        if (seed == 10) options.move_a.rows[0] = options.move_a.rows[1];  // everything degenerate
+        tf::face_pair_options options;
+        if (seed % 3 != 0) options.transform_a = random_map(source);
+        if (seed % 3 != 1) options.transform_b = random_map(source);
+        if (seed == 10)
+            options.transform_a.rows[0] = options.transform_a.rows[1];  // everything degenerate
         const pairs found = found_in(a, b, options);
-        CHECK(found == found_in(image(a, options.move_a), image(b, options.move_b)));
+        CHECK(found == found_in(image(a, options.transform_a), image(b, options.transform_b)));
         met += found.empty() ? 0 : 1;
     }
     CHECK(met >= 6);
@@ -233,11 +235,11 @@ TEST_CASE("mesh_intersections: turned meshes as all pairs of their images one by
         const double fineness = 1.0 / static_cast<double>(2 + 3 * (seed % 3));
         const tf::mesh a = test::scaled(ball(2), scale);
         const tf::mesh b = test::scaled(test::random_soup(source, 120, fineness), scale);
-        tf::intersection_options options;
-        if (seed % 2 == 0) options.move_a = turned(source, scale);
-        options.move_b = turned(source, scale);
+        tf::face_pair_options options;
+        if (seed % 2 == 0) options.transform_a = turned(source, scale);
+        options.transform_b = turned(source, scale);
         const pairs found = found_in(a, b, options);
-        CHECK(found == by_brute_force(image(a, options.move_a), image(b, options.move_b),
+        CHECK(found == by_brute_force(image(a, options.transform_a), image(b, options.transform_b),
                                       test::common_by_library));
         met += found.size();
     }
@@ -268,8 +270,8 @@ TEST_CASE("mesh_intersections: flat meshes in one plane, and seen from the side"
     CHECK(
         found_in(sheet, test::moved(sheet, {0.25, 0.5, std::numeric_limits<double>::denorm_min()}))
             .empty());
-    tf::intersection_options upright;
-    upright.move_b.rows = {{{0, 0, 1, 2.5}, {0, 1, 0, 0.25}, {1, 0, 0, -2}}};
+    tf::face_pair_options upright;
+    upright.transform_b.rows = {{{0, 0, 1, 2.5}, {0, 1, 0, 0.25}, {1, 0, 0, -2}}};
     CHECK(!found_in(sheet, sheet, upright).empty());
     tf::mesh line = sheet;  // no face has an area
     for (tf::point3& p : line.points) p.y = p.x;
@@ -279,14 +281,14 @@ TEST_CASE("mesh_intersections: flat meshes in one plane, and seen from the side"
 TEST_CASE("intersects: balls that touch in one corner do, a hair apart they do not") {
     const tf::mesh one = ball(3);
     const auto move_by = [](double x) {
-        return tf::mesh_positions{tf::transform<3>::translation(tf::point3{x, 0, 0}), {}};
+        return tf::mesh_pair_options{tf::transform<3>::translation(tf::point3{x, 0, 0}), {}};
     };
     CHECK(tf::intersects(one, one, move_by(2.0)));
     CHECK_FALSE(tf::intersects(one, one, move_by(std::nextafter(2.0, 3.0))));
     CHECK(tf::intersects(one, one, move_by(-2.0)));
     CHECK(tf::intersects(one, one, move_by(1.5)));
     CHECK_FALSE(tf::intersects(one, test::scaled(one, 0.5)));  // inside
-    CHECK(found_in(one, one, {.move_a = tf::transform<3>::translation(tf::point3{2.0, 0, 0})})
+    CHECK(found_in(one, one, {.transform_a = tf::transform<3>::translation(tf::point3{2.0, 0, 0})})
               .size() == 16);
 }
 
@@ -341,7 +343,7 @@ TEST_CASE("mesh_intersections: refuses what it cannot compute with and says what
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS((void)tf::detail::intersect::mesh_intersections(sheet, tree, bad, tree),
                          doctest::Contains(": b: face 7"), std::invalid_argument);
-    CHECK_THROWS_WITH_AS((void)tf::intersects(tf::mesh{}, sheet, {.move_a = {{{{nan}}}}}),
+    CHECK_THROWS_WITH_AS((void)tf::intersects(tf::mesh{}, sheet, {.transform_a = {{{{nan}}}}}),
                          doctest::Contains("not finite"), std::invalid_argument);
     bad = sheet;
     bad.points[6].y = nan;
@@ -353,15 +355,15 @@ TEST_CASE("mesh_intersections: refuses what it cannot compute with and says what
     CHECK_THROWS_AS((void)tf::detail::intersect::mesh_intersections({}, tree, sheet, tree),
                     std::invalid_argument);
     const auto far = tf::transform<3>::translation(tf::point3{1.7e308, 0, 0});
-    tf::intersection_options options{.move_a = far, .move_b = far};
-    options.move_a.rows[0][0] = 1e308;
-    options.move_b.rows[0][0] = 1e308;
+    tf::face_pair_options options{.transform_a = far, .transform_b = far};
+    options.transform_a.rows[0][0] = 1e308;
+    options.transform_b.rows[0][0] = 1e308;
     CHECK_THROWS_AS(
         (void)tf::detail::intersect::mesh_intersections(sheet, tree, sheet, tree, options),
         std::invalid_argument);
     const tf::prepared_mesh model = tf::prepared_mesh::borrow(sheet);
     CHECK_THROWS_AS((void)tf::mesh_intersections(model, model, options), std::invalid_argument);
-    CHECK_THROWS_WITH_AS((void)tf::mesh_intersections(model, model, {.move_a = {{{{nan}}}}}),
+    CHECK_THROWS_WITH_AS((void)tf::mesh_intersections(model, model, {.transform_a = {{{{nan}}}}}),
                          doctest::Contains("not finite"), std::invalid_argument);
 }
 

@@ -27,13 +27,13 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Where one is killed after so many steps, nothing.
-std::optional<tf::stream_search_result> search_as_team(const fs::path& path,
-                                                       const tf::stream_search_options& asked,
-                                                       std::size_t size, std::size_t victim = 0,
-                                                       int steps = 0) {
-    std::optional<tf::stream_search_result> first;
+std::optional<tf::file_search_result> search_as_team(const fs::path& path,
+                                                     const tf::file_search_options& asked,
+                                                     std::size_t size, std::size_t victim = 0,
+                                                     int steps = 0) {
+    std::optional<tf::file_search_result> first;
     const bool all_lived = test::run_as_team(size, [&](const tf::communicator& team) {
-        tf::stream_search_options options = asked;
+        tf::file_search_options options = asked;
         options.communicator = team;
         if (team.rank == victim && steps > 0)
             options.step_done = [left = steps]() mutable {
@@ -45,7 +45,7 @@ std::optional<tf::stream_search_result> search_as_team(const fs::path& path,
     return all_lived ? first : std::nullopt;
 }
 
-void check_same(const tf::stream_search_result& a, const tf::stream_search_result& b) {
+void check_same(const tf::file_search_result& a, const tf::file_search_result& b) {
     CHECK(a.found.pairs == b.found.pairs);
     CHECK(a.found.counts == b.found.counts);
     CHECK(a.part.mesh.points == b.part.mesh.points);
@@ -128,7 +128,7 @@ TEST_CASE("search_team: any number of processes find in any file what one finds"
     for (const auto& entry : fs::directory_iterator(folder.path)) {
         const fs::path& path = entry.path();
         CAPTURE(path.filename().string());
-        tf::stream_search_options options;
+        tf::file_search_options options;
         options.folder = folder.path / "work";
         options.faces_per_tile = 60;
         const auto one = tf::self_intersections_of_file(path, options);
@@ -147,7 +147,7 @@ TEST_CASE("search_team: each gives tiles its share of the faces") {
     const test::own_folder folder("search_team");
     const fs::path path = folder.path / "mesh.ply";
     tf::write(path, hard_file());
-    tf::stream_search_options options;
+    tf::file_search_options options;
     options.folder = folder.path / "work";
     options.faces_per_tile = 100;
     options.step_done = [] { throw test::killed(); };  // when tiles have all faces
@@ -170,7 +170,7 @@ TEST_CASE("search_team: killed at any step, another number of processes goes on 
     const test::own_folder folder("search_team");
     const fs::path path = folder.path / "mesh.ply";
     tf::write(path, hard_file());
-    tf::stream_search_options options;
+    tf::file_search_options options;
     options.folder = folder.path / "work";
     options.faces_per_tile = 100;
     const auto one = tf::self_intersections_of_file(path, options);
@@ -194,7 +194,7 @@ TEST_CASE("search_team: a face that names no vertex is told of as by one") {
     write_bytes(path, bytes);
     const auto error_of = [&](std::size_t size) -> std::string {
         try {
-            tf::stream_search_options options;
+            tf::file_search_options options;
             options.folder = folder.path / "work";
             static_cast<void>(search_as_team(path, options, size));
         } catch (const tf::io_error& error) {

@@ -42,7 +42,7 @@ struct told {
     friend bool operator==(const told&, const told&) = default;
 };
 
-told told_of(const tf::usable_mesh& part, const tf::intersection_result& found,
+told told_of(const tf::usable_mesh& part, const tf::face_pair_result& found,
              const std::optional<tf::box3>& bounds) {
     told t{.counts = found.counts,
            .non_finite = part.non_finite,
@@ -57,20 +57,21 @@ told told_of(const tf::usable_mesh& part, const tf::intersection_result& found,
     return t;
 }
 
-told in_memory(const fs::path& path, const tf::stream_search_options& o) {
+told in_memory(const fs::path& path, const tf::file_search_options& o) {
     tf::mesh_file file = tf::read(path);
     const auto bounds = tf::bounding_box(file.mesh.points);
     const auto by_format =
         file.indexed ? tf::vertex_identity::by_index : tf::vertex_identity::by_coordinates;
-    const tf::usable_mesh part = tf::usable_part(
-        file.mesh, file.stored_face, {.vertices = o.vertices.value_or(by_format), .box = o.box});
+    const tf::usable_mesh part =
+        tf::usable_faces(file.mesh, file.face_of_triangle,
+                         {.vertices = o.vertices.value_or(by_format), .box = o.box});
     const auto found = tf::self_intersections(
         part.mesh, {.vertices = tf::vertex_identity::by_index, .kinds = o.kinds});
     return told_of(part, found, bounds);
 }
 
-told in_tiles(const fs::path& path, const tf::stream_search_options& o) {
-    const tf::stream_search_result r = tf::self_intersections_of_file(path, o);
+told in_tiles(const fs::path& path, const tf::file_search_options& o) {
+    const tf::file_search_result r = tf::self_intersections_of_file(path, o);
     CHECK_FALSE(fs::exists(path.string() + ".search-tiles"));
     CHECK(r.tiles > 0);
     return told_of(r.part, r.found, r.bounds);
@@ -99,7 +100,7 @@ TEST_CASE("self_intersections_of_file: the answers of the whole mesh, for every 
         tf::write(path, file, how);
         for (const unsigned faces : {150U, 100'000U}) {
             CAPTURE(faces);
-            tf::stream_search_options o;
+            tf::file_search_options o;
             o.faces_per_tile = faces;
             const told expected = in_memory(path, o);
             CHECK(expected.pairs.size() > 1000);
@@ -128,7 +129,7 @@ TEST_CASE(
                            "0 1 1 -1\n0 1 1.1 1\n0 3 3 1\n0 nan 0 0\n0 9 9 9\n"
                            "4 0 1 2 3 1 0.5\n3 4 5 6 0\n3 0 1 7 0\n3 4 5 5 2 1 1\n";
     for (const unsigned faces : {1U, 100U}) {
-        tf::stream_search_options o;
+        tf::file_search_options o;
         o.faces_per_tile = faces;
         const told found = in_tiles(path, o);
         CHECK(found == in_memory(path, o));
@@ -145,7 +146,7 @@ TEST_CASE("self_intersections_of_file: goes on after a stop at any step") {
     file.mesh = hard_mesh();
     const fs::path path = folder.path / "part.stl";
     tf::write(path, file, {.precision = tf::precision::float32});
-    tf::stream_search_options o;
+    tf::file_search_options o;
     o.faces_per_tile = 500;
     o.folder = folder.path / "work";
     const told expected = in_memory(path, o);
@@ -188,7 +189,7 @@ TEST_CASE("shared_search: tiles by several workers, in any order, some of them t
     file.mesh = hard_mesh();
     const fs::path path = folder.path / "part.ply";
     tf::write(path, file);
-    tf::stream_search_options o;
+    tf::file_search_options o;
     o.faces_per_tile = 300;
     o.folder = folder.path / "work";
     CHECK_THROWS_WITH_AS((void)tf::shared_search(path, o).tiles(),
@@ -214,9 +215,9 @@ TEST_CASE("shared_search: tiles by several workers, in any order, some of them t
                 throw std::runtime_error("ended");
     });
     REQUIRE(first.search_tile(other.tiles() - 1) == tf::status::ok);
-    const tf::stream_search_result r = other.finish();
+    const tf::file_search_result r = other.finish();
     CHECK(r.tiles == other.tiles());
-    tf::stream_search_options others = o;
+    tf::file_search_options others = o;
     others.kinds = tf::pair_kind::crossing;
     { const tf::shared_search gone = std::move(first); }
     { const tf::shared_search gone = std::move(other); }
@@ -234,7 +235,7 @@ TEST_CASE("self_intersections_of_file: stops when it is told, and says what it d
     file.mesh = test::grid(40);
     const fs::path path = folder.path / "grid.ply";
     tf::write(path, file);
-    tf::stream_search_options o;
+    tf::file_search_options o;
     for (const std::string_view at : {"scatter", "pairs"}) {
         o.progress = [at](std::string_view step, double) { return step != at; };
         CHECK(tf::self_intersections_of_file(path, o).found.status == tf::status::cancelled);
@@ -279,7 +280,7 @@ TEST_CASE(
     fan.mesh = test::fan(source, 3000);
     const fs::path path = folder.path / "fan.stl";
     tf::write(path, fan, {.precision = tf::precision::float32});
-    tf::stream_search_options o;
+    tf::file_search_options o;
     o.faces_per_tile = 100;
     CHECK(tf::self_intersections_of_file(path, o).tiles > 10);  // not by the corner all have
     o.memory = 1'000'000;

@@ -23,7 +23,7 @@ using pairs = std::vector<tf::face_pair>;
 
 /// The pairs, after the counts have been compared with them.
 pairs pairs_in(const tf::mesh& mesh) {
-    const tf::intersection_result result =
+    const tf::face_pair_result result =
         tf::self_intersections(mesh, {.vertices = tf::vertex_identity::by_index});
     std::array<std::uint64_t, tf::pair_kind_count> counts{};
     for (const tf::face_pair& pair : result.pairs) ++counts[static_cast<std::size_t>(pair.kind)];
@@ -162,7 +162,7 @@ TEST_CASE("self_intersections: every option takes from the same pairs") {
     const pairs all = pairs_in(mesh);
     REQUIRE(all.size() > 1000);
     for (std::size_t k = 0; k < tf::pair_kind_count; ++k) {
-        tf::intersection_options options;
+        tf::face_pair_options options;
         options.vertices = tf::vertex_identity::by_index;
         options.kinds = static_cast<tf::pair_kind>(k);
         CHECK(tf::self_intersections(mesh, options).pairs ==

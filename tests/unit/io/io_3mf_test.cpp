@@ -194,9 +194,9 @@ TEST_CASE("3mf: base materials are parts' materials and colors of faces") {
     CHECK(test::whole_values(file, "face", "green") == std::vector<int>{0, 255, 0});
     CHECK(test::whole_values(file, "face", "blue") == std::vector<int>{0, 0, 255});
     CHECK(test::whole_values(file, "face", "alpha") == std::vector<int>{255, 128, 255});
-    const std::vector<tf::part> parts{{.object = "a", .material = "PLA", .first_face = 0},
-                                      {.object = "a", .material = "ABS", .first_face = 1},
-                                      {.object = "a", .first_face = 2}};
+    const std::vector<tf::named_faces> parts{{.object = "a", .material = "PLA", .first_face = 0},
+                                             {.object = "a", .material = "ABS", .first_face = 1},
+                                             {.object = "a", .first_face = 2}};
     CHECK(file.attributes.parts == parts);
     const tf::mesh_file again = read_3mf(written_3mf(file));
     CHECK(again.attributes == file.attributes);

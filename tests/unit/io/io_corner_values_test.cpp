@@ -377,7 +377,8 @@ TEST_CASE("stl: materials alone are no solids of their own") {
 TEST_CASE("stl: faces ahead of the first name have none") {
     const tf::mesh_file file = read_obj(square + "f 1 2 3\no later\nf 1 3 4\nf 2 3 4\n");
     const auto parts = read_obj(written_mesh(file, "stl", true), "a.stl").attributes.parts;
-    CHECK(parts == std::vector<tf::part>{{.first_face = 0}, {.object = "later", .first_face = 1}});
+    CHECK(parts ==
+          std::vector<tf::named_faces>{{.first_face = 0}, {.object = "later", .first_face = 1}});
 }
 
 TEST_CASE("writing: no name makes lines of its own") {
@@ -389,12 +390,12 @@ TEST_CASE("writing: no name makes lines of its own") {
     const tf::mesh_file again = read_obj(written_mesh(file, "obj"));
     CHECK(again.mesh == file.mesh);
     const std::string flat = "a v 9 9 9  f 1 2 5";
-    CHECK(again.attributes.parts == std::vector<tf::part>{{flat, flat, flat}});
+    CHECK(again.attributes.parts == std::vector<tf::named_faces>{{flat, flat, flat}});
     CHECK(again.attributes.material_files == std::vector<std::string>{flat});
     CHECK(read_obj(written_mesh(file, "ply"), "a.ply").attributes.texture_files ==
           again.attributes.material_files);
     const auto parts = read_obj(written_mesh(file, "stl", true), "a.stl").attributes.parts;
-    CHECK(parts == std::vector<tf::part>{{.object = flat + "/" + flat}});
+    CHECK(parts == std::vector<tf::named_faces>{{.object = flat + "/" + flat}});
 }
 
 TEST_CASE(

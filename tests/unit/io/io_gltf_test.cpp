@@ -64,7 +64,7 @@ std::vector<double> values_of(const tf::mesh_file& file, std::string_view name) 
 
 std::vector<std::string> parts_in(const tf::mesh_file& file) {
     std::vector<std::string> names;
-    for (const tf::part& p : file.attributes.parts) names.push_back(p.object);
+    for (const tf::named_faces& p : file.attributes.parts) names.push_back(p.object);
     return names;
 }
 

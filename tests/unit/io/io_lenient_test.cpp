@@ -198,7 +198,7 @@ TEST_CASE("ply: strips are triangles in turn, and start anew at -1") {
     const tf::mesh_file file = read_named(strips("9 0 1 2 3 4 -1 1 3 2\n"), "a.ply");
     CHECK(file.mesh.faces == wanted);
     CHECK(file.stored_faces == 4);
-    CHECK(file.stored_face.empty());
+    CHECK(file.face_of_triangle.empty());
     CHECK(warnings(file) == said);
     CHECK(read_named(strips("5 0 1 2 3 4\n4 1 3 2 -1\n", 2), "a.ply").mesh.faces == wanted);
     // A strip of one or two vertices has no triangle.

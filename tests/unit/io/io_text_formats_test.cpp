@@ -54,7 +54,7 @@ TEST_CASE("obj: corners may be v, v/vt, v//vn, v/vt/vn, and count from the end w
         CAPTURE(face);
         const tf::mesh_file file = read_text(with_triangle(rows + face), "a.obj");
         CHECK(file.mesh.faces == std::vector<tf::face>{{0, 1, 2}});
-        CHECK(file.stored_face.empty());
+        CHECK(file.face_of_triangle.empty());
     }
 }
 
@@ -70,7 +70,7 @@ TEST_CASE("obj: line ends may be CR, LF or CRLF, and errors count them alike") {
 TEST_CASE("obj: a polygon is a fan from its first corner, and repeated corners stay") {
     const tf::mesh_file file = read_text(with_triangle("f 1 2 3\nf 1 2 3 1\nf 3 2 1\n"), "a.obj");
     CHECK(file.mesh.faces == std::vector<tf::face>{{0, 1, 2}, {0, 1, 2}, {0, 2, 0}, {2, 1, 0}});
-    CHECK(file.stored_face == std::vector<std::uint32_t>{0, 1, 1, 2});
+    CHECK(file.face_of_triangle == std::vector<std::uint32_t>{0, 1, 1, 2});
     CHECK(file.stored_faces == 3);
 }
 
@@ -134,8 +134,8 @@ TEST_CASE("obj: names make parts, vertex colors a column each") {
         "v 0 0 0 1 0.5 0\nv 1 0 0 0 0 1\nv 0 1 0 0 1 0\nf 1 2 3\no body\ng left arm\nusemtl red\n"
         "f 1 2 3\nf 1 2 3\nusemtl \nf 1 2 3\no next\n",
         "a.obj");
-    CHECK(file.attributes.parts ==
-          std::vector<tf::part>{{"body", "left arm", "red", 1}, {"body", "left arm", "", 3}});
+    CHECK(file.attributes.parts == std::vector<tf::named_faces>{{"body", "left arm", "red", 1},
+                                                                {"body", "left arm", "", 3}});
     CHECK(text_column(file, "vertex", "green").number(0) == 0.5);
     CHECK(text_column(file, "vertex", "blue").number(1) == 1.0);
     const tf::mesh_file some = read_text("v 0 0 0 1 1 1\nv 1 0 0\nv 0 1 0 1 1 1\n", "a.obj");
@@ -164,8 +164,9 @@ TEST_CASE("stl text: any case, any blanks, several solids, normals of any kind")
                   "a.stl");
     CHECK(file.mesh.faces == std::vector<tf::face>{{0, 1, 2}, {3, 4, 5}, {6, 7, 8}});
     CHECK_FALSE(file.indexed);
-    CHECK(file.attributes.parts ==
-          std::vector<tf::part>{{"first one", "", "", 0}, {"", "", "", 2}, {"last", "", "", 2}});
+    CHECK(file.attributes.parts == std::vector<tf::named_faces>{{"first one", "", "", 0},
+                                                                {"", "", "", 2},
+                                                                {"last", "", "", 2}});
 }
 
 TEST_CASE("stl text: a facet has three vertices and a file ends with endsolid") {

@@ -408,6 +408,6 @@ TEST_CASE("translation: points that are no points are dropped, with their faces"
     CHECK(translated_numbers(file, "label") == std::vector<double>{1, 3, 4, 5});
     CHECK(file.stored_faces == 2);
     CHECK(file.mesh.faces == std::vector<tf::face>{{0, 1, 3}, {0, 3, 2}, {1, 3, 2}});
-    CHECK(file.stored_face == std::vector<std::uint32_t>{0, 0, 1});
+    CHECK(file.face_of_triangle == std::vector<std::uint32_t>{0, 0, 1});
     CHECK(file.attributes.find("face")->rows == 2);
 }

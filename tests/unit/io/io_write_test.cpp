@@ -114,7 +114,7 @@ TEST_CASE("ply: a polygon of 300 corners widens a byte-sized list length") {
         file.mesh.points.push_back({double(v), double(v) * v, 0});
         if (v >= 2) file.mesh.faces.push_back({0, v - 1, v});
     }
-    file.stored_face.assign(298, 0);
+    file.face_of_triangle.assign(298, 0);
     for (const bool ascii : {false, true}) {
         const auto again = read_again(written(file, "ply", ascii), "a.ply");
         CHECK(again.stored_faces == 1);
@@ -302,7 +302,7 @@ TEST_CASE("writing: data that cannot be meant is refused") {
     file.attributes.elements.push_back({.name = "vertex", .rows = 3});
     CHECK_THROWS_AS((void)written(file, "ply"), std::invalid_argument);
     file = tetrahedron(6);
-    file.stored_face = {0, 1, 1, 2};  // triangles 1 and 2 are no fan
+    file.face_of_triangle = {0, 1, 1, 2};  // triangles 1 and 2 are no fan
     CHECK_THROWS_AS((void)written(file, "ply"), std::invalid_argument);
     file = tetrahedron(6);
     file.attributes.find_or_add("face", 4).columns.push_back(
@@ -321,7 +321,7 @@ TEST_CASE("polygons: splitting repeats the rows of faces and renumbers parts") {
     CHECK(file.attributes.elements[0].columns[0] == tf::column::of<std::int32_t>("n", expected));
     CHECK(file.attributes.parts[1].first_face == 3);
     CHECK(file.stored_faces == 4);
-    CHECK(read_again(written(file, "ply"), "a.ply").stored_face.empty());
+    CHECK(read_again(written(file, "ply"), "a.ply").face_of_triangle.empty());
 }
 
 namespace {

@@ -37,7 +37,7 @@ tf::point_location by_random_rays(test::random& random, const tf::mesh& mesh, co
             const tf::triangle3 t = triangle_of(mesh, f);
             const auto hit = tf::intersect({{q.x, q.y, q.z}, {d.x, d.y, d.z}}, t);
             if (!hit) continue;
-            grazed |= hit->coplanar || hit->at != tf::feature::interior;
+            grazed |= hit->coplanar || hit->at != tf::triangle_feature::interior;
             found.winding += tf::direction_side(t[0], t[1], t[2], d);
         }
         if (grazed) continue;

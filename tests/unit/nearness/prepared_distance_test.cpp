@@ -42,13 +42,13 @@ tf::transform<3> turned(test::random& source, double scale, double away) {
 }
 
 /// The answer of the models must be that of the meshes and their trees.
-void compare(const tf::mesh& a, const tf::mesh& b, const tf::transform<3>& move_a,
-             const tf::transform<3>& move_b) {
+void compare(const tf::mesh& a, const tf::mesh& b, const tf::transform<3>& transform_a,
+             const tf::transform<3>& transform_b) {
     const auto found = tf::closest_pair(tf::prepared_mesh::borrow(a), tf::prepared_mesh::borrow(b),
-                                        {move_a, move_b});
-    const auto expected =
-        tf::detail::nearness::closest_pair(a, tf::transformed<3>(tf::build_face_tree(a), move_a), b,
-                                           tf::transformed<3>(tf::build_face_tree(b), move_b));
+                                        {transform_a, transform_b});
+    const auto expected = tf::detail::nearness::closest_pair(
+        a, tf::transformed<3>(tf::build_face_tree(a), transform_a), b,
+        tf::transformed<3>(tf::build_face_tree(b), transform_b));
     REQUIRE(found);
     REQUIRE(expected);
     if (expected->distance > 0.0)
@@ -62,12 +62,12 @@ void compare(const tf::mesh& a, const tf::mesh& b, const tf::transform<3>& move_
 TEST_CASE("prepared distance: one without faces is near to nothing") {
     const tf::prepared_mesh none;
     const tf::prepared_mesh one(test::grid(1));
-    CHECK(none.view().faces.empty());
+    CHECK(none.indexed_view().faces.empty());
     CHECK(!tf::closest_pair(none, one));
     CHECK(!tf::closest_pair(one, none));
     CHECK(!tf::closest_pair(none, tf::prepared_mesh(tf::mesh{})));
-    const auto away =
-        tf::closest_pair(one, one, {.move_b = tf::transform<3>::translation(tf::point3{0, 0, 2})});
+    const auto away = tf::closest_pair(
+        one, one, {.transform_b = tf::transform<3>::translation(tf::point3{0, 0, 2})});
     REQUIRE(away);
     CHECK(away->distance == 2.0);
 }
@@ -75,12 +75,12 @@ TEST_CASE("prepared distance: one without faces is near to nothing") {
 TEST_CASE("prepared distance: the radius is inclusive, and what cannot be meant is refused") {
     const tf::prepared_mesh one(test::grid(1));
     const auto above = tf::transform<3>::translation(tf::point3{0, 0, 2});
-    CHECK(tf::closest_pair(one, one, {.move_b = above, .radius = 2.0}));
-    CHECK(!tf::closest_pair(one, one, {.move_b = above, .radius = std::nextafter(2.0, 0.0)}));
+    CHECK(tf::closest_pair(one, one, {.transform_b = above, .radius = 2.0}));
+    CHECK(!tf::closest_pair(one, one, {.transform_b = above, .radius = std::nextafter(2.0, 0.0)}));
     CHECK_THROWS_AS((void)tf::closest_pair(one, one, {.radius = -1.0}), std::invalid_argument);
     tf::transform<3> bad;
     bad.rows[1][2] = std::numeric_limits<double>::quiet_NaN();
-    CHECK_THROWS_AS((void)tf::closest_pair(one, one, {.move_a = bad}), std::invalid_argument);
+    CHECK_THROWS_AS((void)tf::closest_pair(one, one, {.transform_a = bad}), std::invalid_argument);
     tf::mesh broken = test::grid(2);
     broken.points[1].y = std::numeric_limits<double>::infinity();
     CHECK_THROWS_WITH_AS((void)tf::closest_pair(one, tf::prepared_mesh::borrow(broken)),

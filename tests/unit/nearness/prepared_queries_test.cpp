@@ -74,11 +74,12 @@ TEST_CASE("prepared queries: a mesh that moves keeps what was built of it") {
     const tf::prepared_mesh a(test::box(2, 2, 2)), b(test::box(1, 1, 1));
     CHECK(tf::intersects(a, b));
     const auto away = tf::transform<3>::translation(tf::point3{0, 0, 4});
-    CHECK_FALSE(tf::intersects(a, b, {.move_b = away}));
-    CHECK(tf::distance(a, b, {.move_b = away}) == 2.0);
-    CHECK(tf::distance(a, b, {.move_b = away, .radius = 1.0}) ==
+    CHECK_FALSE(tf::intersects(a, b, {.transform_b = away}));
+    CHECK(tf::distance(a, b, {.transform_b = away}) == 2.0);
+    CHECK(tf::distance(a, b, {.transform_b = away, .radius = 1.0}) ==
           std::numeric_limits<double>::infinity());
-    CHECK(tf::intersects(a.view(), b.view(), {.move_a = away, .move_b = away}));
+    const tf::mesh_pair_options moved{.transform_a = away, .transform_b = away};
+    CHECK(tf::intersects(a.indexed_view(), b.indexed_view(), moved));
 }
 
 TEST_CASE("prepared queries: errors name the verb, the mesh and its face or point") {

@@ -155,7 +155,7 @@ TEST_CASE("rays and a mesh: none slips out of a closed surface, through vertices
             const auto hits = query.all(toward(mesh.points[v], 0x1p-7));
             REQUIRE(hits.size() == faces_at[v]);
             for (const tf::mesh_hit& hit : hits) {
-                REQUIRE(hit.at <= tf::feature::v2);
+                REQUIRE(hit.at <= tf::triangle_feature::v2);
                 CHECK(mesh.faces[hit.face][static_cast<std::size_t>(hit.at)] == v);
                 CHECK(hit.t == hits[0].t);
                 CHECK(std::abs(hit.t - 0x1p7) < 0x1p-30);
@@ -166,8 +166,8 @@ TEST_CASE("rays and a mesh: none slips out of a closed surface, through vertices
                 const tf::point3 p = mesh.points[f[i]], q = mesh.points[f[(i + 1) % 3]];
                 const auto hits = query.all(toward({p.x + q.x, p.y + q.y, p.z + q.z}, 0.5));
                 REQUIRE(hits.size() == 2);
-                CHECK(hits[0].at >= tf::feature::e0);
-                CHECK(hits[0].at <= tf::feature::e2);
+                CHECK(hits[0].at >= tf::triangle_feature::e0);
+                CHECK(hits[0].at <= tf::triangle_feature::e2);
                 CHECK(hits[0].t == hits[1].t);
                 CHECK(query.any(toward({p.x + q.x, p.y + q.y, p.z + q.z}, 0.5)));
             }

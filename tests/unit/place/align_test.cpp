@@ -210,7 +210,7 @@ TEST_CASE("align: never worse than the start, whatever is fitted to what") {
         options.method = static_cast<align_method>(source.below(3));
         options.overlap = std::min(source.in(0.2, 1.8), 1.0);
         options.robust = false;
-        options.samples = round % 3 == 0 ? 20 : 0;
+        options.max_samples = round % 3 == 0 ? 20 : 0;
         options.max_iterations = static_cast<unsigned>(source.below(30));
         const auto found = tf::align(there, fixed, options);
         // a trimmed set is also weighted, and rms is not

@@ -42,8 +42,8 @@ TEST_CASE("bodies: equal corners are one, faces that are not finite are left out
     tf::body_set found;
     CHECK(found.add(file).non_finite == 1);
     REQUIRE(found.shapes.size() == 1);
-    CHECK(found.shapes[0].view().points.size() == 8);
-    CHECK(found.shapes[0].view().faces.size() == 11);
+    CHECK(found.shapes[0].indexed_view().points.size() == 8);
+    CHECK(found.shapes[0].indexed_view().faces.size() == 11);
     CHECK(found.triangle(0, 0) == 0);
     CHECK(found.triangle(0, 1) == 2);
     CHECK(found.shapes[0].indexes_built() == 0);
@@ -79,7 +79,7 @@ TEST_CASE("bodies: each part of a file is the mesh of its faces alone") {
     CHECK(found.labels() ==
           std::vector<std::string>{"whole.obj", "parts.obj: small", "parts.obj: part 1"});
     for (std::size_t i = 1; i < 3; ++i) {
-        const tf::mesh_view view = found.shapes[i].view();
+        const tf::mesh_view view = found.shapes[i].indexed_view();
         std::vector<std::uint32_t> triangles;
         for (std::uint32_t f = 0; f < view.faces.size(); ++f)
             triangles.push_back(found.triangle(i, f));
@@ -87,7 +87,7 @@ TEST_CASE("bodies: each part of a file is the mesh of its faces alone") {
         CHECK(tf::mesh{{view.points.begin(), view.points.end()},
                        {view.faces.begin(), view.faces.end()}} == expected);
         CHECK(found.file_number(i) == 1);
-        CHECK(found.stored_face(i, 0) == 12 * (i - 1));
+        CHECK(found.face_in_file(i, 0) == 12 * (i - 1));
     }
     file.attributes.parts[1].object = "small";
     found.add_parts(file);
@@ -100,8 +100,8 @@ TEST_CASE("bodies: points go back to where they are in the file, others move alo
     file.mesh.points.push_back({0.1, 7, 7});
     tf::body_set found;
     tf::mesh_file& there = found.add(std::move(file)).content;
-    std::vector<tf::point3> placed(found.shapes[0].view().points.begin(),
-                                   found.shapes[0].view().points.end());
+    std::vector<tf::point3> placed(found.shapes[0].indexed_view().points.begin(),
+                                   found.shapes[0].indexed_view().points.end());
     for (tf::point3& p : placed) p.z += 4;
     tf::transform<3> up;
     up.rows[2][3] = 4;
@@ -118,13 +118,13 @@ TEST_CASE("bodies: points go back to where they are in the file, others move alo
 TEST_CASE("bodies: how they lie to each other, in words, with the numbers of their files") {
     tf::body_set moving, fixed;
     tf::mesh_file cube = file_of(box(1, 1, 1));
-    for (std::uint32_t t = 0; t < 12; ++t) cube.stored_face.push_back(50 + t);
+    for (std::uint32_t t = 0; t < 12; ++t) cube.face_of_triangle.push_back(50 + t);
     moving.add(cube, "cube.obj");
     fixed.add(file_of(moved(box(1, 1, 1), {0.5, 0.5, 1})), "on.obj");
     fixed.add(file_of({{{0.5, 0.5, 3}}, {}}), "cloud.ply");
     const auto words = [&](std::size_t first, std::size_t count, double clearance) {
         const auto among = std::span<const tf::prepared_mesh>(fixed.shapes).subspan(first, count);
-        const auto at = tf::measure_among(moving.shapes[0], among, {.clearance = clearance});
+        const auto at = tf::measure_in_place(moving.shapes[0], among, {.clearance = clearance});
         return at.relation_in_words(moving, fixed);
     };
     const std::string text = words(0, 2, 0);
@@ -187,7 +187,7 @@ TEST_CASE(
 TEST_CASE("contact colors: a stored face has the gravest class of its triangles") {
     using tf::mesh_relation;
     tf::mesh_file file = file_of(box(1, 1, 1));
-    file.stored_face = {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5};
+    file.face_of_triangle = {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5};
     file.stored_faces = 6;
     std::vector<mesh_relation> relations(12);
     relations[2] = mesh_relation::closer_than_clearance;
@@ -223,7 +223,7 @@ TEST_CASE("rounding effects: far away float32 folds what it has not folded befor
                                               double{static_cast<float>(p.z)}}
                                  : tf::point3{x, y, p.z});
         }
-        return tf::effects_of_rounding(ball, away, placed, tf::precision::float64, precision);
+        return tf::find_rounding_effects(ball, away, placed, tf::precision::float64, precision);
     };
     const auto exact = written(tf::precision::float64);
     CHECK_FALSE(exact.noticeable);
@@ -235,7 +235,7 @@ TEST_CASE("rounding effects: far away float32 folds what it has not folded befor
     CHECK(rounded.compared);
     CHECK(rounded.collapsed > 0);
     CHECK(rounded.max_displacement > 1e-5);
-    CHECK_THROWS_AS(static_cast<void>(tf::effects_of_rounding(ball, away, {})),
+    CHECK_THROWS_AS(static_cast<void>(tf::find_rounding_effects(ball, away, {})),
                     std::invalid_argument);
 }
 

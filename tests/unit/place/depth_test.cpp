@@ -56,7 +56,8 @@ double least_exit(const tf::mesh& a, const tf::mesh& b) {
         const tf::point3 d = direction(i);
         const double out = to_separation(a, b, d) * (1.0 + 1e-9);
         tf::impact_options options;
-        options.move_a = tf::transform<3>::translation(tf::point3{d.x * out, d.y * out, d.z * out});
+        options.transform_a =
+            tf::transform<3>::translation(tf::point3{d.x * out, d.y * out, d.z * out});
         const auto back = tf::time_of_impact(pa, pb, {-d.x, -d.y, -d.z}, options);
         least =
             std::min(least, back.outcome == tf::placement_outcome::contact ? out - back.time : out);

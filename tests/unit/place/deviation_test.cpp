@@ -239,7 +239,7 @@ TEST_CASE("deviation: distances come back to the points of the file, with colors
     tf::body_set set;
     set.add(file);
     std::vector<double> distances;
-    for (const tf::point3& p : set.shapes[0].view().points) distances.push_back(p.x - 0.5);
+    for (const tf::point3& p : set.shapes[0].indexed_view().points) distances.push_back(p.x - 0.5);
     const auto back = set.distances_in_file(0, distances);
     REQUIRE(back.size() == file.mesh.points.size());
     for (std::size_t i = 0; i + 1 < back.size(); ++i) CHECK(back[i] == file.mesh.points[i].x - 0.5);

@@ -50,7 +50,7 @@ TEST_CASE("mate: a corner comes to a corner, or to the clearance from it") {
     CHECK(tf::mate(a, among.prepared, {.clearance = 6}).outcome ==
           placement_outcome::starts_too_near);
     CHECK(tf::mate(a, among.prepared, {.max_travel = 4.5}).outcome == placement_outcome::too_far);
-    CHECK(tf::mate(a.view(), among.meshes[1]).points == found.points);
+    CHECK(tf::mate(a.indexed_view(), among.meshes[1]).points == found.points);
 }
 
 TEST_CASE("mate: of nothing there is no way, and what meets stays") {

@@ -29,7 +29,7 @@ double between_ends(const tf::point3& a, const tf::point3& b) {
     return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
-void check_points(const tf::mesh& a, const tf::mesh& b, const tf::mesh_measure& found) {
+void check_points(const tf::mesh& a, const tf::mesh& b, const tf::relation_result& found) {
     CHECK(between_ends(found.on_a.point, found.on_b.point) ==
           doctest::Approx(found.surface_distance).epsilon(1e-14));
     CHECK(between_ends(point_of(a, found.on_a), found.on_a.point) < 1e-13);

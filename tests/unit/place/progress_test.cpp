@@ -122,7 +122,7 @@ struct operations {
              }},
             {"convex hull",
              [=, this](const auto& p) {
-                 return cancelled(tf::convex_hull(still.view().points, p));
+                 return cancelled(tf::convex_hull(still.indexed_view().points, p));
              }},
             {"lay flat",
              [=, this](const auto& p) { return cancelled(*tf::lay_flat(still, {.progress = p})); }},

@@ -24,8 +24,8 @@ tf::mesh row(std::uint32_t count) {
     return m;
 }
 
-tf::part part(const char* object, const char* group, std::uint32_t first,
-              const char* material = "") {
+tf::named_faces part(const char* object, const char* group, std::uint32_t first,
+                     const char* material = "") {
     return {.object = object, .group = group, .material = material, .first_face = first};
 }
 
@@ -47,8 +47,8 @@ TEST_CASE("scene_parts: no face is no part, and without names all are one") {
 }
 
 TEST_CASE("scene_parts: faces of one object and group are one part wherever they are") {
-    const std::vector<tf::part> names{part("a", "", 1), part("b", "left", 2),
-                                      part("a", "", 3, "red"), part("b", "right", 4)};
+    const std::vector<tf::named_faces> names{part("a", "", 1), part("b", "left", 2),
+                                             part("a", "", 3, "red"), part("b", "right", 4)};
     const auto parts = tf::scene_parts(row(6), names);
     CHECK(names_of(parts) == std::vector<std::string>{"", "a", "b/left", "b/right"});
     CHECK(parts[0].faces == numbers{0});
@@ -61,15 +61,15 @@ TEST_CASE("scene_parts: faces of one object and group are one part wherever they
 TEST_CASE("scene_parts: parts with a point in common are one, by the name of the first") {
     tf::mesh m = row(4);
     m.faces[3][0] = m.faces[1][2];
-    const std::vector<tf::part> names{part("a", "", 0), part("b", "", 1), part("c", "", 2),
-                                      part("d", "", 3)};
+    const std::vector<tf::named_faces> names{part("a", "", 0), part("b", "", 1), part("c", "", 2),
+                                             part("d", "", 3)};
     const auto parts = tf::scene_parts(m, names);
     CHECK(names_of(parts) == std::vector<std::string>{"a", "b", "c"});
     CHECK(parts[1].faces == numbers{1, 3});
 }
 
 TEST_CASE("scene_parts: names go by the numbers that faces have in the file") {
-    const std::vector<tf::part> names{part("a", "", 0), part("b", "", 5)};
+    const std::vector<tf::named_faces> names{part("a", "", 0), part("b", "", 5)};
     const numbers number{1, 4, 4, 5, 9};
     const auto parts = tf::scene_parts(row(5), names, number);
     REQUIRE(parts.size() == 2);
@@ -78,8 +78,8 @@ TEST_CASE("scene_parts: names go by the numbers that faces have in the file") {
 }
 
 TEST_CASE("scene_parts: a name that no face has is no part") {
-    const std::vector<tf::part> names{part("a", "", 0), part("b", "", 1), part("c", "", 1),
-                                      part("d", "", 7)};
+    const std::vector<tf::named_faces> names{part("a", "", 0), part("b", "", 1), part("c", "", 1),
+                                             part("d", "", 7)};
     CHECK(names_of(tf::scene_parts(row(2), names)) == std::vector<std::string>{"a", "c"});
 }
 

@@ -150,8 +150,8 @@ TEST_CASE("separate: the mesh comes out of all, in coordinates that hold") {
         CHECK(found.relation != tf::mesh_relation::closer_than_clearance);
         const tf::mesh there{found.points, a.faces};
         for (const prepared_mesh& one : fixed) {
-            CHECK(tf::relation(there, one.view()).relation != mesh_relation::penetrating);
-            CHECK(tf::closest_pair(there, one.view())->distance >= clearance);
+            CHECK(tf::relation(there, one.indexed_view()).relation != mesh_relation::penetrating);
+            CHECK(tf::closest_pair(there, one.indexed_view())->distance >= clearance);
         }
         if (found.travel == 0.0) continue;
         const auto barred =

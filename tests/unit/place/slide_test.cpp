@@ -267,7 +267,7 @@ TEST_CASE(
     "way") {
     const prepared_mesh a(moved(box(1, 1, 1), {0.5, 0.5, 0.75}));
     const prepared_mesh floor(box(2, 2, 1)), turned(test::inside_out(box(2, 2, 1)));
-    const auto at = tf::measure_among(a, floor), same = tf::measure_among(a, turned);
+    const auto at = tf::measure_in_place(a, floor), same = tf::measure_in_place(a, turned);
     REQUIRE(at.contacts.size() == same.contacts.size());
     CHECK(at.relation == tf::mesh_relation::penetrating);
     CHECK(same.relation == at.relation);
@@ -296,7 +296,7 @@ TEST_CASE("contacts are classified as the faces lie at the place") {
     const prepared_mesh floor(box(4, 4, 1));
     const auto relations_at = [&](double z, double clearance) {
         const prepared_mesh a(moved(box(1, 1, 1), {1.25, 1.5, z}));
-        const auto at = tf::measure_among(a, floor, {.clearance = clearance});
+        const auto at = tf::measure_in_place(a, floor, {.clearance = clearance});
         const auto found = at.face_relations(a, floor);
         std::array<std::set<tf::mesh_relation>, 2> others;
         for (std::size_t i = 0; i < 2; ++i)

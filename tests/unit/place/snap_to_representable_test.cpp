@@ -49,7 +49,7 @@ TEST_CASE("time to distance: a box stops the clearance above another") {
           placement_outcome::nothing_met);
     const auto up = tf::transform<3>::translation(tf::point3{0, 0, 1}),
                down = tf::transform<3>::translation(tf::point3{0, 0, -1});
-    CHECK(approach(a, floor, {0, 0, -1}, 0.5, {.move_a = up, .move_b = down}).time ==
+    CHECK(approach(a, floor, {0, 0, -1}, 0.5, {.transform_a = up, .transform_b = down}).time ==
           found.time + 2);
     CHECK(approach(a, floor, {0, 0, -1}, 4.5).time == 0.0);
     CHECK(approach(a, floor, {0, 0, -1}, 5.0).outcome == placement_outcome::starts_touching);

@@ -108,7 +108,7 @@ TEST_CASE("wall thickness: a hollow box, a ball, a sheet") {
     for (tf::point3& p : inner.points) p = {p.x + 1, p.y + 1, p.z + 0.5};
     const tf::mesh hollow = tf::difference(outer, inner).value();
     const auto walls = tf::wall_thickness(hollow);
-    CHECK(walls.least == doctest::Approx(0.5));
+    CHECK(walls.min == doctest::Approx(0.5));
     for (const double t : walls.of_face)
         CHECK(
             (t == doctest::Approx(0.5) || t == doctest::Approx(1.0) || t == doctest::Approx(10.0)));

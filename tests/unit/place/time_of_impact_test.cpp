@@ -175,10 +175,10 @@ TEST_CASE("time of impact: moved meshes are taken where their transforms put the
     tf::mesh turned = a;
     for (tf::point3& p : turned.points) p = turn(p);
     const auto expected = tf::time_of_impact(turned, b, {0, 0, -1});
-    const auto found = tf::time_of_impact(a, b, {0, 0, -1}, {.move_a = turn});
+    const auto found = tf::time_of_impact(a, b, {0, 0, -1}, {.transform_a = turn});
     CHECK(found.time == expected.time);
     CHECK(found.contacts == expected.contacts);
-    const auto other = tf::time_of_impact(b, a, {0, 0, 1}, {.move_b = turn});
+    const auto other = tf::time_of_impact(b, a, {0, 0, 1}, {.transform_b = turn});
     CHECK(other.time == expected.time);
 }
 

@@ -198,7 +198,7 @@ TEST_CASE("repair: what ends in a plane and goes through it, or lies in it, stay
     tf::mesh wave = test::grid(8);
     const tf::repair_result flat = tf::repair(wave);
     CHECK(flat.certificate.status == tf::status::open_input);
-    CHECK(flat.statistics.sheets == 1);
+    CHECK(flat.statistics.unfilled_rims == 1);
     const auto box = *tf::bounding_box(wave.points);
     double side = 0.25;
     for (tf::point3& p : wave.points) {
@@ -210,7 +210,7 @@ TEST_CASE("repair: what ends in a plane and goes through it, or lies in it, stay
     }
     const tf::repair_result made = tf::repair(wave);
     CHECK(made.certificate.status == tf::status::open_input);
-    CHECK(made.statistics.sheets == 1);
+    CHECK(made.statistics.unfilled_rims == 1);
 }
 
 TEST_CASE("repair: a shell within another that faces outward, too, is counted, and odd keeps it") {

@@ -289,14 +289,14 @@ TEST_CASE("repair: what loses too much is not certified") {
     tf::mesh dirty = test::box(1, 1, 1);
     dirty.faces.pop_back();
     dirty = test::together(dirty, test::moved(test::grid(1), {3, 0, 0}));
-    const tf::repair_options generous{.strays = 0.3};
+    const tf::repair_options generous{.stray_share = 0.3};
     tf::repair_result result = tf::repair(dirty, generous);
     CHECK(result.certificate.status == tf::status::excessive_loss);
     CHECK(result.certificate.size_before == doctest::Approx(6.5));
     CHECK(result.certificate.size_after == doctest::Approx(5.5));
     CHECK(!result.certificate.size_is_volume);
     CHECK(result.statistics.area_lost == doctest::Approx(1.0));
-    result = tf::repair(dirty, {.strays = 0.3, .max_loss = 1.0});
+    result = tf::repair(dirty, {.stray_share = 0.3, .max_loss = 1.0});
     require_solid(result, 1.0);
     // With the default it is too large to go, and no solid.
     result = tf::repair(dirty);
@@ -384,7 +384,7 @@ TEST_CASE("repair: what cannot be used is a defect, and no error") {
 TEST_CASE("repair: bad arguments") {
     const tf::mesh box = test::box(1, 1, 1);
     CHECK_THROWS_AS((void)tf::repair(box, {.gap = -1.0}), std::invalid_argument);
-    CHECK_THROWS_AS((void)tf::repair(box, {.strays = std::numeric_limits<double>::infinity()}),
+    CHECK_THROWS_AS((void)tf::repair(box, {.stray_share = std::numeric_limits<double>::infinity()}),
                     std::invalid_argument);
     tf::mesh broken = box;
     broken.faces[3][1] = 8;

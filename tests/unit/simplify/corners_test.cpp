@@ -1,8 +1,8 @@
 /// \file
 /// Texture coordinates and normals of corners go through `simplify`: seams stay, values fit.
 
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/attributes.hpp>
-#include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/mesh_file.hpp>
 #include <treeform/mesh/simplify.hpp>
 #include <treeform/tf.hpp>
@@ -70,13 +70,13 @@ struct simplified_file {
 };
 
 simplified_file simplified(const tf::mesh_file& file, double distance) {
-    const tf::carry_source source{&file};
-    const tf::carry_sources carrying(source);
+    const tf::attribute_source source{&file};
+    const tf::attribute_sources carrying(source);
     const std::vector<std::uint32_t> groups = carrying.corner_groups();
     simplified_file all{{}, tf::simplify(file.mesh, distance, {.corner_groups = groups})};
     all.file.mesh = all.made.mesh;
-    carrying.carry(all.file, all.made.face_source, all.made.vertex_source,
-                   all.made.face_of_new_vertex, all.made.corner_source);
+    carrying.transfer(all.file, all.made.face_source, all.made.vertex_source,
+                      all.made.face_of_new_vertex, all.made.corner_source);
     return all;
 }
 

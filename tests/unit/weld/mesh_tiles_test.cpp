@@ -44,11 +44,11 @@ tf::mesh_file soup(std::uint32_t n) {
             corner(i + 1, j);
             corner(i + 1, j + 1);
             file.mesh.faces.push_back({first, first + 1, first + 2});
-            file.stored_face.push_back(static_cast<std::uint32_t>(number.size()));
+            file.face_of_triangle.push_back(static_cast<std::uint32_t>(number.size()));
             if ((i + j) % 2 == 0) {
                 corner(i, j + 1);
                 file.mesh.faces.push_back({first, first + 2, first + 3});
-                file.stored_face.push_back(static_cast<std::uint32_t>(number.size()));
+                file.face_of_triangle.push_back(static_cast<std::uint32_t>(number.size()));
             }
             number.push_back(static_cast<std::uint16_t>(number.size()));
         }
@@ -147,7 +147,7 @@ void check_teams(const fs::path& in, const fs::path& out, const tf::weld_stream_
 /// edges of the file behind them.
 tf::mesh_file triangles() {
     tf::mesh_file file = soup(16);
-    file.stored_face.clear();
+    file.face_of_triangle.clear();
     file.attributes.elements.pop_back();
     for (std::uint32_t i = 0; i < 40; ++i) {
         file.mesh.faces.push_back(file.mesh.faces[3 * i]);

@@ -3,7 +3,7 @@
 /// are those of one.
 
 #include <libmesh/stream/joined_points.hpp>
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/weld.hpp>
 #include <treeform/mesh/weld_stream.hpp>

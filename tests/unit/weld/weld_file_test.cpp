@@ -29,7 +29,7 @@ tf::mesh_file square_and_triangle() {
     file.mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
                         {1, 0, 0}, {2, 0, 0}, {1, 1, 0}};
     file.mesh.faces = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}};
-    file.stored_face = {0, 0, 1};
+    file.face_of_triangle = {0, 0, 1};
     file.stored_faces = 2;
     return file;
 }
@@ -76,7 +76,7 @@ TEST_CASE("weld: the polygons of a file are polygons again") {
     const auto welded = tf::weld(file);
     CHECK(welded.file.mesh.points.size() == 5);
     CHECK(welded.file.mesh.faces.size() == 3);
-    CHECK(welded.file.stored_face == ids{0, 0, 1});
+    CHECK(welded.file.face_of_triangle == ids{0, 0, 1});
     CHECK(welded.file.stored_faces == 2);
     CHECK(welded.groups.group_of_point == ids{0, 1, 2, 3, 1, 4, 2});
     CHECK(welded.face_source == ids{0, 1, 2});

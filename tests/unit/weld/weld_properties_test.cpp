@@ -246,7 +246,7 @@ TEST_CASE("weld: rows of vertices, faces and edges follow, parts keep their face
     CHECK(same_values(values_of(now, "edge", "vertex2"), {1, 3, 77}));
     CHECK(now.comments == properties.comments);
     ids first_faces;
-    for (const tf::part& p : now.parts) first_faces.push_back(p.first_face);
+    for (const tf::named_faces& p : now.parts) first_faces.push_back(p.first_face);
     CHECK(first_faces == ids{0, 0, 2, 2});
 }
 

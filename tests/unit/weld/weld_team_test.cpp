@@ -175,7 +175,7 @@ void check_counts(const tf::weld_stream_result& a, const tf::weld_stream_result&
     CHECK(a.survey.points == b.survey.points);
     CHECK(a.survey.non_finite == b.survey.non_finite);
     CHECK(a.survey.box == b.survey.box);
-    CHECK(a.survey.single == b.survey.single);
+    CHECK(a.survey.fits_float32 == b.survey.fits_float32);
     CHECK(a.survey.warnings.size() == b.survey.warnings.size());
     CHECK(a.mergeable == b.mergeable);
 }

@@ -65,7 +65,7 @@ void glue::fill(keeper& kept, const tf::part_clash& from, treeform_part_clash& t
     to.depth_effort = same<treeform_search_effort>(from.depth_effort);
 }
 
-void glue::fill(keeper& kept, const tf::clash_result& from, treeform_clashes& to) {
+void glue::fill(keeper& kept, const tf::clash_result& from, treeform_clash_result& to) {
     to.pairs = list<treeform_part_clash>(kept, from.pairs);
     to.count = from.pairs.size();
     std::copy(from.counts.begin(), from.counts.end(), to.counts);
@@ -102,11 +102,12 @@ treeform_code treeform_move_in_file(treeform_bodies* bodies, size_t body, const 
 }
 
 treeform_code treeform_clash(const treeform_mesh* const* parts, size_t count,
-                             const treeform_clash_options* options, treeform_clashes** clashes) {
+                             const treeform_clash_options* options,
+                             treeform_clash_result** result) {
     return glue::guard([&] {
-        glue::start(clashes);
+        glue::start(result);
         return glue::give(tf::clash(glue::refs(parts, count, "parts"), glue::read(options)),
-                          clashes);
+                          result);
     });
 }
 

@@ -4,27 +4,30 @@
 
 namespace tf = treeform;
 
-treeform_code treeform_carry(treeform_file* file, const treeform_carry_source* inputs, size_t count,
-                             const treeform_element* face_source,
-                             const treeform_element* vertex_source,
-                             const treeform_element* face_of_cut_vertex) {
+treeform_code treeform_transfer_attributes(treeform_file* file,
+                                           const treeform_attribute_source* inputs, size_t count,
+                                           const treeform_operand_element* face_source,
+                                           const treeform_operand_element* vertex_source,
+                                           const treeform_operand_element* face_of_cut_vertex) {
     return glue::guard([&] {
-        glue::carry(glue::content(file, "file"), inputs, count, face_source, vertex_source,
-                    face_of_cut_vertex);
+        glue::transfer_attributes(glue::content(file, "file"), inputs, count, face_source,
+                                  vertex_source, face_of_cut_vertex);
     });
 }
 
-treeform_code treeform_carry_one(treeform_file* file, const treeform_carry_source* input,
-                                 const uint32_t* face_source, const uint32_t* vertex_source,
-                                 const uint32_t* face_of_new_vertex,
-                                 const uint32_t* corner_source) {
+treeform_code treeform_transfer_attributes_of_one(treeform_file* file,
+                                                  const treeform_attribute_source* input,
+                                                  const uint32_t* face_source,
+                                                  const uint32_t* vertex_source,
+                                                  const uint32_t* face_of_new_vertex,
+                                                  const uint32_t* corner_source) {
     return glue::guard([&] {
-        glue::carry_one(glue::content(file, "file"), input, face_source, vertex_source,
-                        face_of_new_vertex, corner_source);
+        glue::transfer_attributes_of_one(glue::content(file, "file"), input, face_source,
+                                         vertex_source, face_of_new_vertex, corner_source);
     });
 }
 
-treeform_code treeform_face_groups(const treeform_carry_source* inputs, size_t count,
+treeform_code treeform_face_groups(const treeform_attribute_source* inputs, size_t count,
                                    int32_t by_values, int32_t by_input,
                                    treeform_indices** indices) {
     return glue::guard([&] {
@@ -33,7 +36,7 @@ treeform_code treeform_face_groups(const treeform_carry_source* inputs, size_t c
     });
 }
 
-treeform_code treeform_corner_groups(const treeform_carry_source* input,
+treeform_code treeform_corner_groups(const treeform_attribute_source* input,
                                      treeform_indices** indices) {
     return glue::guard([&] {
         glue::start(indices);
@@ -42,7 +45,7 @@ treeform_code treeform_corner_groups(const treeform_carry_source* input,
 }
 
 treeform_code treeform_add_source_columns(treeform_file* file, const char* name,
-                                          const treeform_element* face_source,
+                                          const treeform_operand_element* face_source,
                                           const char* const* inputs, size_t count) {
     return glue::guard([&] {
         glue::add_source_columns(glue::content(file, "file"),

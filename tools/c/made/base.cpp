@@ -19,9 +19,10 @@ static_assert(TREEFORM_STATUS_NO_PLACEMENT == static_cast<int>(tf::status::no_pl
 static_assert(TREEFORM_STATUS_CANCELLED == static_cast<int>(tf::status::cancelled));
 const char* treeform_status_name(treeform_status value) { return glue::name_of<tf::status>(value); }
 
-static_assert(sizeof(treeform_element) == sizeof(tf::operand_element));
-static_assert(offsetof(treeform_element, operand) == offsetof(tf::operand_element, operand));
-static_assert(offsetof(treeform_element, index) == offsetof(tf::operand_element, index));
+static_assert(sizeof(treeform_operand_element) == sizeof(tf::operand_element));
+static_assert(offsetof(treeform_operand_element, operand) ==
+              offsetof(tf::operand_element, operand));
+static_assert(offsetof(treeform_operand_element, index) == offsetof(tf::operand_element, index));
 
 static_assert(sizeof(treeform_search_effort) == sizeof(tf::search_effort));
 static_assert(offsetof(treeform_search_effort, pairs) == offsetof(tf::search_effort, pairs));
@@ -38,7 +39,7 @@ void glue::fill(keeper& kept, const tf::certificate& from, treeform_certificate&
     to.open_count = from.open_count;
     to.open_edges = flat(from.open_edges);
     to.open_listed = from.open_edges.size();
-    to.open_faces = same<treeform_element>(from.open_faces);
+    to.open_faces = same<treeform_operand_element>(from.open_faces);
     to.boundary_edges = from.boundary_edges;
     to.misoriented_edges = from.misoriented_edges;
     to.max_displacement = from.max_displacement;

@@ -17,7 +17,7 @@ static_assert(TREEFORM_UINT64 == static_cast<int>(tf::scalar_type::uint64));
 static_assert(TREEFORM_SCALAR_FLOAT32 == static_cast<int>(tf::scalar_type::float32));
 static_assert(TREEFORM_SCALAR_FLOAT64 == static_cast<int>(tf::scalar_type::float64));
 
-void glue::fill(keeper&, const tf::io_warning& from, treeform_warning& to) {
+void glue::fill(keeper&, const tf::io_warning& from, treeform_io_warning& to) {
     to.code = from.code.c_str();
     to.text = from.text.c_str();
 }
@@ -32,14 +32,14 @@ void glue::fill(keeper&, const tf::column& from, treeform_column& to) {
     if (from.list_length) to.list_begin = from.list_begin.data();
 }
 
-void glue::fill(keeper& kept, const tf::element& from, treeform_rows& to) {
+void glue::fill(keeper& kept, const tf::element& from, treeform_element& to) {
     to.name = from.name.c_str();
     to.rows = from.rows;
     to.columns = list<treeform_column>(kept, from.columns);
     to.column_count = from.columns.size();
 }
 
-void glue::fill(keeper&, const tf::part& from, treeform_named_faces& to) {
+void glue::fill(keeper&, const tf::named_faces& from, treeform_named_faces& to) {
     to.object = from.object.c_str();
     to.group = from.group.c_str();
     to.material = from.material.c_str();
@@ -48,14 +48,14 @@ void glue::fill(keeper&, const tf::part& from, treeform_named_faces& to) {
 
 void glue::fill(keeper& kept, const tf::mesh_file& from, treeform_file_view& to) {
     to.mesh = arrays(from.mesh);
-    to.stored_face = or_null(from.stored_face);
+    to.face_of_triangle = or_null(from.face_of_triangle);
     to.stored_faces = from.stored_faces;
     to.indexed = from.indexed;
     to.stored_as = static_cast<treeform_precision>(from.stored_as);
     to.format = from.format.c_str();
-    to.warnings = list<treeform_warning>(kept, from.warnings);
+    to.warnings = list<treeform_io_warning>(kept, from.warnings);
     to.warning_count = from.warnings.size();
-    to.elements = list<treeform_rows>(kept, from.attributes.elements);
+    to.elements = list<treeform_element>(kept, from.attributes.elements);
     to.element_count = from.attributes.elements.size();
     to.texture = flat(from.attributes.corners.texture);
     to.texture_count = from.attributes.corners.texture.size();
@@ -128,15 +128,15 @@ void glue::fill(keeper& kept, const tf::write_result& from, treeform_written& to
     to.format = from.format.c_str();
     to.written_as = static_cast<treeform_precision>(from.written_as);
     to.max_displacement = from.max_displacement;
-    to.warnings = list<treeform_warning>(kept, from.warnings);
+    to.warnings = list<treeform_io_warning>(kept, from.warnings);
     to.warning_count = from.warnings.size();
 }
 
-tf::part_options glue::read(const treeform_part_options* options) {
-    return read(chosen(options, treeform_part_options_init));
+tf::usable_options glue::read(const treeform_usable_options* options) {
+    return read(chosen(options, treeform_usable_options_init));
 }
-tf::part_options glue::read(const treeform_part_options& o) {
-    tf::part_options how;
+tf::usable_options glue::read(const treeform_usable_options& o) {
+    tf::usable_options how;
     how.vertices = choice<tf::vertex_identity>(o.vertices, 2, "vertices");
     how.tolerance = o.tolerance;
     how.box = box(o.box);
@@ -144,9 +144,9 @@ tf::part_options glue::read(const treeform_part_options& o) {
     return how;
 }
 
-void treeform_part_options_init(treeform_part_options* options, size_t size) {
-    treeform_part_options to{};
-    const tf::part_options from;
+void treeform_usable_options_init(treeform_usable_options* options, size_t size) {
+    treeform_usable_options to{};
+    const tf::usable_options from;
     to.vertices = static_cast<treeform_vertex_identity>(from.vertices);
     to.tolerance = from.tolerance;
     to.details = from.details;
@@ -160,12 +160,12 @@ void glue::fill(keeper& kept, const tf::usable_mesh& from, treeform_usable_mesh&
     to.component = or_null(from.component);
     to.degenerate = from.degenerate;
     to.joined = from.joined;
-    to.warnings = list<treeform_warning>(kept, from.warnings);
+    to.warnings = list<treeform_io_warning>(kept, from.warnings);
     to.warning_count = from.warnings.size();
     to.face_in_file = faces_in_file(kept, from).data();
 }
 
-void glue::fill(keeper&, const tf::urdf_joint& from, treeform_robot_joint& to) {
+void glue::fill(keeper&, const tf::urdf_joint& from, treeform_urdf_joint& to) {
     to.name = from.name.c_str();
     to.kind = static_cast<int32_t>(from.kind);
     to.parent = from.parent;
@@ -174,7 +174,7 @@ void glue::fill(keeper&, const tf::urdf_joint& from, treeform_robot_joint& to) {
     to.upper = from.limits ? (*from.limits)[1] : not_known;
 }
 
-void glue::fill(keeper& kept, const tf::urdf_mesh& from, treeform_robot_mesh& to) {
+void glue::fill(keeper& kept, const tf::urdf_mesh& from, treeform_urdf_mesh& to) {
     to.link = from.link;
     to.file = kept.keep(from.file.string()).c_str();
     copy(from.place, to.place);
@@ -188,9 +188,9 @@ void glue::fill(keeper& kept, const tf::urdf_robot& from, treeform_robot_view& t
     to.name = from.name.c_str();
     to.links = words(kept, from.links);
     to.link_count = from.links.size();
-    to.joints = list<treeform_robot_joint>(kept, from.joints);
+    to.joints = list<treeform_urdf_joint>(kept, from.joints);
     to.joint_count = from.joints.size();
-    to.meshes = list<treeform_robot_mesh>(kept, from.meshes);
+    to.meshes = list<treeform_urdf_mesh>(kept, from.meshes);
     to.mesh_count = from.meshes.size();
     const auto& adjacent = kept.keep(from.adjacent());
     to.adjacent = flat(adjacent);
@@ -361,11 +361,12 @@ treeform_code treeform_write_memory(const treeform_file* file,
     });
 }
 
-treeform_code treeform_usable_part(const treeform_file* file, const treeform_part_options* options,
-                                   treeform_usable_mesh** mesh) {
+treeform_code treeform_usable_faces(const treeform_file* file,
+                                    const treeform_usable_options* options,
+                                    treeform_usable_mesh** mesh) {
     return glue::guard([&] {
         glue::start(mesh);
-        return glue::give(glue::usable_part(glue::content(file, "file"), glue::read(options)),
+        return glue::give(glue::usable_faces(glue::content(file, "file"), glue::read(options)),
                           mesh);
     });
 }
@@ -394,11 +395,11 @@ treeform_code treeform_scene_of(const treeform_file* const* files, const char* c
     });
 }
 
-treeform_code treeform_split_parts(const treeform_file* file, int32_t combine_patches,
-                                   treeform_scene_parts** parts) {
+treeform_code treeform_file_parts(const treeform_file* file, int32_t combine_patches,
+                                  treeform_scene_parts** parts) {
     return glue::guard([&] {
         glue::start(parts);
-        return glue::give(glue::split_parts(glue::content(file, "file"), combine_patches != 0),
+        return glue::give(glue::file_parts(glue::content(file, "file"), combine_patches != 0),
                           parts);
     });
 }

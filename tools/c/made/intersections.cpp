@@ -23,21 +23,21 @@ static_assert(offsetof(treeform_face_pair, a) == offsetof(tf::face_pair, a));
 static_assert(offsetof(treeform_face_pair, b) == offsetof(tf::face_pair, b));
 static_assert(offsetof(treeform_face_pair, kind) == offsetof(tf::face_pair, kind));
 
-void glue::fill(keeper&, const tf::intersection_result& from, treeform_pairs& to) {
+void glue::fill(keeper&, const tf::face_pair_result& from, treeform_face_pair_result& to) {
     to.pairs = same<treeform_face_pair>(from.pairs);
     to.count = from.pairs.size();
     std::copy(from.counts.begin(), from.counts.end(), to.counts);
     to.box_pairs = from.box_pairs;
 }
 
-tf::intersection_options glue::read(const treeform_intersection_options* options) {
-    return read(chosen(options, treeform_intersection_options_init));
+tf::face_pair_options glue::read(const treeform_face_pair_options* options) {
+    return read(chosen(options, treeform_face_pair_options_init));
 }
-tf::intersection_options glue::read(const treeform_intersection_options& o) {
-    tf::intersection_options how;
+tf::face_pair_options glue::read(const treeform_face_pair_options& o) {
+    tf::face_pair_options how;
     how.vertices = choice<tf::vertex_identity>(o.vertices, 2, "vertices");
-    how.move_a = matrix(o.move_a);
-    how.move_b = matrix(o.move_b);
+    how.transform_a = matrix(o.transform_a);
+    how.transform_b = matrix(o.transform_b);
     how.first_only = o.first_only != 0;
     how.kinds = kinds(o.kinds);
 
@@ -49,9 +49,9 @@ tf::intersection_options glue::read(const treeform_intersection_options& o) {
     return how;
 }
 
-void treeform_intersection_options_init(treeform_intersection_options* options, size_t size) {
-    treeform_intersection_options to{};
-    const tf::intersection_options from;
+void treeform_face_pair_options_init(treeform_face_pair_options* options, size_t size) {
+    treeform_face_pair_options to{};
+    const tf::face_pair_options from;
     to.vertices = static_cast<treeform_vertex_identity>(from.vertices);
     to.first_only = from.first_only;
     to.kinds = TREEFORM_ALL_KINDS;
@@ -61,7 +61,7 @@ void treeform_intersection_options_init(treeform_intersection_options* options, 
     glue::init(options, size, to);
 }
 
-void glue::fill(keeper&, const tf::intersection_region& from, treeform_region& to) {
+void glue::fill(keeper&, const tf::intersection_region& from, treeform_intersection_region& to) {
     to.faces = or_null(from.faces);
     to.face_count = from.faces.size();
     copy(from.min, to.min);
@@ -70,24 +70,24 @@ void glue::fill(keeper&, const tf::intersection_region& from, treeform_region& t
     to.pair_count = from.pairs.size();
 }
 
-void glue::fill(keeper&, const tf::curve_path& from, treeform_path& to) {
+void glue::fill(keeper&, const tf::curve_path& from, treeform_curve_path& to) {
     to.points = or_null(from.points);
     to.count = from.points.size();
     to.closed = from.closed;
 }
 
-void glue::fill(keeper& kept, const tf::curve_network& from, treeform_paths& to) {
+void glue::fill(keeper& kept, const tf::curve_network& from, treeform_curve_network& to) {
     to.points = positions_of(kept, from.points);
     to.point_count = from.points.size();
-    to.paths = list<treeform_path>(kept, from.paths);
+    to.paths = list<treeform_curve_path>(kept, from.paths);
     to.path_count = from.paths.size();
 }
 
-tf::stream_search_options glue::read(const treeform_stream_search_options* options) {
-    return read(chosen(options, treeform_stream_search_options_init));
+tf::file_search_options glue::read(const treeform_file_search_options* options) {
+    return read(chosen(options, treeform_file_search_options_init));
 }
-tf::stream_search_options glue::read(const treeform_stream_search_options& o) {
-    tf::stream_search_options how;
+tf::file_search_options glue::read(const treeform_file_search_options& o) {
+    tf::file_search_options how;
     if (o.vertices != -1) how.vertices = choice<tf::vertex_identity>(o.vertices, 2, "vertices");
     how.kinds = kinds(o.kinds);
     how.box = box(o.box);
@@ -101,9 +101,9 @@ tf::stream_search_options glue::read(const treeform_stream_search_options& o) {
     return how;
 }
 
-void treeform_stream_search_options_init(treeform_stream_search_options* options, size_t size) {
-    treeform_stream_search_options to{};
-    const tf::stream_search_options from;
+void treeform_file_search_options_init(treeform_file_search_options* options, size_t size) {
+    treeform_file_search_options to{};
+    const tf::file_search_options from;
     to.vertices = -1;
     to.kinds = TREEFORM_ALL_KINDS;
     to.memory = from.memory;
@@ -111,13 +111,12 @@ void treeform_stream_search_options_init(treeform_stream_search_options* options
     glue::init(options, size, to);
 }
 
-void glue::fill(keeper& kept, const tf::stream_search_result& from,
-                treeform_stream_search_result& to) {
+void glue::fill(keeper& kept, const tf::file_search_result& from, treeform_file_search_result& to) {
     to.mesh = arrays(from.part.mesh);
     to.face_in_file = faces_in_file(kept, from.part).data();
     to.degenerate = from.part.degenerate;
     to.non_finite = from.part.non_finite;
-    to.found = &filled<treeform_pairs>(kept, from.found);
+    to.found = &filled<treeform_face_pair_result>(kept, from.found);
     to.stored_faces = from.stored_faces;
     to.triangles = from.triangles;
     to.searched = from.searched;
@@ -128,16 +127,16 @@ void glue::fill(keeper& kept, const tf::stream_search_result& from,
 
 void glue::fill(keeper& kept, const std::vector<tf::intersection_region>& from,
                 treeform_regions& to) {
-    to.regions = list<treeform_region>(kept, from);
+    to.regions = list<treeform_intersection_region>(kept, from);
     to.count = from.size();
 }
 
 treeform_code treeform_self_intersections(const treeform_mesh* mesh,
-                                          const treeform_intersection_options* options,
-                                          treeform_pairs** pairs) {
+                                          const treeform_face_pair_options* options,
+                                          treeform_face_pair_result** result) {
     return glue::guard([&] {
-        glue::start(pairs);
-        return glue::give(glue::self_intersections(glue::ref(mesh, "mesh"), options), pairs);
+        glue::start(result);
+        return glue::give(glue::self_intersections(glue::ref(mesh, "mesh"), options), result);
     });
 }
 
@@ -151,29 +150,31 @@ treeform_code treeform_group_pairs(const treeform_mesh* mesh, const treeform_fac
 }
 
 treeform_code treeform_mesh_intersections(const treeform_mesh* a, const treeform_mesh* b,
-                                          const treeform_intersection_options* options,
-                                          treeform_pairs** pairs) {
+                                          const treeform_face_pair_options* options,
+                                          treeform_face_pair_result** result) {
     return glue::guard([&] {
-        glue::start(pairs);
+        glue::start(result);
         return glue::give(
             tf::mesh_intersections(glue::ref(a, "a"), glue::ref(b, "b"), glue::read(options)),
-            pairs);
+            result);
     });
 }
 
 treeform_code treeform_intersects(const treeform_mesh* a, const treeform_mesh* b,
-                                  const double* move_a, const double* move_b, int32_t* result) {
+                                  const double* transform_a, const double* transform_b,
+                                  int32_t* result) {
     return glue::guard([&] {
         (void)glue::need(result, "result");
-        *result = glue::intersects(glue::ref(a, "a"), glue::ref(b, "b"), glue::matrix(move_a),
-                                   glue::matrix(move_b));
+        *result = glue::intersects(glue::ref(a, "a"), glue::ref(b, "b"), glue::matrix(transform_a),
+                                   glue::matrix(transform_b));
     });
 }
 
 treeform_code treeform_intersects_poses(const treeform_mesh* a, const treeform_mesh* b,
-                                        const double* moves_a, const double* moves_b, size_t count,
-                                        uint8_t* meet) {
-    return glue::guard([&] { glue::intersects_poses(a, b, moves_a, moves_b, count, meet); });
+                                        const double* transforms_a, const double* transforms_b,
+                                        size_t count, uint8_t* meet) {
+    return glue::guard(
+        [&] { glue::intersects_poses(a, b, transforms_a, transforms_b, count, meet); });
 }
 
 treeform_code treeform_faces_in_box(const treeform_mesh* mesh, const treeform_box* box,
@@ -197,11 +198,11 @@ treeform_code treeform_intersection_curves(const treeform_mesh* mesh,
 
 treeform_code treeform_intersection_paths(const treeform_mesh* mesh,
                                           const treeform_face_pair* pairs, size_t count,
-                                          treeform_paths** paths) {
+                                          treeform_curve_network** network) {
     return glue::guard([&] {
-        glue::start(paths);
+        glue::start(network);
         return glue::give(
-            tf::intersection_paths(glue::view(mesh), glue::pairs_of(mesh, pairs, count)), paths);
+            tf::intersection_paths(glue::view(mesh), glue::pairs_of(mesh, pairs, count)), network);
     });
 }
 
@@ -220,8 +221,8 @@ treeform_code treeform_color_pairs(treeform_file* file, const treeform_usable_me
 }
 
 treeform_code treeform_self_intersections_of_file(const char* input,
-                                                  const treeform_stream_search_options* options,
-                                                  treeform_stream_search_result** result) {
+                                                  const treeform_file_search_options* options,
+                                                  treeform_file_search_result** result) {
     return glue::guard([&] {
         glue::start(result);
         return glue::give(tf::self_intersections_of_file(std::string(&glue::need(input, "input")),
@@ -239,7 +240,7 @@ treeform_code treeform_is_searched_in_tiles(const char* path, const char* format
 }
 
 treeform_code treeform_shared_search_create(const char* path,
-                                            const treeform_stream_search_options* options,
+                                            const treeform_file_search_options* options,
                                             treeform_shared_search** search) {
     return glue::guard([&] {
         glue::start(search);
@@ -274,7 +275,7 @@ treeform_code treeform_shared_search_tile(treeform_shared_search* search, size_t
 }
 
 treeform_code treeform_shared_search_finish(treeform_shared_search* search,
-                                            treeform_stream_search_result** result) {
+                                            treeform_file_search_result** result) {
     return glue::guard([&] {
         glue::start(result);
         return glue::give(glue::shared_search_finish(glue::content(search, "search")), result);

@@ -151,7 +151,7 @@ tf::align_options glue::read(const treeform_align_options& o) {
     how.tolerance = o.tolerance;
     how.starts = o.starts;
     how.accelerate = o.accelerate != 0;
-    how.samples = limit(o.samples);
+    how.max_samples = limit(o.max_samples);
     how.start = matrix(o.start);
     how.precision = choice<tf::precision>(o.precision, 2, "precision");
     how.progress = progress(o);
@@ -173,15 +173,16 @@ void treeform_align_options_init(treeform_align_options* options, size_t size) {
     to.tolerance = from.tolerance;
     to.starts = from.starts;
     to.accelerate = from.accelerate;
-    to.samples = from.samples;
+    to.max_samples = from.max_samples;
     to.precision = static_cast<treeform_precision>(from.precision);
     glue::init(options, size, to);
 }
 
-static_assert(sizeof(treeform_freedom) == sizeof(tf::align_freedom));
-static_assert(offsetof(treeform_freedom, turn) == offsetof(tf::align_freedom, turn));
-static_assert(offsetof(treeform_freedom, shift) == offsetof(tf::align_freedom, shift));
-static_assert(offsetof(treeform_freedom, stiffness) == offsetof(tf::align_freedom, stiffness));
+static_assert(sizeof(treeform_align_freedom) == sizeof(tf::align_freedom));
+static_assert(offsetof(treeform_align_freedom, turn) == offsetof(tf::align_freedom, turn));
+static_assert(offsetof(treeform_align_freedom, shift) == offsetof(tf::align_freedom, shift));
+static_assert(offsetof(treeform_align_freedom, stiffness) ==
+              offsetof(tf::align_freedom, stiffness));
 
 void glue::fill(keeper& kept, const tf::align_result& from, treeform_align_result& to) {
     to.points = flat(from.points);
@@ -196,7 +197,7 @@ void glue::fill(keeper& kept, const tf::align_result& from, treeform_align_resul
     to.inliers = from.inliers;
     to.correlation = from.correlation;
     to.uncertainty = from.uncertainty;
-    to.freedoms = same<treeform_freedom>(from.freedoms);
+    to.freedoms = same<treeform_align_freedom>(from.freedoms);
     to.freedom_count = from.freedoms.size();
     to.outcome = static_cast<treeform_align_outcome>(from.outcome);
     to.iterations = from.iterations;

@@ -6,7 +6,7 @@
 
 namespace tf = treeform;
 
-void glue::fill(keeper&, const tf::rounding_effects& from, treeform_rounding& to) {
+void glue::fill(keeper&, const tf::rounding_effects& from, treeform_rounding_effects& to) {
     to.max_displacement = from.max_displacement;
     to.step = from.step;
     to.noticeable = from.noticeable;
@@ -46,6 +46,10 @@ treeform_code treeform_mesh_of_box(const treeform_box* box, treeform_mesh** mesh
         glue::start(mesh);
         return glue::give(glue::mesh_of_box(box), mesh);
     });
+}
+
+treeform_code treeform_rotation(const double* axis, double degrees, double* matrix) {
+    return glue::guard([&] { glue::rotation(axis, degrees, matrix); });
 }
 
 treeform_code treeform_mesh_arrays(const treeform_mesh* mesh, treeform_arrays* result) {
@@ -112,18 +116,18 @@ treeform_code treeform_coordinate_step(const treeform_mesh* mesh, treeform_preci
     });
 }
 
-treeform_code treeform_rounding_effects(const treeform_mesh* mesh, const double* matrix,
-                                        const double* placed, treeform_precision before,
-                                        treeform_precision after, int32_t always_compare,
-                                        treeform_progress progress, void* progress_data,
-                                        treeform_rounding** rounding) {
+treeform_code treeform_find_rounding_effects(const treeform_mesh* mesh, const double* matrix,
+                                             const double* placed, treeform_precision before,
+                                             treeform_precision after, int32_t always_compare,
+                                             treeform_progress progress, void* progress_data,
+                                             treeform_rounding_effects** effects) {
     return glue::guard([&] {
-        glue::start(rounding);
-        return glue::give(
-            glue::rounding_effects(mesh, glue::matrix(matrix), placed,
-                                   glue::choice<tf::precision>(before, 2, "before"),
-                                   glue::choice<tf::precision>(after, 2, "after"),
-                                   always_compare != 0, glue::progress(progress, progress_data)),
-            rounding);
+        glue::start(effects);
+        return glue::give(glue::find_rounding_effects(
+                              mesh, glue::matrix(matrix), placed,
+                              glue::choice<tf::precision>(before, 2, "before"),
+                              glue::choice<tf::precision>(after, 2, "after"), always_compare != 0,
+                              glue::progress(progress, progress_data)),
+                          effects);
     });
 }

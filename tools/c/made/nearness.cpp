@@ -10,13 +10,13 @@ namespace tf = treeform;
 static_assert(TREEFORM_OUTSIDE == static_cast<int>(tf::location::outside));
 static_assert(TREEFORM_INSIDE == static_cast<int>(tf::location::inside));
 static_assert(TREEFORM_BOUNDARY == static_cast<int>(tf::location::boundary));
-static_assert(TREEFORM_AT_V0 == static_cast<int>(tf::feature::v0));
-static_assert(TREEFORM_AT_V1 == static_cast<int>(tf::feature::v1));
-static_assert(TREEFORM_AT_V2 == static_cast<int>(tf::feature::v2));
-static_assert(TREEFORM_AT_E0 == static_cast<int>(tf::feature::e0));
-static_assert(TREEFORM_AT_E1 == static_cast<int>(tf::feature::e1));
-static_assert(TREEFORM_AT_E2 == static_cast<int>(tf::feature::e2));
-static_assert(TREEFORM_AT_INTERIOR == static_cast<int>(tf::feature::interior));
+static_assert(TREEFORM_AT_V0 == static_cast<int>(tf::triangle_feature::v0));
+static_assert(TREEFORM_AT_V1 == static_cast<int>(tf::triangle_feature::v1));
+static_assert(TREEFORM_AT_V2 == static_cast<int>(tf::triangle_feature::v2));
+static_assert(TREEFORM_AT_E0 == static_cast<int>(tf::triangle_feature::e0));
+static_assert(TREEFORM_AT_E1 == static_cast<int>(tf::triangle_feature::e1));
+static_assert(TREEFORM_AT_E2 == static_cast<int>(tf::triangle_feature::e2));
+static_assert(TREEFORM_AT_INTERIOR == static_cast<int>(tf::triangle_feature::interior));
 static_assert(TREEFORM_RELATION_SEPARATE == static_cast<int>(tf::mesh_relation::separate));
 static_assert(TREEFORM_RELATION_TOUCHING == static_cast<int>(tf::mesh_relation::touching));
 static_assert(TREEFORM_RELATION_PENETRATING == static_cast<int>(tf::mesh_relation::penetrating));
@@ -30,12 +30,12 @@ const char* treeform_mesh_relation_name(treeform_mesh_relation value) {
     return glue::name_of<tf::mesh_relation>(value);
 }
 
-static_assert(sizeof(treeform_hit) == sizeof(tf::mesh_hit));
-static_assert(offsetof(treeform_hit, face) == offsetof(tf::mesh_hit, face));
-static_assert(offsetof(treeform_hit, at) == offsetof(tf::mesh_hit, at));
-static_assert(offsetof(treeform_hit, coplanar) == offsetof(tf::mesh_hit, coplanar));
-static_assert(offsetof(treeform_hit, t) == offsetof(tf::mesh_hit, t));
-static_assert(offsetof(treeform_hit, t_end) == offsetof(tf::mesh_hit, t_end));
+static_assert(sizeof(treeform_mesh_hit) == sizeof(tf::mesh_hit));
+static_assert(offsetof(treeform_mesh_hit, face) == offsetof(tf::mesh_hit, face));
+static_assert(offsetof(treeform_mesh_hit, at) == offsetof(tf::mesh_hit, at));
+static_assert(offsetof(treeform_mesh_hit, coplanar) == offsetof(tf::mesh_hit, coplanar));
+static_assert(offsetof(treeform_mesh_hit, t) == offsetof(tf::mesh_hit, t));
+static_assert(offsetof(treeform_mesh_hit, t_end) == offsetof(tf::mesh_hit, t_end));
 
 tf::measure_options glue::read(const treeform_measure_options* options) {
     return read(chosen(options, treeform_measure_options_init));
@@ -61,7 +61,7 @@ void treeform_measure_options_init(treeform_measure_options* options, size_t siz
     glue::init(options, size, to);
 }
 
-void glue::fill(keeper&, const tf::mesh_measure& from, treeform_mesh_measure& to) {
+void glue::fill(keeper&, const tf::relation_result& from, treeform_relation_result& to) {
     to.relation = static_cast<treeform_mesh_relation>(from.relation);
     to.face_a = from.face_a;
     to.face_b = from.face_b;
@@ -136,29 +136,30 @@ treeform_code treeform_closest_point(const treeform_mesh* mesh, const double* qu
 }
 
 treeform_code treeform_closest_pair(const treeform_mesh* a, const treeform_mesh* b,
-                                    const double* move_a, const double* move_b, double radius,
-                                    treeform_closest* result) {
+                                    const double* transform_a, const double* transform_b,
+                                    double radius, treeform_closest* result) {
     return glue::guard([&] {
         (void)glue::need(result, "result");
-        *result = glue::closest_pair(glue::ref(a, "a"), glue::ref(b, "b"), glue::matrix(move_a),
-                                     glue::matrix(move_b), radius);
+        *result = glue::closest_pair(glue::ref(a, "a"), glue::ref(b, "b"),
+                                     glue::matrix(transform_a), glue::matrix(transform_b), radius);
     });
 }
 
 treeform_code treeform_distance(const treeform_mesh* a, const treeform_mesh* b,
-                                const double* move_a, const double* move_b, double* result) {
+                                const double* transform_a, const double* transform_b,
+                                double* result) {
     return glue::guard([&] {
         (void)glue::need(result, "result");
-        *result = glue::distance(glue::ref(a, "a"), glue::ref(b, "b"), glue::matrix(move_a),
-                                 glue::matrix(move_b));
+        *result = glue::distance(glue::ref(a, "a"), glue::ref(b, "b"), glue::matrix(transform_a),
+                                 glue::matrix(transform_b));
     });
 }
 
 treeform_code treeform_distance_poses(const treeform_mesh* a, const treeform_mesh* b,
-                                      const double* moves_a, const double* moves_b, size_t count,
-                                      double radius, double* distances) {
+                                      const double* transforms_a, const double* transforms_b,
+                                      size_t count, double radius, double* distances) {
     return glue::guard(
-        [&] { glue::distance_poses(a, b, moves_a, moves_b, count, radius, distances); });
+        [&] { glue::distance_poses(a, b, transforms_a, transforms_b, count, radius, distances); });
 }
 
 treeform_code treeform_locate(const treeform_mesh* mesh, const double* points, size_t count,
@@ -187,7 +188,7 @@ treeform_code treeform_locate_in_curves(const double* points, size_t point_count
 }
 
 treeform_code treeform_raycast(const treeform_mesh* mesh, const treeform_ray* rays, size_t count,
-                               treeform_hit* hits) {
+                               treeform_mesh_hit* hits) {
     return glue::guard([&] { glue::raycast(mesh, rays, count, hits); });
 }
 
@@ -206,11 +207,11 @@ treeform_code treeform_raycast_all(const treeform_mesh* mesh, const treeform_ray
 
 treeform_code treeform_measure(const treeform_mesh* a, const treeform_mesh* b,
                                const treeform_measure_options* options,
-                               treeform_mesh_measure** measure) {
+                               treeform_relation_result** result) {
     return glue::guard([&] {
-        glue::start(measure);
+        glue::start(result);
         return glue::give(tf::measure(glue::ref(a, "a"), glue::ref(b, "b"), glue::read(options)),
-                          measure);
+                          result);
     });
 }
 

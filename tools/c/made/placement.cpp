@@ -77,7 +77,7 @@ void treeform_placement_options_init(treeform_placement_options* options, size_t
     glue::init(options, size, to);
 }
 
-void glue::fill(keeper&, const tf::placement_contact& from, treeform_contact& to) {
+void glue::fill(keeper&, const tf::placement_contact& from, treeform_placement_contact& to) {
     copy(from.point, to.point);
     copy(from.normal, to.normal);
     to.moving = from.moving;
@@ -98,9 +98,9 @@ void glue::fill(keeper& kept, const tf::placement& from, treeform_placement& to)
     to.below_bed = from.below_bed;
     to.relation_at_start = static_cast<treeform_mesh_relation>(from.relation_at_start);
     to.relation = static_cast<treeform_mesh_relation>(from.relation);
-    if (from.nearest) to.nearest = &filled<treeform_mesh_measure>(kept, *from.nearest);
+    if (from.nearest) to.nearest = &filled<treeform_relation_result>(kept, *from.nearest);
     to.nearest_fixed = from.nearest_fixed;
-    to.contacts = list<treeform_contact>(kept, from.contacts);
+    to.contacts = list<treeform_placement_contact>(kept, from.contacts);
     to.contact_listed = from.contacts.size();
     to.contact_count = from.contact_count;
     to.effort = same<treeform_search_effort>(from.effort);
@@ -117,24 +117,24 @@ void glue::fill(keeper& kept, const tf::placement& from, treeform_placement& to)
 void glue::fill(keeper&, const tf::impact& from, treeform_impact& to) {
     to.outcome = static_cast<treeform_placement_outcome>(from.outcome);
     to.time = from.time;
-    to.contacts = same<treeform_impact_contact>(from.contacts);
+    to.contacts = same<treeform_face_contact>(from.contacts);
     to.contact_listed = from.contacts.size();
     to.contact_count = from.contact_count;
     to.pairs_tested = from.pairs_tested;
 }
 
-static_assert(sizeof(treeform_impact_contact) == sizeof(tf::face_contact));
-static_assert(offsetof(treeform_impact_contact, face_a) == offsetof(tf::face_contact, face_a));
-static_assert(offsetof(treeform_impact_contact, face_b) == offsetof(tf::face_contact, face_b));
-static_assert(offsetof(treeform_impact_contact, point) == offsetof(tf::face_contact, point));
+static_assert(sizeof(treeform_face_contact) == sizeof(tf::face_contact));
+static_assert(offsetof(treeform_face_contact, face_a) == offsetof(tf::face_contact, face_a));
+static_assert(offsetof(treeform_face_contact, face_b) == offsetof(tf::face_contact, face_b));
+static_assert(offsetof(treeform_face_contact, point) == offsetof(tf::face_contact, point));
 
 tf::impact_options glue::read(const treeform_impact_options* options) {
     return read(chosen(options, treeform_impact_options_init));
 }
 tf::impact_options glue::read(const treeform_impact_options& o) {
     tf::impact_options how;
-    how.move_a = matrix(o.move_a);
-    how.move_b = matrix(o.move_b);
+    how.transform_a = matrix(o.transform_a);
+    how.transform_b = matrix(o.transform_b);
     how.latest = o.latest;
     how.limit = limit(o.limit);
     how.progress = progress(o);
@@ -210,8 +210,8 @@ treeform_code treeform_turn(const treeform_mesh* moving, const treeform_mesh* co
 }
 
 treeform_code treeform_mate_features(const treeform_mesh* moving, const treeform_mesh* const* fixed,
-                                     size_t count, const treeform_feature* of_moving,
-                                     const treeform_feature* of_fixed,
+                                     size_t count, const treeform_mesh_feature* of_moving,
+                                     const treeform_mesh_feature* of_fixed,
                                      const treeform_placement_options* options,
                                      treeform_placement** placement) {
     return glue::guard([&] {
@@ -223,14 +223,24 @@ treeform_code treeform_mate_features(const treeform_mesh* moving, const treeform
     });
 }
 
-treeform_code treeform_measure_among(const treeform_mesh* moving, const treeform_mesh* const* fixed,
-                                     size_t count, const treeform_placement_options* options,
-                                     treeform_placement** placement) {
+treeform_code treeform_measure_in_place(const treeform_mesh* moving,
+                                        const treeform_mesh* const* fixed, size_t count,
+                                        const treeform_placement_options* options,
+                                        treeform_placement** placement) {
     return glue::guard([&] {
         glue::start(placement);
-        return glue::give(tf::measure_among(glue::ref(moving, "moving"),
-                                            glue::refs(fixed, count, "fixed"), glue::read(options)),
-                          placement);
+        return glue::give(
+            tf::measure_in_place(glue::ref(moving, "moving"), glue::refs(fixed, count, "fixed"),
+                                 glue::read(options)),
+            placement);
+    });
+}
+
+treeform_code treeform_moved(const treeform_placement* placement, const treeform_mesh* moving,
+                             treeform_mesh** mesh) {
+    return glue::guard([&] {
+        glue::start(mesh);
+        return glue::give(glue::moved(placement, glue::ref(moving, "moving")), mesh);
     });
 }
 

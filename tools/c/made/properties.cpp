@@ -17,7 +17,7 @@ void glue::fill(keeper&, const tf::mass_properties& from, treeform_mass_properti
     copy(from.inertia, to.inertia);
 }
 
-void glue::fill(keeper&, const tf::topology_counts& from, treeform_topology& to) {
+void glue::fill(keeper&, const tf::topology_counts& from, treeform_topology_counts& to) {
     to.edges = from.edges;
     to.boundary_edges = from.boundary_edges;
     to.nonmanifold_edges = from.nonmanifold_edges;
@@ -43,7 +43,7 @@ void glue::fill(keeper&, const tf::invalid_faces& from, treeform_invalid_faces& 
     to.out_of_range_face_count = from.out_of_range_faces.size();
 }
 
-void glue::fill(keeper&, const tf::mesh_feature& from, treeform_feature& to) {
+void glue::fill(keeper&, const tf::mesh_feature& from, treeform_mesh_feature& to) {
     to.kind = static_cast<treeform_feature_kind>(from.kind);
     copy(from.origin, to.origin);
     copy(from.direction, to.direction);
@@ -88,7 +88,7 @@ static_assert(offsetof(treeform_hull_side, normal) == offsetof(tf::hull_side, no
 static_assert(offsetof(treeform_hull_side, center) == offsetof(tf::hull_side, center));
 
 void glue::fill(keeper& kept, const std::vector<tf::mesh_feature>& from, treeform_features& to) {
-    to.features = list<treeform_feature>(kept, from);
+    to.features = list<treeform_mesh_feature>(kept, from);
     to.count = from.size();
 }
 
@@ -138,10 +138,11 @@ treeform_code treeform_check_operand(const treeform_mesh* mesh, treeform_progres
     });
 }
 
-treeform_code treeform_count_topology(const treeform_mesh* mesh, treeform_topology** topology) {
+treeform_code treeform_count_topology(const treeform_mesh* mesh,
+                                      treeform_topology_counts** counts) {
     return glue::guard([&] {
-        glue::start(topology);
-        return glue::give(glue::count_topology(glue::view(mesh)), topology);
+        glue::start(counts);
+        return glue::give(glue::count_topology(glue::view(mesh)), counts);
     });
 }
 

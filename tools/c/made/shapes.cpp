@@ -98,7 +98,7 @@ void glue::fill(keeper& kept, const tf::simplify_result& from, treeform_simplify
 
 void glue::fill(keeper&, const tf::thickness_result& from, treeform_thickness_result& to) {
     to.of_face = or_null(from.of_face);
-    to.least = from.least;
+    to.min = from.min;
     to.thinnest = from.thinnest;
 }
 

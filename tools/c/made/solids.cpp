@@ -48,7 +48,7 @@ void treeform_boolean_options_init(treeform_boolean_options* options, size_t siz
     glue::init(options, size, to);
 }
 
-void glue::fill(keeper&, const tf::operand_volumes& from, treeform_volumes& to) {
+void glue::fill(keeper&, const tf::operand_volumes& from, treeform_operand_volumes& to) {
     to.first = from.first;
     to.second = from.second;
     to.either = from.either;
@@ -57,15 +57,15 @@ void glue::fill(keeper&, const tf::operand_volumes& from, treeform_volumes& to) 
 
 void glue::fill(keeper& kept, const tf::boolean_result& from, treeform_boolean_result& to) {
     to.mesh = arrays(from.mesh);
-    to.face_source = same<treeform_element>(from.face_source);
-    to.vertex_source = same<treeform_element>(from.vertex_source);
-    to.face_of_cut_vertex = same<treeform_element>(from.face_of_cut_vertex);
+    to.face_source = same<treeform_operand_element>(from.face_source);
+    to.vertex_source = same<treeform_operand_element>(from.vertex_source);
+    to.face_of_cut_vertex = same<treeform_operand_element>(from.face_of_cut_vertex);
     to.certificate = &filled<treeform_certificate>(kept, from.certificate);
     to.vanished_components = from.vanished_components;
-    to.vanished_reach = from.vanished_reach;
+    to.vanished_distance = from.vanished_distance;
     to.vanished_at = flat(from.vanished_at);
     to.vanished_listed = from.vanished_at.size();
-    if (from.volumes) to.volumes = &filled<treeform_volumes>(kept, *from.volumes);
+    if (from.volumes) to.volumes = &filled<treeform_operand_volumes>(kept, *from.volumes);
     to.pairs = from.statistics.pairs;
     to.cut_faces = from.statistics.cut_faces;
     to.degenerate = from.statistics.degenerate;
@@ -73,7 +73,7 @@ void glue::fill(keeper& kept, const tf::boolean_result& from, treeform_boolean_r
     to.covered = from.statistics.covered;
     to.exact_faces = from.statistics.exact_faces;
     to.split_vertices = from.statistics.split_vertices;
-    to.slivers = from.statistics.slivers;
+    to.rounding_repairs = from.statistics.rounding_repairs;
     to.rounding_rounds = from.statistics.rounding_rounds;
     to.small_parts = from.statistics.small_parts;
     to.small_volume = from.statistics.small_volume;
@@ -122,7 +122,7 @@ tf::repair_options glue::read(const treeform_repair_options& o) {
     how.detach = o.detach != 0;
     how.gap = given(o.gap);
     how.largest_hole = o.largest_hole;
-    how.strays = o.strays;
+    how.stray_share = o.stray_share;
     if (o.fill_rule != -1) how.fill_rule = choice<tf::fill_rule>(o.fill_rule, 3, "fill_rule");
     how.max_loss = o.max_loss;
     how.sheet = o.sheet != 0;
@@ -146,7 +146,7 @@ void treeform_repair_options_init(treeform_repair_options* options, size_t size)
     to.detach = from.detach;
     to.gap = not_known;
     to.largest_hole = from.largest_hole;
-    to.strays = from.strays;
+    to.stray_share = from.stray_share;
     to.fill_rule = -1;
     to.max_loss = from.max_loss;
     to.sheet = from.sheet;
@@ -171,7 +171,7 @@ void glue::fill(keeper&, const tf::repair_statistics& from, treeform_repair_stat
     to.holes = from.holes;
     to.hole_edges = from.hole_edges;
     to.filled = from.filled;
-    to.sheets = from.sheets;
+    to.unfilled_rims = from.unfilled_rims;
     to.open_edges = from.open_edges;
     to.resolved = from.resolved;
     to.pairs = from.pairs;

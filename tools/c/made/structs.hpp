@@ -5,9 +5,9 @@
 
 #include <treeform/mesh/align.hpp>
 #include <treeform/mesh/as_mesh.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/attributes.hpp>
 #include <treeform/mesh/boolean.hpp>
-#include <treeform/mesh/carry.hpp>
 #include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/clash.hpp>
 #include <treeform/mesh/convex_hull.hpp>
@@ -38,25 +38,25 @@
 namespace glue {
 
 void fill(keeper& kept, const tf::certificate& from, treeform_certificate& to);
-void fill(keeper& kept, const tf::rounding_effects& from, treeform_rounding& to);
+void fill(keeper& kept, const tf::rounding_effects& from, treeform_rounding_effects& to);
 void fill(keeper& kept, const tf::mass_properties& from, treeform_mass_properties& to);
-void fill(keeper& kept, const tf::topology_counts& from, treeform_topology& to);
+void fill(keeper& kept, const tf::topology_counts& from, treeform_topology_counts& to);
 void fill(keeper& kept, const tf::invalid_faces& from, treeform_invalid_faces& to);
-void fill(keeper& kept, const tf::mesh_feature& from, treeform_feature& to);
+void fill(keeper& kept, const tf::mesh_feature& from, treeform_mesh_feature& to);
 [[nodiscard]] tf::feature_options read(const treeform_feature_options* options);
 [[nodiscard]] tf::feature_options read(const treeform_feature_options& o);
-void fill(keeper& kept, const tf::intersection_result& from, treeform_pairs& to);
-[[nodiscard]] tf::intersection_options read(const treeform_intersection_options* options);
-[[nodiscard]] tf::intersection_options read(const treeform_intersection_options& o);
-void fill(keeper& kept, const tf::intersection_region& from, treeform_region& to);
-void fill(keeper& kept, const tf::curve_path& from, treeform_path& to);
-void fill(keeper& kept, const tf::curve_network& from, treeform_paths& to);
-[[nodiscard]] tf::stream_search_options read(const treeform_stream_search_options* options);
-[[nodiscard]] tf::stream_search_options read(const treeform_stream_search_options& o);
-void fill(keeper& kept, const tf::stream_search_result& from, treeform_stream_search_result& to);
+void fill(keeper& kept, const tf::face_pair_result& from, treeform_face_pair_result& to);
+[[nodiscard]] tf::face_pair_options read(const treeform_face_pair_options* options);
+[[nodiscard]] tf::face_pair_options read(const treeform_face_pair_options& o);
+void fill(keeper& kept, const tf::intersection_region& from, treeform_intersection_region& to);
+void fill(keeper& kept, const tf::curve_path& from, treeform_curve_path& to);
+void fill(keeper& kept, const tf::curve_network& from, treeform_curve_network& to);
+[[nodiscard]] tf::file_search_options read(const treeform_file_search_options* options);
+[[nodiscard]] tf::file_search_options read(const treeform_file_search_options& o);
+void fill(keeper& kept, const tf::file_search_result& from, treeform_file_search_result& to);
 [[nodiscard]] tf::boolean_options read(const treeform_boolean_options* options);
 [[nodiscard]] tf::boolean_options read(const treeform_boolean_options& o);
-void fill(keeper& kept, const tf::operand_volumes& from, treeform_volumes& to);
+void fill(keeper& kept, const tf::operand_volumes& from, treeform_operand_volumes& to);
 void fill(keeper& kept, const tf::boolean_result& from, treeform_boolean_result& to);
 [[nodiscard]] tf::resolve_options read(const treeform_resolve_options* options);
 [[nodiscard]] tf::resolve_options read(const treeform_resolve_options& o);
@@ -83,7 +83,7 @@ void fill(keeper& kept, const tf::oriented_box& from, treeform_oriented_box& to)
 void fill(keeper& kept, const tf::isolines_result& from, treeform_isolines_result& to);
 [[nodiscard]] tf::measure_options read(const treeform_measure_options* options);
 [[nodiscard]] tf::measure_options read(const treeform_measure_options& o);
-void fill(keeper& kept, const tf::mesh_measure& from, treeform_mesh_measure& to);
+void fill(keeper& kept, const tf::relation_result& from, treeform_relation_result& to);
 [[nodiscard]] tf::deviation_options read(const treeform_deviation_options* options);
 [[nodiscard]] tf::deviation_options read(const treeform_deviation_options& o);
 void fill(keeper& kept, const tf::deviation_result& from, treeform_deviation_result& to);
@@ -97,7 +97,7 @@ void fill(keeper& kept, const tf::file_weld_result& from, treeform_weld_result& 
 void fill(keeper& kept, const tf::weld_stream_result& from, treeform_weld_stream_result& to);
 [[nodiscard]] tf::placement_options read(const treeform_placement_options* options);
 [[nodiscard]] tf::placement_options read(const treeform_placement_options& o);
-void fill(keeper& kept, const tf::placement_contact& from, treeform_contact& to);
+void fill(keeper& kept, const tf::placement_contact& from, treeform_placement_contact& to);
 void fill(keeper& kept, const tf::placement& from, treeform_placement& to);
 void fill(keeper& kept, const tf::impact& from, treeform_impact& to);
 [[nodiscard]] tf::impact_options read(const treeform_impact_options* options);
@@ -116,22 +116,22 @@ void fill(keeper& kept, const tf::align_result& from, treeform_align_result& to)
 [[nodiscard]] tf::clash_options read(const treeform_clash_options& o);
 void fill(keeper& kept, const tf::contact_region& from, treeform_contact_region& to);
 void fill(keeper& kept, const tf::part_clash& from, treeform_part_clash& to);
-void fill(keeper& kept, const tf::clash_result& from, treeform_clashes& to);
-void fill(keeper& kept, const tf::io_warning& from, treeform_warning& to);
+void fill(keeper& kept, const tf::clash_result& from, treeform_clash_result& to);
+void fill(keeper& kept, const tf::io_warning& from, treeform_io_warning& to);
 void fill(keeper& kept, const tf::column& from, treeform_column& to);
-void fill(keeper& kept, const tf::element& from, treeform_rows& to);
-void fill(keeper& kept, const tf::part& from, treeform_named_faces& to);
+void fill(keeper& kept, const tf::element& from, treeform_element& to);
+void fill(keeper& kept, const tf::named_faces& from, treeform_named_faces& to);
 void fill(keeper& kept, const tf::mesh_file& from, treeform_file_view& to);
 [[nodiscard]] tf::read_options read(const treeform_read_options* options);
 [[nodiscard]] tf::read_options read(const treeform_read_options& o);
 [[nodiscard]] tf::write_options read(const treeform_write_options* options);
 [[nodiscard]] tf::write_options read(const treeform_write_options& o);
 void fill(keeper& kept, const tf::write_result& from, treeform_written& to);
-[[nodiscard]] tf::part_options read(const treeform_part_options* options);
-[[nodiscard]] tf::part_options read(const treeform_part_options& o);
+[[nodiscard]] tf::usable_options read(const treeform_usable_options* options);
+[[nodiscard]] tf::usable_options read(const treeform_usable_options& o);
 void fill(keeper& kept, const tf::usable_mesh& from, treeform_usable_mesh& to);
-void fill(keeper& kept, const tf::urdf_joint& from, treeform_robot_joint& to);
-void fill(keeper& kept, const tf::urdf_mesh& from, treeform_robot_mesh& to);
+void fill(keeper& kept, const tf::urdf_joint& from, treeform_urdf_joint& to);
+void fill(keeper& kept, const tf::urdf_mesh& from, treeform_urdf_mesh& to);
 void fill(keeper& kept, const tf::urdf_robot& from, treeform_robot_view& to);
 void fill(keeper& kept, const std::vector<tf::mesh_feature>& from, treeform_features& to);
 void fill(keeper& kept, const std::vector<tf::mesh_part>& from, treeform_mesh_parts& to);

@@ -31,7 +31,7 @@ tf::mesh_file file_of(const held_mesh& mesh) {
         const auto [points, faces] = mesh.view();
         if (data) file = data->file();
         file.mesh = {{points.begin(), points.end()}, {faces.begin(), faces.end()}};
-        if (file.stored_face.empty()) file.stored_faces = faces.size();
+        if (file.face_of_triangle.empty()) file.stored_faces = faces.size();
     });
     return file;
 }
@@ -54,11 +54,11 @@ void require_rows(const tf::mesh_file& file, std::size_t operand) {
     const auto refuse = [&](const std::string& what) {
         throw std::invalid_argument("operand " + std::to_string(operand) + ": attributes: " + what);
     };
-    if (!file.stored_face.empty() && file.stored_face.size() != triangles)
-        refuse("stored_face is for " + std::to_string(file.stored_face.size()) +
+    if (!file.face_of_triangle.empty() && file.face_of_triangle.size() != triangles)
+        refuse("face_of_triangle is for " + std::to_string(file.face_of_triangle.size()) +
                " faces; there are " + std::to_string(triangles));
     const std::size_t faces =
-        file.stored_face.empty() ? triangles : std::size_t{file.stored_face.back()} + 1;
+        file.face_of_triangle.empty() ? triangles : std::size_t{file.face_of_triangle.back()} + 1;
     for (const tf::element& e : file.attributes.elements) {
         if (e.name != "vertex" && e.name != "face") continue;
         const std::size_t rows = e.name == "face" ? faces : file.mesh.points.size();
@@ -83,7 +83,7 @@ carrying::carrying(const held_meshes& operands) {
         require_rows(file, files_.size() - 1);
     }
     sources_ = list_of(files_, [](const tf::mesh_file& file) {
-        return tf::carry_source{&file, {}};
+        return tf::attribute_source{&file, {}};
     });
 }
 
@@ -113,7 +113,7 @@ py::object carrying::to(const tf::mesh& made, std::span<const tf::operand_elemen
                         std::span<const tf::operand_element> vertex_source,
                         std::span<const tf::operand_element> face_of_cut_vertex) const {
     return carried(made, [&](tf::mesh_file& file) {
-        sources_.carry(file, face_source, vertex_source, face_of_cut_vertex);
+        sources_.transfer(file, face_source, vertex_source, face_of_cut_vertex);
     });
 }
 
@@ -123,7 +123,7 @@ py::object carrying::to(const tf::mesh& made, std::span<const std::uint32_t> fac
                         std::span<const std::uint32_t> corner_source,
                         std::span<const std::uint32_t> cap) const {
     return carried(made, [&](tf::mesh_file& file) {
-        sources_.carry(file, face_source, vertex_source, face_of_new_vertex, corner_source);
+        sources_.transfer(file, face_source, vertex_source, face_of_new_vertex, corner_source);
         if (!cap.empty()) sources_.all().front().texture_caps(file, cap);
     });
 }

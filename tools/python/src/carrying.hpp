@@ -53,8 +53,8 @@ class carrying {
 
     std::vector<tf::mesh_file> files_;
     std::vector<std::uint32_t> groups_;
-    tf::carry_sources sources_{
-        std::vector<tf::carry_source>{}};  ///< empty if no operand has attributes
+    tf::attribute_sources sources_{
+        std::vector<tf::attribute_source>{}};  ///< empty if no operand has attributes
 };
 
 /// The faces of a body transformed by `by`, flipped if it mirrors, and a copy of its attributes

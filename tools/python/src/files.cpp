@@ -51,11 +51,11 @@ py::object scene(const held_meshes& meshes, const std::vector<std::string>& name
 }
 
 /// The parts of a mesh by name. Those without a name are called "1", "2", ..., by their positions.
-py::dict split_parts(const held_mesh& mesh, bool combine_patches) {
+py::dict file_parts(const held_mesh& mesh, bool combine_patches) {
     const tf::mesh_file whole = file_of(mesh);
     require_rows(whole, 0);
     std::vector<tf::file_part> parts = run([&](const tf::progress_callback&) {
-        return tf::split_parts({&whole, {}}, combine_patches);
+        return tf::file_parts({&whole, {}}, combine_patches);
     });
     py::dict all;
     for (tf::file_part& one : parts) {
@@ -142,9 +142,9 @@ py::dict corners(const file_data& data) {
     return all;
 }
 
-py::object stored_face(const file_data& data) {
-    if (data.file().stored_face.empty()) return py::none();
-    std::vector<std::uint32_t> copy = data.file().stored_face;
+py::object face_of_triangle(const file_data& data) {
+    if (data.file().face_of_triangle.empty()) return py::none();
+    std::vector<std::uint32_t> copy = data.file().face_of_triangle;
     return as_array(std::move(copy));
 }
 
@@ -159,7 +159,7 @@ std::vector<std::string> names_of_rows(const file_data& data) {
 
 std::vector<std::tuple<std::string, std::string, std::string, std::size_t>> parts_in(
     const file_data& data) {
-    return list_of(data.file().attributes.parts, [](const tf::part& one) {
+    return list_of(data.file().attributes.parts, [](const tf::named_faces& one) {
         return std::tuple(one.object, one.group, one.material, std::size_t{one.first_face});
     });
 }
@@ -170,6 +170,7 @@ std::string text_of(const file_data& data) {
         rows[py::str(one.name)] = py::list(columns(data, one.name));
     return "Attributes(format=" + std::string(py::repr(py::str(data.file().format))) +
            ", columns=" + std::string(py::repr(rows)) +
+           (data.file().attributes.corners == tf::corner_values{} ? "" : ", corners=...") +
            ", warnings=" + std::to_string(data.file().warnings.size()) + ")";
 }
 
@@ -237,14 +238,14 @@ but not lists and other elements.
         .def_property_readonly(
             "parts", &parts_in,
             "Parts of the file: (object, group, material, number in the file of the first face); "
-            "see `split_parts`.")
+            "see `file_parts`.")
         .def_property_readonly("corners", &corners,
                                "Values of the corners of faces: `texture` (n, 3) and "
                                "`texture_of_corner` (F, 3), "
                                "which has row numbers in `texture`, or 4294967295; likewise "
                                "`normals`.")  // -> dict[str, NDArray[Any]]
         .def_property_readonly(
-            "stored_face", &stored_face,
+            "face_of_triangle", &face_of_triangle,
             "(F,) the number in the file of the face that contains each triangle; None if all "
             "faces are triangles.");  // -> Optional[Ids]
     add_columns(made);
@@ -257,7 +258,7 @@ void add_files(py::module_& module) {
     add_job(module, "read", &read, job_kind::long_work);              // -> Mesh
     add_job(module, "read_bytes", &read_bytes, job_kind::long_work);  // -> Mesh
     add_job(module, "scene", &scene);                                 // -> Mesh
-    add_job(module, "split_parts", &split_parts);                     // -> dict[str, Mesh]
+    add_job(module, "file_parts", &file_parts);                       // -> dict[str, Mesh]
     add_job(module, "write", &write, job_kind::writes);               // -> Written
 }
 

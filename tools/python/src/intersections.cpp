@@ -23,7 +23,7 @@ std::vector<tf::face_pair> pairs_of(const ids_array& pairs, const array_of<std::
 namespace {
 
 py::object self_intersections_of_file(const std::filesystem::path& path,
-                                      tf::stream_search_options options,
+                                      tf::file_search_options options,
                                       const py::object& communicator) {
     options.communicator = communicator_of(communicator);
     const at_work here(communicator);
@@ -47,7 +47,7 @@ struct search_steps : tf::shared_search {
 using search_in_steps = work_in_steps<search_steps>;
 
 std::unique_ptr<search_in_steps> search_of(const std::filesystem::path& path,
-                                           tf::stream_search_options options) {
+                                           tf::file_search_options options) {
     return run([&](const tf::progress_callback&) {
         return std::make_unique<search_in_steps>([&](const step_progress& progress) {
             options.progress = std::ref(progress);

@@ -146,27 +146,27 @@ py::tuple raycast_all(const held_mesh& mesh, const points_array& origins,
 // ---- assembly ----
 
 /// [P] the positions of both meshes; one of the two may be the same for all.
-std::vector<tf::mesh_positions> positions_of(const array_of<double>& move_a,
-                                             const array_of<double>& move_b) {
-    const auto a = transforms_of(move_a), b = transforms_of(move_b);
+std::vector<tf::mesh_pair_options> positions_of(const array_of<double>& transform_a,
+                                                const array_of<double>& transform_b) {
+    const auto a = transforms_of(transform_a), b = transforms_of(transform_b);
     if (a.size() != b.size() && a.size() != 1 && b.size() != 1)
         throw std::invalid_argument("treeform: " + std::to_string(a.size()) + " positions of a, " +
                                     std::to_string(b.size()) + " of b");
-    std::vector<tf::mesh_positions> all(a.size() == 1 ? b.size() : a.size());
+    std::vector<tf::mesh_pair_options> all(a.size() == 1 ? b.size() : a.size());
     for (std::size_t i = 0; i < all.size(); ++i)
-        all[i] = {.move_a = a[a.size() == 1 ? 0 : i], .move_b = b[b.size() == 1 ? 0 : i]};
+        all[i] = {.transform_a = a[a.size() == 1 ? 0 : i], .transform_b = b[b.size() == 1 ? 0 : i]};
     return all;
 }
 
 /// A piece of the positions.
-std::span<const tf::mesh_positions> some_of(const std::vector<tf::mesh_positions>& all,
-                                            std::size_t begin, std::size_t end) {
+std::span<const tf::mesh_pair_options> some_of(const std::vector<tf::mesh_pair_options>& all,
+                                               std::size_t begin, std::size_t end) {
     return std::span(all).subspan(begin, end - begin);
 }
 
-py::array intersects(const held_mesh& a, const held_mesh& b, const array_of<double>& move_a,
-                     const array_of<double>& move_b) {
-    const auto all = positions_of(move_a, move_b);
+py::array intersects(const held_mesh& a, const held_mesh& b, const array_of<double>& transform_a,
+                     const array_of<double>& transform_b) {
+    const auto all = positions_of(transform_a, transform_b);
     const bool one = all.size() == 1;
     const tf::mesh_ref x = one ? a.ref() : a.prepared(), y = one ? b.ref() : b.prepared();
     const auto find = [&](std::size_t begin, std::size_t end) {
@@ -175,10 +175,10 @@ py::array intersects(const held_mesh& a, const held_mesh& b, const array_of<doub
     return column(in_pieces(all.size(), find), [](bool meet) { return meet; });
 }
 
-py::array distance(const held_mesh& a, const held_mesh& b, const array_of<double>& move_a,
-                   const array_of<double>& move_b, double radius) {
-    auto all = positions_of(move_a, move_b);
-    for (tf::mesh_positions& one : all) one.radius = radius;
+py::array distance(const held_mesh& a, const held_mesh& b, const array_of<double>& transform_a,
+                   const array_of<double>& transform_b, double radius) {
+    auto all = positions_of(transform_a, transform_b);
+    for (tf::mesh_pair_options& one : all) one.radius = radius;
     return as_array(in_pieces(all.size(), [&](std::size_t begin, std::size_t end) {
         return tf::distance(a.prepared(), b.prepared(), some_of(all, begin, end));
     }));

@@ -2,7 +2,8 @@
 
 Functions take and return NumPy arrays. A mesh is a `Mesh`, a pair (vertices, faces), or a mesh of
 trimesh, PyVista, Open3D, VTK or meshio. All decisions are exact for the given coordinates, and
-results of operations are verified in the returned coordinates.
+results of operations are verified in the returned coordinates. The lowest of several faces or
+points is the one with the lowest number.
 
 >>> import treeform
 >>> m = treeform.read("data/two_spheres.stl")
@@ -24,7 +25,7 @@ from ._cuts import (CutPiece, CutPieces, MassProperties, MeshPart, Section, Sect
                     section, submesh, transformed)
 from ._errors import (Cancelled, CertificateError, Error, FileError, NotCertifiedError,
                       NotClosedError)
-from ._files import Written, read, split_parts, write
+from ._files import Written, file_parts, read, write
 from ._from_others import from_meshio, from_open3d, from_pyvista, from_trimesh, from_vtk
 from ._intersections import (FacePairs, FilePairs, KINDS, Region, SharedSearch, faces_in_box,
                              intersection_curves, intersection_regions, mesh_intersections,
@@ -65,19 +66,18 @@ __all__ = ["Alignment", "AllRayHits", "Attributes", "BooleanResult", "BoxTree", 
            "check_operand", "check_poses", "clash", "clip", "closest_pair", "closest_point",
            "components", "concatenate", "contains", "convex_hull", "count_inside_out",
            "count_nearly_equal", "count_topology", "cut", "cut_along", "cut_to_fit", "deviation",
-           "difference", "distance", "drop", "face_components", "faces_in_box", "find_features",
-           "find_invalid_faces", "find_rounding_defects", "find_solid_defects", "from_meshio",
-           "from_open3d", "from_pyvista", "from_trimesh", "from_vtk", "hollow", "intersection",
-           "intersection_curves", "intersection_regions", "intersects", "isolines",
+           "difference", "distance", "drop", "face_components", "faces_in_box", "file_parts",
+           "find_features", "find_invalid_faces", "find_rounding_defects", "find_solid_defects",
+           "from_meshio", "from_open3d", "from_pyvista", "from_trimesh", "from_vtk", "hollow",
+           "intersection", "intersection_curves", "intersection_regions", "intersects", "isolines",
            "join_equal_points", "lay_flat", "layer_heights", "locate", "mass_properties", "mate",
            "mate_features", "measure", "mesh_intersections", "offset", "oriented_box", "pack",
            "penetration_depth", "plot", "raycast", "raycast_all", "raycast_any", "read",
            "read_urdf", "repair", "resolve_self_intersections", "rounded", "section",
            "self_intersections", "self_intersections_of_file", "separate", "show",
-           "signed_distance", "simplify", "slide", "split", "split_parts", "submesh",
-           "symmetric_difference", "thicken", "thread_count", "threads", "time_of_impact",
-           "transformed", "turn", "union", "wall_thickness", "weld", "weld_stream",
-           "winding_number", "wrap", "write"]
+           "signed_distance", "simplify", "slide", "split", "submesh", "symmetric_difference",
+           "thicken", "thread_count", "threads", "time_of_impact", "transformed", "turn", "union",
+           "wall_thickness", "weld", "weld_stream", "winding_number", "wrap", "write"]
 # end
 
 __version__: str = _core.version()

@@ -93,53 +93,57 @@ def clashes_in_poses(parts: Iterable[Body], poses: ArrayLike, how: _core.ClashOp
 # made of headers:
 #   intersects distance ClosestPair closest_pair PartClash ClashResult clash
 #   PoseClashes check_poses
-def intersects(a: Body, b: Body, *, move_a: ArrayLike | None = None,
-               move_b: ArrayLike | None = None, progress: Progress = None) -> Any:
+def intersects(a: Body, b: Body, *, transform_a: ArrayLike | None = None,
+               transform_b: ArrayLike | None = None, progress: Progress = None) -> Any:
     """Whether a face of `a` and a face of `b` have a common point; touching counts. Exact. Returns
     as soon as one pair is found. For meshes that are not a `Mesh`, only the faces that reach into
     the intersection of both bounding boxes (after the transforms) are indexed.
 
     `a` and `b` are each a mesh or a cloud (n, 3). Points of a cloud count as faces.
 
-    move_a: an affine transform of `a`, (4, 4), or several, (n, 4, 4). With several, the result is
-        an array (n,).
-    move_b: likewise for `b`.
+    transform_a: an affine transform of `a`, (4, 4), or several, (n, 4, 4). With several, the result
+        is an array (n,).
+    transform_b: likewise for `b`.
 
     Raises ValueError as `mesh_intersections`.
 
     >>> import numpy as np, treeform
     >>> cube = treeform.read("data/cube.stl")
     >>> away = np.eye(4); away[0, 3] = 1.5
-    >>> treeform.intersects(cube, cube), treeform.intersects(cube, cube, move_b=away)
+    >>> treeform.intersects(cube, cube), treeform.intersects(cube, cube, transform_b=away)
     (True, False)
-    >>> treeform.intersects(cube, cube, move_b=np.stack([np.eye(4), away]))
+    >>> treeform.intersects(cube, cube, transform_b=np.stack([np.eye(4), away]))
     array([ True, False])
     """
-    return one_or_all(_core.intersects(held_body(a), held_body(b), poses_of(move_a, "move_a"),
-                                       poses_of(move_b, "move_b"),
-                                       progress=progress).view(np.bool_), move_a, move_b)
+    return one_or_all(_core.intersects(held_body(a), held_body(b),
+                                       poses_of(transform_a, "transform_a"),
+                                       poses_of(transform_b, "transform_b"),
+                                       progress=progress).view(np.bool_), transform_a, transform_b)
 
 
-def distance(a: Body, b: Body, *, move_a: ArrayLike | None = None, move_b: ArrayLike | None = None,
-             radius: float = np.inf, progress: Progress = None) -> Any:
+def distance(a: Body, b: Body, *, transform_a: ArrayLike | None = None,
+             transform_b: ArrayLike | None = None, radius: float = np.inf,
+             progress: Progress = None) -> Any:
     """The distance between the surfaces `a` and `b`; infinite if `closest_pair` returns None.
 
     `a` and `b` are each a mesh or a cloud (n, 3). Points of a cloud count as faces.
 
-    move_a: an affine transform of `a`, (4, 4), or several, (n, 4, 4). With several, the result is
-        an array (n,).
-    move_b: likewise for `b`.
+    transform_a: an affine transform of `a`, (4, 4), or several, (n, 4, 4). With several, the result
+        is an array (n,).
+    transform_b: likewise for `b`.
     radius: larger distances are returned as infinite.
 
     >>> import numpy as np, treeform
     >>> cube = treeform.read("data/cube.stl")
     >>> away = np.eye(4); away[0, 3] = 1.5
-    >>> treeform.distance(cube, cube, move_b=away)
+    >>> treeform.distance(cube, cube, transform_b=away)
     0.5
     """
-    return one_or_all(_core.distance(held_body(a), held_body(b), poses_of(move_a, "move_a"),
-                                     poses_of(move_b, "move_b"), _arrays.number(radius, "radius"),
-                                     progress=progress), move_a, move_b)
+    return one_or_all(_core.distance(held_body(a), held_body(b),
+                                     poses_of(transform_a, "transform_a"),
+                                     poses_of(transform_b, "transform_b"),
+                                     _arrays.number(radius, "radius"),
+                                     progress=progress), transform_a, transform_b)
 
 
 class ClosestPair(NamedTuple):
@@ -162,8 +166,8 @@ class ClosestPair(NamedTuple):
         return tuple_repr(self)
 
 
-def closest_pair(a: Body, b: Body, *, move_a: ArrayLike | None = None,
-                 move_b: ArrayLike | None = None, radius: float = np.inf,
+def closest_pair(a: Body, b: Body, *, transform_a: ArrayLike | None = None,
+                 transform_b: ArrayLike | None = None, radius: float = np.inf,
                  progress: Progress = None) -> ClosestPair | None:
     """The nearest points of the surfaces `a` and `b`; none if one is empty, or if they are further
     apart than the radius. Surfaces count, not solids: inside a closed mesh, the distance is that to
@@ -181,8 +185,8 @@ def closest_pair(a: Body, b: Body, *, move_a: ArrayLike | None = None,
 
     `a` and `b` are each a mesh or a cloud (n, 3). Points of a cloud count as faces.
 
-    move_a: (4, 4) an affine transform applied to `a` first.
-    move_b: (4, 4) an affine transform applied to `b` first.
+    transform_a: (4, 4) an affine transform applied to `a` first.
+    transform_b: (4, 4) an affine transform applied to `b` first.
     radius: return None if the meshes are farther apart than this.
 
     Raises ValueError naming the mesh and its lowest face with a corner out of range or not finite;
@@ -193,9 +197,10 @@ def closest_pair(a: Body, b: Body, *, move_a: ArrayLike | None = None,
     >>> treeform.closest_pair(cube, (cube.vertices + [0, 0, 3], cube.faces)).distance
     2.0
     """
-    return _core.closest_pair(held_body(a), held_body(b), _arrays.matrix(move_a, "move_a"),
-                              _arrays.matrix(move_b, "move_b"), _arrays.number(radius, "radius"),
-                              progress=progress)
+    return _core.closest_pair(held_body(a), held_body(b),
+                              _arrays.matrix(transform_a, "transform_a"),
+                              _arrays.matrix(transform_b, "transform_b"),
+                              _arrays.number(radius, "radius"), progress=progress)
 
 
 @dataclass(frozen=True, repr=False)

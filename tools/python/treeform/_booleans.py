@@ -38,7 +38,7 @@ def combined(operation: str, meshes: tuple[Any, ...], how: _core.BooleanOptions,
     if not operands:
         raise ValueError("meshes: expected at least one mesh, not an empty list")
     if len(operands) == 1 and operation != "union":
-        parts = _core.split_parts(operands[0], True).values()
+        parts = _core.file_parts(operands[0], True).values()
         operands = [held(one) for one in parts] if len(parts) > 1 else operands
     return _core.boolean_of(operands, operation, "", [], how, progress=progress)
 
@@ -125,8 +125,8 @@ def union(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str = "flo
     operands.
 
     Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
-    manifolds that meet in few places: a search for these (once if prepared), and a copy. A `gap`
-    adds O(P) for the P pairs of faces whose boxes are that near.
+    manifolds that meet in few places: a search for these places (only once for a `Mesh`), and a
+    copy. A `gap` adds O(P) for the P pairs of faces whose boxes are that near.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -167,7 +167,8 @@ def intersection(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str
     that is not finite or beyond 2^1000.
 
     Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
-    manifolds that meet in few places: a search for these (once if prepared), and a copy.
+    manifolds that meet in few places: a search for these places (only once for a `Mesh`), and a
+    copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -210,7 +211,8 @@ def difference(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str =
     that is not finite or beyond 2^1000.
 
     Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
-    manifolds that meet in few places: a search for these (once if prepared), and a copy.
+    manifolds that meet in few places: a search for these places (only once for a `Mesh`), and a
+    copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -253,7 +255,8 @@ def symmetric_difference(*meshes: MeshesLike, fill_rule: str = "nonzero",
     that is not finite or beyond 2^1000.
 
     Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
-    manifolds that meet in few places: a search for these (once if prepared), and a copy.
+    manifolds that meet in few places: a search for these places (only once for a `Mesh`), and a
+    copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -283,8 +286,9 @@ def boolean(expression: str, *operands: MeshesLike, fill_rule: str = "nonzero",
 
     Attributes of the operands are carried over. A face gets the values of the operand face that it
     lies in; a new vertex on a cut gets interpolated values. The value is 0 or NaN if an operand
-    does not have the attribute. Coplanar faces are merged only if their values are equal, and if
-    vertices have values, only with `merge_coplanar`.
+    does not have the attribute. Coplanar faces are merged only if their values are equal; faces
+    whose corners differ in texture coordinates or normals are never merged, and if vertices have
+    values, faces are merged only with `merge_coplanar`.
 
     expression: a formula of `operands`, named `a`, `b`, `c`, ..., and of `meshes` by their names:
         `+` or `|` for union, `*` or `&` for intersection, `-` for difference, `^` for exclusive or,
@@ -310,7 +314,8 @@ def boolean(expression: str, *operands: MeshesLike, fill_rule: str = "nonzero",
     that is not finite or beyond 2^1000.
 
     Cost: O(F log F) for the F faces where the result's surface may be. For one or two closed
-    manifolds that meet in few places: a search for these (once if prepared), and a copy.
+    manifolds that meet in few places: a search for these places (only once for a `Mesh`), and a
+    copy.
 
     >>> import treeform
     >>> a = treeform.read("data/cube.stl")
@@ -343,7 +348,7 @@ def clip(sheet: MeshLike, *solids: MeshesLike, keep: str = "outside", fill_rule:
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotClosedError if an operand is open, NotCertifiedError if the result could not be
-    certified; ValueError as `boolean`; if there is no operand number `sheet`.
+    certified; ValueError as `boolean`; if `sheet` is not the number of an operand.
 
     Cost: as `boolean`; faces of solids whose boxes overlap no face of the sheet are skipped.
 

@@ -93,7 +93,7 @@ class Attributes:
     @property
     def parts(self) -> list[tuple[str, str, str, int]]:
         """Parts of the file: (object, group, material, number in the file of the first face); see
-        `split_parts`.
+        `file_parts`.
         """
     @property
     def corners(self) -> dict[str, NDArray[Any]]:
@@ -101,7 +101,7 @@ class Attributes:
         has row numbers in `texture`, or 4294967295; likewise `normals`.
         """
     @property
-    def stored_face(self) -> Optional[Ids]:
+    def face_of_triangle(self) -> Optional[Ids]:
         """(F,) the number in the file of the face that contains each triangle; None if all faces
         are triangles.
         """
@@ -251,7 +251,7 @@ class RepairOptions:
     defaults: dict[str, Any]
     def __init__(self, *, join: bool = ..., orient: bool = ..., fill: bool = ...,
                  resolve: bool = ..., detach: bool = ..., gap: Optional[float] = ...,
-                 largest_hole: Optional[int] = ..., strays: float = ...,
+                 largest_hole: Optional[int] = ..., stray_share: float = ...,
                  fill_rule: Optional[str] = ..., max_loss: float = ..., sheet: bool = ...,
                  precision: str = ..., max_displacement: float = ...,
                  keep_cuts: bool = ...) -> None: ...
@@ -274,14 +274,14 @@ class FeatureOptions:
     def __init__(self, *, tolerance: Optional[float] = ..., plane_angle: float = ...,
                  facet_angle: float = ..., arc: float = ...) -> None: ...
 
-class IntersectionOptions:
+class FacePairOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
-    def __init__(self, *, vertices: str = ..., move_a: Floats = ..., move_b: Floats = ...,
+    def __init__(self, *, vertices: str = ..., transform_a: Floats = ..., transform_b: Floats = ...,
                  first_only: bool = ..., kinds: Optional[list[str]] = ...,
                  limit: Optional[int] = ...) -> None: ...
 
-class StreamSearchOptions:
+class FileSearchOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
     def __init__(self, *, vertices: Optional[str] = ..., kinds: Optional[list[str]] = ...,
@@ -323,7 +323,7 @@ class MeasureOptions:
 class ImpactOptions:
     names: tuple[str, ...]
     defaults: dict[str, Any]
-    def __init__(self, *, move_a: Floats = ..., move_b: Floats = ...,
+    def __init__(self, *, transform_a: Floats = ..., transform_b: Floats = ...,
                  latest: float = ...) -> None: ...
 
 class LayFlatOptions:
@@ -339,8 +339,9 @@ class AlignOptions:
     def __init__(self, *, method: str = ..., overlap: float = ..., robust: bool = ...,
                  max_distance: float = ..., scale: bool = ..., least_scale: float = ...,
                  most_scale: float = ..., max_iterations: Optional[int] = ...,
-                 tolerance: float = ..., starts: Optional[int] = ..., samples: Optional[int] = ...,
-                 start: Floats = ..., precision: str = ...) -> None: ...
+                 tolerance: float = ..., starts: Optional[int] = ...,
+                 max_samples: Optional[int] = ..., start: Floats = ...,
+                 precision: str = ...) -> None: ...
 
 class PackOptions:
     names: tuple[str, ...]
@@ -370,10 +371,9 @@ def read_bytes(bytes: bytes, name: str, format: str, join: bool, options: ReadOp
 def scene(meshes: Sequence[HeldMesh], names: Sequence[str], progress: Watched = ...) -> Mesh: ...
 def write(path: str, mesh: HeldMesh, certified: bool, options: WriteOptions,
           progress: Watched = ...) -> Written: ...
-def self_intersections_of_file(path: str, options: StreamSearchOptions, communicator: Any,
+def self_intersections_of_file(path: str, options: FileSearchOptions, communicator: Any,
                                progress: Watched = ...) -> FilePairs: ...
-def search_of(path: str, options: StreamSearchOptions,
-              progress: Watched = ...) -> SearchInSteps: ...
+def search_of(path: str, options: FileSearchOptions, progress: Watched = ...) -> SearchInSteps: ...
 def thread_count() -> int: ...
 def version() -> str: ...
 def end() -> int: ...
@@ -450,17 +450,17 @@ def count_inside_out(mesh: HeldMesh, progress: Watched = ...) -> int: ...
 def find_features(mesh: HeldMesh, kind: str, options: FeatureOptions,
                   progress: Watched = ...) -> list[Feature]: ...
 def find_solid_defects(mesh: HeldMesh, progress: Watched = ...) -> SolidDefects: ...
-def self_intersections(mesh: HeldMesh, options: IntersectionOptions,
+def self_intersections(mesh: HeldMesh, options: FacePairOptions,
                        progress: Watched = ...) -> FacePairs: ...
-def mesh_intersections(a: HeldMesh, b: HeldMesh, options: IntersectionOptions,
+def mesh_intersections(a: HeldMesh, b: HeldMesh, options: FacePairOptions,
                        progress: Watched = ...) -> FacePairs: ...
 def faces_in_box(mesh: HeldMesh, min: Floats, max: Floats, progress: Watched = ...) -> Ids: ...
 def group_pairs(mesh: HeldMesh, pairs: Ids, kinds: Bytes,
                 progress: Watched = ...) -> list[Region]: ...
 def intersection_paths(mesh: HeldMesh, pairs: Ids, kinds: Bytes,
                        progress: Watched = ...) -> tuple[Floats, list[tuple[Ids, bool]]]: ...
-def split_parts(mesh: HeldMesh, combine_patches: bool,
-                progress: Watched = ...) -> dict[str, Mesh]: ...
+def file_parts(mesh: HeldMesh, combine_patches: bool,
+               progress: Watched = ...) -> dict[str, Mesh]: ...
 def read_urdf(path: str, package_folders: list[str], visual: bool,
               progress: Watched = ...) -> Robot: ...
 def count_nearly_equal(points: Floats, distance: float, progress: Watched = ...) -> int: ...
@@ -500,11 +500,11 @@ def mate_features(moving: HeldMesh, fixed: Sequence[HeldMesh], of_moving: Featur
                   of_fixed: Feature, options: PlacementOptions,
                   progress: Watched = ...) -> Placement: ...
 def pack(parts: Sequence[HeldMesh], options: PackOptions, progress: Watched = ...) -> Packing: ...
-def intersects(a: HeldMesh, b: HeldMesh, move_a: Floats, move_b: Floats,
+def intersects(a: HeldMesh, b: HeldMesh, transform_a: Floats, transform_b: Floats,
                progress: Watched = ...) -> Bytes: ...
-def distance(a: HeldMesh, b: HeldMesh, move_a: Floats, move_b: Floats, radius: float,
+def distance(a: HeldMesh, b: HeldMesh, transform_a: Floats, transform_b: Floats, radius: float,
              progress: Watched = ...) -> Floats: ...
-def closest_pair(a: HeldMesh, b: HeldMesh, move_a: Floats, move_b: Floats, radius: float,
+def closest_pair(a: HeldMesh, b: HeldMesh, transform_a: Floats, transform_b: Floats, radius: float,
                  progress: Watched = ...) -> Optional[ClosestPair]: ...
 def clash_parts(parts: Sequence[HeldMesh], options: ClashOptions, ignored: Ids,
                 progress: Watched = ...) -> ClashResult: ...

@@ -169,7 +169,7 @@ def section(mesh: MeshLike, normal: ArrayLike = (0, 0, 1), at: ArrayLike = (0, 0
     box has four. The segment after a point begins in the face in `faces`, and may continue in
     others.
 
-    Loops are in the order of their lowest faces.
+    The loops of a layer are in the order of their lowest face numbers.
 
     normal: (3,) the normal of the plane, of any length.
     at: (3,) a point on the plane.
@@ -351,9 +351,9 @@ def components(mesh: MeshLike, *, min_volume: float = 0.0, largest: int = 0,
     """The connected components of a mesh (faces linked by common corners), in the order of their
     lowest faces. Corners with equal coordinates are one. A closed component that is inside out is a
     cavity; it is returned with the smallest closed component around it, if any. Parts with a volume
-    below `min_volume`, in cubic units, are omitted; volumes count without sign, those of open parts
-    as 0 here. If `largest` is not 0, only that many parts are returned: those of the greatest
-    volume and, for equal volumes, the greatest area.
+    below `min_volume`, in cubic units, are omitted; for this, volumes have no sign, and those of
+    open parts are 0. If `largest` is not 0, only that many parts are returned: those of the
+    greatest volume and, for equal volumes, the greatest area.
 
     min_volume: ignore components with a smaller volume, in cubic units.
     largest: return only this many of the largest components; 0: all.
@@ -430,8 +430,8 @@ class MassProperties(Result):
 
     volume: The enclosed volume; negative if the mesh is inside out.
     center: (3,) the center of mass.
-    inertia: (3, 3) Inertia tensor about the center, in axes x, y and z: the energy of rotation w is
-        w . (inertia w) / 2.
+    inertia: (3, 3) Inertia tensor about the center, in axes x, y and z: the kinetic energy at
+        angular velocity w is w . (inertia w) / 2.
     """
 
     volume: float

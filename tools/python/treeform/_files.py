@@ -18,7 +18,7 @@ from ._mesh import Mesh, MeshLike, as_mesh, held, listed
 from ._progress import Progress
 from ._results import Result
 
-__all__ = ["Written", "read", "split_parts", "write"]
+__all__ = ["Written", "file_parts", "read", "write"]
 # end
 
 Path = Union[str, "os.PathLike[str]"]
@@ -106,9 +106,9 @@ def _scene_of(parts: Mapping[str, Any]) -> tuple[Mesh, bool]:
 
 
 # made of headers:
-#   split_parts
-def split_parts(mesh: MeshLike, *, combine_patches: bool = False,
-                progress: Progress = None) -> dict[str, Mesh]:
+#   file_parts
+def file_parts(mesh: MeshLike, *, combine_patches: bool = False,
+               progress: Progress = None) -> dict[str, Mesh]:
     """The parts of a mesh that was read from a file, by name: the objects, groups or nodes of the
     file. Each has its own vertices and faces, and their attributes. Parts without a name are "1",
     "2", ... For the connected parts of any mesh, see `components`.
@@ -123,11 +123,11 @@ def split_parts(mesh: MeshLike, *, combine_patches: bool = False,
     >>> import io, treeform
     >>> cube, file = treeform.read("data/cube.stl"), io.BytesIO()
     >>> _ = treeform.write(file, {"lid": cube, "box": (cube.vertices - 3, cube.faces)}, "3mf")
-    >>> treeform.split_parts(treeform.read(io.BytesIO(file.getvalue())))
+    >>> treeform.file_parts(treeform.read(io.BytesIO(file.getvalue())))
     {'lid': Mesh(8 vertices, 12 faces), 'box': Mesh(8 vertices, 12 faces)}
     """
-    return _core.split_parts(held(mesh), _arrays.flag(combine_patches, "combine_patches"),
-                             progress=progress)
+    return _core.file_parts(held(mesh), _arrays.flag(combine_patches, "combine_patches"),
+                            progress=progress)
 # end
 
 
@@ -146,12 +146,12 @@ def read(path: Path | IO[bytes], format: str = "", *, join: bool = True,
     - OBJ: `vt` and `vn` are in `Attributes.corners`. Material files are read if they exist and the
       OBJ has a path: the diffuse colors of its materials become columns red, green, blue and, where
       one is not opaque (`d`), alpha of faces; faces without a material are white.
-    - STL: if the size of a binary file is that of whole triangles, a wrong count is ignored;
-      otherwise, bytes after the counted triangles are. ASCII may have zero bytes between words, and
-      words after `endloop` and `endfacet`. `Attributes.warnings` reports all of these.
+    - STL: if a binary file has the size of whole triangles, a wrong count in its header is ignored.
+      Otherwise, bytes after the counted triangles are ignored. ASCII may have zero bytes between
+      words, and words after `endloop` and `endfacet`. `Attributes.warnings` reports all of these.
     - PLY: triangle strips, the element "tristrips", become faces, also those that repeat a vertex.
-    - PLY: the list "texcoord" of faces is in `Attributes.corners` when it has two numbers a corner,
-      or none.
+    - PLY: the list "texcoord" of faces is in `Attributes.corners` if each of these lists is empty
+      or has two numbers for each corner.
     - Text without a header (XYZ, CSV): the first line may name the columns. Then x, y and z may be
       any columns; names such as easting, northing and elevation are accepted with a warning,
       latitude and longitude are refused. `columns` assigns columns explicitly. An empty cell, or
@@ -185,8 +185,8 @@ def read(path: Path | IO[bytes], format: str = "", *, join: bool = True,
       how a surface looks. glTF 1.0 is read by assimp.
 
     Each of `Attributes.warnings` is also a warning of Python (`warnings.warn`). Polygons are
-    triangulated (`Attributes.stored_face`). A point cloud has no faces. DAE and some other formats
-    require a build with assimp. If the file does not exist, the FileError is also a
+    triangulated (`Attributes.face_of_triangle`). A point cloud has no faces. DAE and some other
+    formats require a build with assimp. If the file does not exist, the FileError is also a
     FileNotFoundError, and likewise for other system errors.
 
     path: the path of the file, or a binary file object, such as BytesIO.
@@ -244,8 +244,8 @@ def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: b
     - OBJ: parts, material files, texture coordinates and normals of corners (else those of points),
       colors of vertices.
     - OFF: normals, colors and texture coordinates of points.
-    - STL: the header, without a leading "solid", and with a NUL as its last byte if it contains
-      none; the names of solids; the column "stl_attribute".
+    - STL: the header, without a leading "solid"; if it contains no NUL, its last byte becomes one;
+      the names of solids; the column "stl_attribute".
     - XYZ and CSV: the other columns of points.
     - LAS and LAZ: the fields of their records; other columns as extra bytes. Columns red, green and
       blue of 8 bits are multiplied by 256. Without columns for them, return_number and

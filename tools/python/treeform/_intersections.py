@@ -128,7 +128,7 @@ class SharedSearch(InSteps[_core.SearchInSteps]):
 # end
 
     def _begin(self, given: dict[str, Any], progress: Progress) -> _core.SearchInSteps:
-        how = options(_core.StreamSearchOptions, given)
+        how = options(_core.FileSearchOptions, given)
         return _core.search_of(path_of(given["path"]), how, progress=progress)
 
     def search_tile(self, tile: int, *, progress: Progress = None) -> None:
@@ -164,9 +164,9 @@ def self_intersections(mesh: MeshLike, *, vertices: str = "by_coordinates",
     Exact on the coordinates as given. A degenerate face (collinear corners) is treated as the
     segment or point that it is; its pairs have a kind of their own.
 
-    By default, pairs that only touch and degenerate ones are included, and corners are joined by
-    coordinates; the tool tf-selfintersect leaves out these pairs, and uses the vertex numbers of
-    the file, if it has any. `kinds` and `vertices` choose.
+    The defaults differ from those of the tool tf-selfintersect. Here, touching and degenerate pairs
+    are included, and corners with equal coordinates are one vertex; the tool leaves out such pairs,
+    and uses the vertex numbers of the file, if it has any. `kinds` and `vertices` change this.
 
     vertices: 'by_coordinates' or 'by_index'. Which corners count as shared.
     first_only: Only the first pair; the same on any number of threads.
@@ -185,12 +185,12 @@ def self_intersections(mesh: MeshLike, *, vertices: str = "by_coordinates",
     >>> treeform.self_intersections(m)
     FacePairs(pairs=uint32[78, 2], kinds=uint8[78], counts={'crossing': 78})
     """
-    how = options(_core.IntersectionOptions, locals())
+    how = options(_core.FacePairOptions, locals())
     return _core.self_intersections(held(mesh), how, progress=progress)
 
 
-def mesh_intersections(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = None,
-                       move_b: ArrayLike | None = None, first_only: bool = False,
+def mesh_intersections(a: MeshLike, b: MeshLike, *, transform_a: ArrayLike | None = None,
+                       transform_b: ArrayLike | None = None, first_only: bool = False,
                        kinds: Iterable[str] | None = None, limit: int | None = None,
                        progress: Progress = None) -> FacePairs:
     """All pairs of a face of `a` and a face of `b` that have a common point.
@@ -202,8 +202,8 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = N
     faces that reach into the intersection of both bounding boxes (after the transforms) are
     indexed.
 
-    move_a: (4, 4) an affine transform applied to `a` first.
-    move_b: (4, 4) an affine transform applied to `b` first.
+    transform_a: (4, 4) an affine transform applied to `a` first.
+    transform_b: (4, 4) an affine transform applied to `b` first.
     first_only: Only the first pair; the same on any number of threads.
     kinds: the kinds to search for, from `KINDS`; None: all.
     limit: List at most this many pairs, the lowest; all are counted.
@@ -220,7 +220,7 @@ def mesh_intersections(a: MeshLike, b: MeshLike, *, move_a: ArrayLike | None = N
     >>> treeform.mesh_intersections(a, b).counts["crossing"]
     6
     """
-    how = options(_core.IntersectionOptions, locals())
+    how = options(_core.FacePairOptions, locals())
     return _core.mesh_intersections(held(a), held(b), how, progress=progress)
 
 
@@ -258,7 +258,7 @@ def self_intersections_of_file(path: Path, *, vertices: str | None = None,
     >>> found.counts["crossing"], found.pairs_in_file.shape
     (78, (78, 2))
     """
-    how = options(_core.StreamSearchOptions, locals())
+    how = options(_core.FileSearchOptions, locals())
     return in_communicator(communicator, lambda all: _core.self_intersections_of_file(
         path_of(path), how, all, progress=progress))
 

@@ -123,7 +123,7 @@ class SearchEffort(NamedTuple):
     pairs: Pairs of faces tested; a pair in motion counts as two.
     bound: The limit of `pairs`.
     skipped_candidates: Number of candidates skipped because testing one would take more than 1/32
-        of the bound, or more than the rest of it. If not 0, a better result may exist.
+        of the bound, or more than is left of it. If not 0, a better result may exist.
     """
 
     pairs: int
@@ -260,9 +260,9 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
     About fifty directions are tried: along the axes, away from the nearest points, along normals of
     faces that meet, and others around the best. The nearest of the places found is returned, if its
     coordinates pass the check of `slide`. It need not be the globally nearest place, which is on
-    the boundary of a set with O(n^2 m^2) faces. The search is limited by `effort`, and skips
-    candidates that would take much of it, as in `penetration_depth`; `Placement.effort` counts
-    them.
+    the boundary of a set with O(n^2 m^2) faces, for meshes of n and m faces. The search is limited
+    by `effort`, and skips candidates that would take much of it, as in `penetration_depth`;
+    `Placement.effort` counts them.
 
     fixed: a fixed body, or a list of them.
     clearance: Gap to leave, a distance; 0: contact.
@@ -291,7 +291,7 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
          clearance: float = 0.0, max_angle: float = 360.0, tolerance: float | None = None,
          precision: str = "float64", progress: Progress = None) -> Placement:
     """Turns `moving` until its distance from one of `fixed` is at most the clearance plus the
-    tolerance; The axis is the line through `origin` along `axis`, of any length but 0. Turns are
+    tolerance. The axis is the line through `origin` along `axis`, of any length but 0. Turns are
     right-handed: counter-clockwise seen against the direction.
 
     Conservative advancement: bounds on the speed of corners guarantee that no faces meet within a
@@ -347,7 +347,7 @@ def mate_features(moving: Body, fixed: Any, of_moving: Feature, of_fixed: Featur
 
     A shaft may go through its bore and meet nothing: then its center stays at the center of the
     bore, if that penetrates nothing and keeps the clearance. The place is checked exactly, on the
-    returned coordinates. `travel` is 0.
+    returned coordinates. `travel` is always 0.
 
     fixed: a fixed body, or a list of them.
     of_moving: a plane or an axis found by `find_features`.
@@ -513,7 +513,7 @@ class Alignment(MeshResult):
 def align(moving: Body, fixed: Body, *, scale: bool | tuple[float, float] = False,
           method: str = "automatic", overlap: float = 1.0, robust: bool = True,
           max_distance: float = np.inf, max_iterations: int = 100, tolerance: float = 1e-6,
-          starts: int = 1, samples: int = 100_000, start: ArrayLike | None = None,
+          starts: int = 1, max_samples: int = 100_000, start: ArrayLike | None = None,
           precision: str = "float64", progress: Progress = None) -> Alignment:
     """The rigid motion, with a uniform scale if requested, that brings the moving points near the
     fixed mesh, or near its points if it has no faces.
@@ -535,11 +535,11 @@ def align(moving: Body, fixed: Body, *, scale: bool | tuple[float, float] = Fals
     every fourth is held out of the fit and used for this test. If its residuals are more than
     noise, other starts around `start` are tried: shifts by 8% of the diagonal, rotations by 14
     degrees. If residuals are still more than noise: on a fixed cloud, the result is `doubtful` if
-    they exceed 0.6 times the thickness of both sides around their planes. On a fixed mesh, it is
-    `doubtful` if another start, tried with few points, ends better, or if the deviation exceeds
-    0.2% of the diagonal.
+    they exceed 0.6 times the thickness of both point sets around their fitted planes. On a fixed
+    mesh, it is `doubtful` if another start, tried with few points, ends better, or if the deviation
+    exceeds 0.2% of the diagonal.
 
-    If either side has no points, the result is `start`, not converged.
+    If `moving` or `fixed` has no points, the result is `start`, not converged.
 
     scale: also find a uniform scale; a pair gives its lower and upper bound, relative to the scale
         of `start`.
@@ -556,10 +556,11 @@ def align(moving: Body, fixed: Body, *, scale: bool | tuple[float, float] = Fals
         or if a step moves no point near the fixed mesh by more than 1e-11 of the diagonal of the
         fixed mesh's box.
     starts: Number of starts, at least 1. The first is the present position; then the principal axes
-        of both sides aligned, in the 4 possible ways; then rotations spread evenly over all
-        rotations, small ones first, with aligned centers. The best result is returned; of equal
+        of `moving` and `fixed` aligned, in the 4 possible ways; then rotations spread evenly over
+        all rotations, small ones first, with aligned centers. The best result is returned; of equal
         results the first.
-    samples: Use at most this many moving points in the steps, spread evenly over space; 0 is all.
+    max_samples: Use at most this many moving points in the steps, spread evenly over space; 0 is
+        all.
     start: (4, 4) Applied to the moving points first, which gives the "present position"; any affine
         map.
     precision: 'float32' or 'float64'. Precision of the returned points.
@@ -783,8 +784,8 @@ class Impact(NamedTuple):
         return tuple_repr(self)
 
 
-def time_of_impact(a: Body, b: Body, motion: ArrayLike, *, move_a: ArrayLike | None = None,
-                   move_b: ArrayLike | None = None, latest: float = np.inf,
+def time_of_impact(a: Body, b: Body, motion: ArrayLike, *, transform_a: ArrayLike | None = None,
+                   transform_b: ArrayLike | None = None, latest: float = np.inf,
                    progress: Progress = None) -> Impact:
     """The least t >= 0 at which `a`, moved by t times `motion`, has a common point with `b`.
 
@@ -796,8 +797,8 @@ def time_of_impact(a: Body, b: Body, motion: ArrayLike, *, move_a: ArrayLike | N
     `a` and `b` are each a mesh or a cloud (n, 3). Points of a cloud count as faces.
 
     motion: (3,) the translation of `a` in one unit of time.
-    move_a: (4, 4) an affine transform applied to `a` first.
-    move_b: (4, 4) an affine transform applied to `b` first.
+    transform_a: (4, 4) an affine transform applied to `a` first.
+    transform_b: (4, 4) an affine transform applied to `b` first.
     latest: Ignore contacts after this time.
 
     Raises ValueError for a motion that is zero or not finite; a time that is negative or NaN;

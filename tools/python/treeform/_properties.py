@@ -133,7 +133,8 @@ class Topology(Result):
     faces: Faces with three different corners.
     repeated_corner_faces: Faces that repeat a corner.
     duplicate_faces: Faces with the same three corners as an earlier one.
-    closed_manifold: Every edge has two faces.
+    closed_manifold: Whether there are faces, and every edge has exactly two. Orientation and fans
+        of points do not matter.
     """
 
     edges: int
@@ -154,8 +155,8 @@ def count_topology(mesh: MeshLike, *, progress: Progress = None) -> Topology:
     """Counts edges, components and defects of a mesh. Only corner numbers matter, so corners with
     equal coordinates should be joined first (`join_equal_points`).
 
-    A fan of a point is a set of its faces linked by edges at that point, for edges of any number of
-    faces. Fans and components do not depend on the orientation of faces.
+    A fan of a point is a set of its faces that are linked by edges at that point, even by edges of
+    three or more faces. Fans and components do not depend on the orientation of faces.
 
     Raises ValueError naming the lowest face with a corner that is not less than the number of
     vertices, or for more than 2^32 - 1 faces.
@@ -245,7 +246,7 @@ def find_features(mesh: MeshLike, kind: str = "plane", *, tolerance: float | Non
     Raises ValueError naming a point that is not finite or a face with a corner out of range; for
     options that are negative or NaN.
 
-    Cost: O(F log F), times the number of regions for which a face is tried.
+    Cost: O(F log F) if each face is tried for one region only; else more, in proportion.
 
     >>> import treeform
     >>> [side.area for side in treeform.find_features(treeform.read("data/cube.stl"))]

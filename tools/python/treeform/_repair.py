@@ -79,29 +79,29 @@ class RepairResult(MadeMesh):
         others.
     statistics: Counts of each step's changes. The volume of the input is its `Mesh.volume`. Keys:
         'tetrahedra' (Tetrahedra formed by faces; only their boundary was kept); 'degenerate'
-        (Dropped faces without area; if there are any, slivers, too); 'repeated' (Faces that repeat
+        (Dropped faces without area, and slivers dropped with them); 'repeated' (Faces that repeat
         another, dropped); 'closed_edges' (Pairs of border edges joined into one edge);
         'split_edges' (Border edges split at vertices that lie on them); 'gap_limit' (Largest width
         of cracks searched for); 'widest_closed' (Widest crack that was closed); 'flipped' (Faces
         flipped to agree with their neighbors); 'turned_outward' (Components flipped outward);
         'strays' (Faces of loose and inner pieces, dropped); 'holes' (Holes filled); 'hole_edges'
-        (Edges around them); 'filled' (Faces that fill them); 'sheets' (Rims not filled, since they
-        are borders of sheets); 'open_edges' (Open edges left after these steps); 'resolved'
-        (Whether faces met and were cut); 'pairs' (Pairs of faces that met); 'labeled_cells' (Cells
-        labeled inside or outside, since faces disagreed); 'dropped_area' (Area of faces dropped for
-        equal labels on both sides); 'flipped_area' (Area of faces flipped by the labels); 'removed'
-        (Input faces that resolving removed entirely); 'covered' (For `resolve_self_intersections`
-        with `split`: input faces that lie entirely on faces of lower numbers. Their pieces are
-        those of the lower faces, so they do not count as removed); 'left_open' (For
-        `resolve_self_intersections` with `remove`: edges that lost their second face);
-        'exact_faces' (For `resolve_self_intersections`: as in `BooleanResult.statistics`);
+        (Edges around them); 'filled' (Faces that fill them); 'unfilled_rims' (Rims not filled,
+        since they are borders of sheets); 'open_edges' (Open edges left after these steps);
+        'resolved' (Whether faces met and were cut); 'pairs' (Pairs of faces that met);
+        'labeled_cells' (Cells labeled inside or outside, since faces disagreed); 'dropped_area'
+        (Area of faces dropped: equal labels on both sides); 'flipped_area' (Area of faces flipped
+        by the labels); 'removed' (Input faces that resolving removed entirely); 'covered' (For
+        `resolve_self_intersections` with `split`: input faces that lie entirely on faces of lower
+        numbers. Their pieces are those of the lower faces, so they do not count as removed);
+        'left_open' (For `resolve_self_intersections` with `remove`: edges that lost their second
+        face); 'exact_faces' (For `resolve_self_intersections`: as in `BooleanResult.statistics`);
         'split_vertices' (Vertices split where parts of the solid touch); 'detached' (Vertices moved
         apart); 'touching' (Vertices that still have the coordinates of another);
         'vanished_components' (Components (faces linked by vertices) that lost all of their faces;
-        for `repair`, only those larger than `strays`); 'dropped_shells' (Closed shells inside the
-        solid, dropped; `even_odd` makes them cavities); 'volume_before' (After `join`, `orient` and
-        `fill`; 0 if that is no solid); 'volume_after'; 'area_before'; 'area_after'; 'area_lost' (As
-        in `max_loss`).
+        for `repair`, only those larger than `stray_share`); 'dropped_shells' (Closed shells inside
+        the solid, dropped; `even_odd` makes them cavities); 'volume_before' (After `join`, `orient`
+        and `fill`; 0 if that is no solid); 'volume_after'; 'area_before'; 'area_after'; 'area_lost'
+        (As in `max_loss`).
     """
 
     face_source: Ids
@@ -163,10 +163,10 @@ def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, fill_rule
 
 
 def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = None,
-           largest_hole: int | None = None, strays: float = 0.001, fill_rule: str | None = None,
-           max_loss: float = 0.05, sheet: bool = False, precision: str = "float64",
-           max_displacement: float = np.inf, keep_cuts: bool = False, check: bool = True,
-           progress: Progress = None) -> RepairResult:
+           largest_hole: int | None = None, stray_share: float = 0.001,
+           fill_rule: str | None = None, max_loss: float = 0.05, sheet: bool = False,
+           precision: str = "float64", max_displacement: float = np.inf, keep_cuts: bool = False,
+           check: bool = True, progress: Progress = None) -> RepairResult:
     """Repairs a mesh to a solid: closed, oriented, manifold and free of self-intersections. If this
     is not possible, an error is raised; with `check=False`, the certificate of the result says why
     and lists where.
@@ -177,25 +177,26 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
     heuristics, and counted in `RepairResult.statistics`. Points with equal coordinates are one. If
     faces are the sides of tetrahedra, only the boundary of the tetrahedra is kept. If faces remain
     inconsistent, a minimum cut labels cells inside or outside, by the orientations of faces and
-    generalized winding numbers; the result is used if it loses less.
+    generalized winding numbers. Its result is used if it loses less area than repair without
+    labels, or if there is no certified result otherwise.
 
     Holes are filled with triangles between their vertices; large holes in smooth surfaces also with
     new points, which continue the surface smoothly. Sheets are not filled, but reported as open,
     unless any loss is allowed. A sheet is a part whose fillings would have more than 0.6 times its
-    area, unless its border is in a plane and it is on one side of the plane. In a mesh of more than
-    1000 faces, no hole is filled if more than one edge for every 10 faces has three or more
-    inconsistent faces.
+    area, unless its border is in a plane and it is on one side of the plane. In a mesh of F > 1000
+    faces, no hole is filled if more than F / 10 edges have three or more faces and a signed face
+    count that is not zero.
 
     steps: the steps to perform. 'join' removes degenerate and duplicate faces and closes cracks;
         'orient' orients faces consistently and outward; 'fill' fills holes; 'resolve' removes
         self-intersections; 'detach' separates parts that touch only at an edge or a vertex.
     gap: Widest crack to close, in the mesh's length unit. By default the narrowest that leaves the
-        fewest open edges, out of 0, a float step, and 1e-6, 1e-5, 1e-4, 1e-3 of the diagonal of the
-        bounding box.
+        fewest open edges, out of 0, a unit in the last place of float32, and 1e-6, 1e-5, 1e-4, 1e-3
+        of the diagonal of the bounding box.
     largest_hole: Fill holes of at most this many edges.
-    strays: Drops loose open pieces below this share of the area, and loose pieces of one or two
-        faces below 1% of the area. If a larger component vanishes because it bounds no solid, the
-        status is `excessive_loss`, unless `max_loss` is 1.
+    stray_share: Drops loose open pieces below this share of the area, and loose pieces of one or
+        two faces below 1% of the area. If a larger component vanishes because it bounds no solid,
+        the status is `excessive_loss`, unless `max_loss` is 1.
     fill_rule: 'nonzero', 'even_odd' or 'positive': the winding numbers that count as inside. None:
         'positive' if all shells are oriented outward, otherwise 'nonzero'; if faces are
         inconsistent, inside and outside are determined by a minimum cut.

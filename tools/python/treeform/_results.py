@@ -53,13 +53,13 @@ class Certificate(Result):
     boundary_edges: Number of open edges with an odd number of faces.
     misoriented_edges: Number of open edges whose faces are inconsistently oriented.
     max_displacement: The largest change of a coordinate by rounding, from the exact position of the
-        vertex; for vertices added or removed by mending, from the nearest point of the exact
-        surface. Measured on the result: intermediate moves do not add up.
+        vertex; for vertices added or removed to repair what rounding did, from the nearest point of
+        the exact surface. Measured on the result: intermediate moves do not add up.
     precision: Of the coordinates: 'float32' or 'float64'.
     vanished_faces: For status `vanished`: number of faces of the exact result, all too thin for the
         coordinates; 0 if it had no faces.
-    size_before: For status `excessive_loss`: the volume (the area, if there is no solid) before and
-        after.
+    size_before: For status `excessive_loss`: the volume before the operation, or the area if there
+        is no solid.
     size_after: The same after the operation.
     size_is_volume: Whether these are volumes, not areas.
     message: The outcome as a clause for people, without a full stop.

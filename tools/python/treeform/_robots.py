@@ -57,7 +57,8 @@ class Robot(Result):
     joints: Parents before their children.
     parts: One mesh for each link with faces, in the frame of the link.
     link_of_part: (N,) the link of each part.
-    adjacent: (n, 2) parts connected by a joint, the lower number first: they always touch.
+    adjacent: (n, 2) pairs of parts connected by a joint, directly or through links without a mesh;
+        the lower number first. They usually touch, so pass them as `ignored`.
     approximated: Cylinders and spheres replaced by triangles, a sentence each.
     skipped: Geometry that is not read, a sentence each.
     """

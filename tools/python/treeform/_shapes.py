@@ -35,7 +35,7 @@ def drains_of(drains: ArrayLike) -> Floats:
 class Isolines(Result):
     """The isolines of all levels, in the given order of levels.
 
-    lines: One after the other.
+    lines: The lines; `points_of` returns the points of one.
     points: (n, 3) on edges of the mesh, rounded.
     faces: (points,) the face that contains the segment after each point.
     """
@@ -138,8 +138,8 @@ def hollow(mesh: MeshLike, wall: float, *, drains: ArrayLike = (), resolution: f
            precision: str = "float64", check: bool = True,
            progress: Progress = None) -> OffsetResult:
     """Hollows the solid: its points deeper inside than `wall` become cavities; the outer surface
-    stays bit for bit. The cavities are made of flat faces, so walls may be thinner:
-    `OffsetResult.least_distance`. The status is `vanished` if there is no cavity.
+    stays bit for bit. The cavities are made of flat faces, so the wall may be thinner than given:
+    `OffsetResult.least_distance` is a lower bound. The status is `vanished` if there is no cavity.
 
     `drains` are holes through the wall: a point and a diameter. Each runs from the point of the
     surface nearest to the given one, along the shortest segment to a cavity. It is a regular prism
@@ -266,7 +266,8 @@ class SimplifyResult(MadeMesh):
         `NONE`.
     corner_source: (3 F,) for each corner, an input corner (3 f + i for corner i of face f) at its
         vertex, on the same side of seams; none at new vertices.
-    fixed_vertices: That stay: at nonmanifold edges and vertices.
+    fixed_vertices: Number of vertices that cannot be removed, since they are at nonmanifold edges
+        or vertices.
     """
 
     face_source: Ids
@@ -293,14 +294,14 @@ def simplify(mesh: MeshLike, max_distance: float, *, face_groups: ArrayLike | No
     that meet may still meet. A closed, oriented manifold remains a closed, oriented manifold. The
     nesting of components is only checked at the end, in the certificate.
 
-    Borders, features, and borders of groups are simplified as polylines on their own vertices,
-    within the same distance. Vertices stay where such lines end, branch or cross, at nonmanifold or
-    inconsistently oriented edges, and where their faces are not one fan.
+    Borders, features, and borders of groups are simplified as polylines, within the same distance:
+    vertices on them are removed, but not moved. Vertices stay where such lines end, branch or
+    cross, at nonmanifold or inconsistently oriented edges, and where their faces are not one fan.
 
     Nothing is collapsed if the distance is below about 2^-46 of the largest coordinate, which
     doubles cannot prove, or if squares of coordinates overflow or underflow. Corners with equal
-    coordinates are one vertex; faces with two equal corners are dropped, and belong to neither
-    surface.
+    coordinates are one vertex; faces with two equal corners are dropped, and distances do not take
+    them into account.
 
     Values of vertices and corners are interpolated. Seams, and borders between faces with different
     materials or values, are preserved.
@@ -337,19 +338,19 @@ class Thickness(Result):
 
     of_face: (F,) The thickness at each face; infinite if nothing is behind it, or if it has no
         area.
-    least: Least thickness of all faces.
     thinnest: The lowest face with the least thickness.
+    min: Smallest thickness of all faces.
     """
 
     of_face: Floats
-    least: float
     thinnest: int
+    min: float
 
 
 def wall_thickness(mesh: MeshLike, by: str = "ray", *, progress: Progress = None) -> Thickness:
     """The wall thickness of a solid at each face. The face through which a ray leaves is exact, for
     the rounded center and normal; lengths are rounded. Balls are accurate to 2^-20 of their
-    diameter. Near a sharp edge balls are small: there they measure the edge.
+    diameter. Near a sharp edge, balls are small, and do not measure a wall.
 
     by: 'ray': along the inward normal from the center of each face; 'sphere': the diameter of the
         largest inscribed sphere that touches the center of the face.
@@ -359,7 +360,7 @@ def wall_thickness(mesh: MeshLike, by: str = "ray", *, progress: Progress = None
     Cost: a `raycast_all` for each face, and about ten `closest_point` for each ball.
 
     >>> import treeform
-    >>> treeform.wall_thickness(treeform.read("data/cube.stl")).least
+    >>> treeform.wall_thickness(treeform.read("data/cube.stl")).min
     1.0
     """
     return _core.wall_thickness(held(mesh), _arrays.word(by, "by"), progress=progress)

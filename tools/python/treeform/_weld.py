@@ -186,17 +186,17 @@ def weld(mesh_or_points: Body, tolerance: float = 0.0, *, chain: bool = False,
     float32 columns are rounded once more. Averaged normals are not scaled to length 1. A mean with
     a NaN or an infinity is NaN.
 
-    `keep_manifold` merges points of a group only along edges: where two edges become one edge of at
-    most two faces, or where an edge shrinks to a point. Points of a group linked in this way become
-    one point; other points of the group stay separate. Each linked part has its own first, last or
-    mean; points without faces join the lowest part with faces. So a surface that was cut open
-    closes along its seams, while solids that meet in an edge or a corner stay apart. If merging a
-    group would still make an edge or a point nonmanifold, because a point was nonmanifold before or
-    faces collapse, the group is not merged. Points with equal coordinates are merged first, then
-    the results are; so coincident corners stay merged, even if the rest of their group is not. In
-    the result, every edge of more than two faces had more than two before, and every point with
-    several fans contains a point that had several before. Points of one group may stay within the
-    tolerance of each other, and without `chain` a point may move by twice the tolerance.
+    With `keep_manifold`, points of a group are merged only where two edges become one edge of at
+    most two faces, or where an edge shrinks to a point. All points of a group that are linked in
+    this way become one point, with a first, last or mean of its own; the other points of the group
+    stay separate. Points without faces join the lowest such set of points with faces. So a surface
+    that was cut open closes along its seams, while solids that meet in an edge or a corner stay
+    apart. If merging a group would still make an edge or a point nonmanifold, because a point was
+    nonmanifold before or faces collapse, the group is not merged. Points with equal coordinates are
+    merged first, then the results are; so coincident corners stay merged, even if the rest of their
+    group is not. In the result, an edge has more than two faces only if it had before, and a point
+    has several fans only if one of the points merged into it had. Points of one group may stay
+    within the tolerance of each other, and without `chain` a point may move by twice the tolerance.
 
     mesh_or_points: a mesh, points (n, 3), or an object with `points` or `vertices` and no faces.
     tolerance: Euclidean, inclusive; 0: equal coordinates (-0 equals +0).
@@ -224,10 +224,10 @@ def weld(mesh_or_points: Body, tolerance: float = 0.0, *, chain: bool = False,
     missing or is a list; for `order_by` with another `keep` than `first`; for more than 2^32 / 3
     faces with `keep_manifold`. The message names the lowest invalid element.
 
-    Cost: Parallel. Without `chain`, points with several others within the tolerance are processed
-    serially if points come row by row or few are kept. Memory besides the result: up to 36 bytes a
-    point (50 for dense chains), 40 more with `order_by`; 24 bytes a face, 100 with `keep_manifold`;
-    8 bytes a point for each property in a condition.
+    Cost: Parallel. Exception: without `chain`, points with several others within the tolerance are
+    processed serially if points are ordered row by row, or if few are kept. Memory besides the
+    result: up to 36 bytes a point (50 for dense chains), 40 more with `order_by`; 24 bytes a face,
+    100 with `keep_manifold`; 8 bytes a point for each property in a condition.
 
     >>> import treeform
     >>> thin = treeform.weld([[0, 0, 0], [0, 0, 0.5], [3, 0, 0]], 1.0)
@@ -300,8 +300,8 @@ def weld_stream(files: Path | Iterable[Path], out: Path, tolerance: float = 0.0,
     """Welds the cloud in the files `files` (PLY without faces, PCD, LAS, LAZ, PTS, XYZ, CSV), and
     writes the outputs. Each output file is written completely or not at all. A single PLY or binary
     STL may be a mesh: then faces get their new corners, and collapsed faces are dropped, as by
-    `weld`. `out` must then be PLY or OBJ, and an STL needs tolerance 0 or `chain`. Ranks share
-    points and faces.
+    `weld`. `out` must then be PLY or OBJ, and an STL needs tolerance 0 or `chain`. Of several
+    ranks, each processes a share of the points and faces.
 
     The outputs are the same, byte for byte, as those of `weld` for the whole input.
 

@@ -36,7 +36,7 @@ tf::mesh read_part(job& work, const std::string& path) {
     non_finite = non_finite.get<std::uint64_t>() + file.non_finite;
     work.entry["inputs"].push_back(std::move(about));
     if (set.shapes.empty()) return {};
-    const auto [points, faces] = set.shapes[0].view();
+    const auto [points, faces] = set.shapes[0].indexed_view();
     return {{points.begin(), points.end()}, {faces.begin(), faces.end()}};
 }
 
@@ -137,7 +137,7 @@ class pose_run {
 double diagonal_of(const movable& all) {
     std::vector<tf::point3> corners;
     for (const tf::prepared_mesh& one : all.shapes)
-        if (const auto box = tf::bounding_box(one.view().points))
+        if (const auto box = tf::bounding_box(one.indexed_view().points))
             corners.insert(corners.end(), {box->min, box->max});
     const auto box = tf::bounding_box(corners);
     return box ? box->diagonal() : 0.0;

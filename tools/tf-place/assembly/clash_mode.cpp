@@ -4,7 +4,7 @@
 #include "tools/tf-place/assembly/assembly.hpp"
 #include "tools/tf-place/assembly/contact_entries.hpp"
 #include "tools/tf-place/assembly/measured.hpp"
-#include <treeform/mesh/carry.hpp>
+#include <treeform/mesh/attribute_sources.hpp>
 #include <treeform/mesh/write.hpp>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ json faces_entry(const tf::body_set& set, std::size_t body,
                  const std::vector<std::uint32_t>& faces) {
     json listed = json::array();
     for (std::size_t i = 0; i < std::min(faces.size(), most_faces); ++i)
-        listed.push_back(set.stored_face(body, faces[i]));
+        listed.push_back(set.face_in_file(body, faces[i]));
     return listed;
 }
 
@@ -102,7 +102,7 @@ std::vector<std::vector<mesh_relation>> face_relations(const named_assembly& all
     std::vector<std::vector<mesh_relation>> relations(all.names.size());
     const auto mark = [&](std::size_t part, const std::vector<std::uint32_t>& faces,
                           mesh_relation how) {
-        relations[part].resize(all.set.shapes[part].view().faces.size());
+        relations[part].resize(all.set.shapes[part].indexed_view().faces.size());
         for (const std::uint32_t f : faces) relations[part][f] = std::max(relations[part][f], how);
     };
     for (const tf::part_clash& pair : r.pairs)  // faces that meet: touching < penetrating

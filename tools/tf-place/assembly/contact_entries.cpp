@@ -10,7 +10,7 @@ json side_entry(const tf::body_set& set, std::size_t body, const tf::surface_poi
     const bool cloud = set.file_of(body).cloud;
     const json number = set.triangle(body, at.face);
     return {{"point", at.point},
-            {"face", or_null(!cloud, set.stored_face(body, at.face))},
+            {"face", or_null(!cloud, set.face_in_file(body, at.face))},
             {"triangle", or_null(!cloud, number)},
             {"barycentric", or_null(!cloud, at.barycentric)},
             {"vertex", or_null(cloud, number)}};
@@ -24,7 +24,7 @@ json name_entry(const tf::body_set& set, std::size_t body) {
 
 void enter_nearest(json& entry, const tf::body_set& moving, const tf::body_set& fixed,
                    const std::vector<std::string>& files, const tf::placement& at) {
-    const tf::mesh_measure& near = *at.nearest;
+    const tf::relation_result& near = *at.nearest;
     const std::size_t file = fixed.file_number(at.nearest_fixed);
     json there = side_entry(fixed, at.nearest_fixed, near.on_b);
     there.update(
@@ -42,8 +42,8 @@ json contact_entry(const tf::body_set& moving, const tf::body_set& fixed,
     const bool on_bed = !c.fixed_face;
     return {{"point", c.point},
             {"normal", c.normal},
-            {"moving", moving.stored_face(0, c.moving)},
-            {"fixed", on_bed ? json(nullptr) : json(fixed.stored_face(c.fixed, *c.fixed_face))},
+            {"moving", moving.face_in_file(0, c.moving)},
+            {"fixed", on_bed ? json(nullptr) : json(fixed.face_in_file(c.fixed, *c.fixed_face))},
             {"part", on_bed ? json("bed") : json(fixed.file_number(c.fixed))},
             {"name", on_bed ? json(nullptr) : name_entry(fixed, c.fixed)}};
 }

@@ -36,7 +36,7 @@ void enter_depth(job& work, const tf::body_set& moving, const tf::body_set& fixe
 void enter_points(job& work, const tf::body_set& moving, const tf::body_set& fixed,
                   const std::optional<std::array<std::uint64_t, 3>>& known) {
     if (!moving.file_of(0).cloud) return;
-    const tf::points_view points = moving.shapes[0].view().points;
+    const tf::points_view points = moving.shapes[0].indexed_view().points;
     const auto [inside, on, outside] = known ? *known : tf::count_sides(points, fixed.shapes);
     work.call_ended();
     work.entry["points"] = {{"inside", inside}, {"on", on}, {"outside", outside}};
@@ -108,8 +108,8 @@ std::string sentence(const tf::deviation_result& r, const deviation_settings& se
 void warn_of_inside_out(job& work, const tf::prepared_mesh& body, const std::string& name) {
     const std::uint64_t count = tf::count_inside_out(body);
     if (count == 0) return;
-    const auto components =
-        tf::count_topology(body.view().points.size(), body.view().faces).components_by_edge;
+    const auto [points, faces] = body.indexed_view();
+    const auto components = tf::count_topology(points.size(), faces).components_by_edge;
     work.warn(
         "inside-out",
         name + ": " +

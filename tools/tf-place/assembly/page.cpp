@@ -47,12 +47,12 @@ void add_classes(scene& shown, const named_assembly& all,
 void add_parts(scene& shown, const named_assembly& all,
                const std::vector<const tf::part_clash*>& pairs) {
     for (std::size_t i = 0; i < all.names.size(); ++i) {
-        const tf::mesh_view part = all.set.shapes[i].view();
+        const tf::mesh_view part = all.set.shapes[i].indexed_view();
         scene_mesh mesh{.mesh = part,
                         .kind = std::vector<std::uint8_t>(part.faces.size(), parts_class),
                         .name = all.names[i]};
         for (std::uint32_t f = 0; f < part.faces.size(); ++f)
-            mesh.number.push_back(all.set.stored_face(i, f));
+            mesh.number.push_back(all.set.face_in_file(i, f));
         shown.meshes.push_back(std::move(mesh));
     }
     for (std::size_t rank = pairs.size(); rank-- > 0;)

@@ -34,10 +34,10 @@ struct found_feature {
 std::optional<found_feature> at_face(const tf::body_set& set, tf::feature_kind kind,
                                      std::uint32_t number) {
     for (std::size_t body = 0; body < set.shapes.size(); ++body) {
-        const tf::mesh_view mesh = set.shapes[body].view();
+        const tf::mesh_view mesh = set.shapes[body].indexed_view();
         if (set.shapes[body].is_cloud()) continue;
         for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-            if (set.stored_face(body, f) != number) continue;
+            if (set.face_in_file(body, f) != number) continue;
             auto one = tf::feature_at(mesh, kind, f);
             if (!one) return std::nullopt;
             return found_feature{body, std::move(*one)};
@@ -60,7 +60,7 @@ std::optional<found_feature> near_point(const tf::body_set& set, tf::feature_kin
         face = at->face;
     }
     if (!nearest) return std::nullopt;
-    auto one = tf::feature_at(set.shapes[*nearest].view(), kind, face);
+    auto one = tf::feature_at(set.shapes[*nearest].indexed_view(), kind, face);
     if (!one) return std::nullopt;
     return found_feature{*nearest, std::move(*one)};
 }
@@ -72,7 +72,7 @@ std::optional<found_feature> find(const tf::body_set& set, tf::feature_kind kind
     std::optional<found_feature> best;
     for (std::size_t body = 0; body < set.shapes.size(); ++body) {
         if (set.shapes[body].is_cloud()) continue;
-        auto all = tf::find_features(set.shapes[body].view(), kind);
+        auto all = tf::find_features(set.shapes[body].indexed_view(), kind);
         if (!all.empty() && (!best || all[0].area > best->feature.area))
             best = found_feature{body, std::move(all[0])};
     }

@@ -51,8 +51,8 @@ struct align_options {
     /// Ignore partners farther apart than this. Not squared, not negative.
     double max_distance = std::numeric_limits<double>::infinity();
     /// Also find a uniform scale. The search tries scales from half to twice that of `start`, and
-    /// from half to twice the scale that makes both sides equally large. It compares results by the
-    /// distances between both sides, relative to their sizes.
+    /// from half to twice the scale that makes `moving` and `fixed` equally large. It compares
+    /// results by the distances between both, relative to their sizes.
     bool scale = false;
     /// Bounds of `align_result::scale` if `scale` is set: positive, or 0 and infinity for none. A
     /// start outside the bounds is moved to the nearest bound. Equal bounds fix the scale.
@@ -64,14 +64,14 @@ struct align_options {
     /// mesh's box.
     double tolerance = 1e-6;
     /// Number of starts, at least 1. The first is the present position; then the principal axes of
-    /// both sides aligned, in the 4 possible ways; then rotations spread evenly over all rotations,
-    /// small ones first, with aligned centers. The best result is returned; of equal results the
-    /// first.
+    /// `moving` and `fixed` aligned, in the 4 possible ways; then rotations spread evenly over all
+    /// rotations, small ones first, with aligned centers. The best result is returned; of equal
+    /// results the first.
     unsigned starts = 1;
     /// Anderson acceleration with the 5 previous steps.
     bool accelerate = true;
     /// Use at most this many moving points in the steps, spread evenly over space; 0 is all.
-    std::size_t samples = 100'000;
+    std::size_t max_samples = 100'000;
     /// Applied to the moving points first, which gives the "present position"; any affine map.
     transform<3> start{};
     treeform::precision precision = treeform::precision::float64;  ///< of the points returned
@@ -169,11 +169,11 @@ struct align_result {
 /// every fourth is held out of the fit and used for this test. If its residuals are more than
 /// noise, other starts around `start` are tried: shifts by 8% of the diagonal, rotations by 14
 /// degrees. If residuals are still more than noise: on a fixed cloud, the result is `doubtful` if
-/// they exceed 0.6 times the thickness of both sides around their planes. On a fixed mesh, it is
-/// `doubtful` if another start, tried with few points, ends better, or if the deviation exceeds
-/// 0.2% of the diagonal.
+/// they exceed 0.6 times the thickness of both point sets around their fitted planes. On a fixed
+/// mesh, it is `doubtful` if another start, tried with few points, ends better, or if the deviation
+/// exceeds 0.2% of the diagonal.
 ///
-/// If either side has no points, the result is `start`, not converged.
+/// If `moving` or `fixed` has no points, the result is `start`, not converged.
 ///
 /// \throws std::invalid_argument naming a point that is not finite or a face with a corner out of
 ///         range; for an option out of its range

@@ -19,29 +19,30 @@ namespace treeform {
 /// A mesh without NaN or infinite coordinates, and the file's number of each face.
 struct usable_mesh {
     treeform::mesh mesh{};
-    /// [F] the triangle in the file that each face is; empty: the same numbers.
+    /// [F] the number of each face among the triangles of the file; empty: the same numbers.
     std::vector<std::uint32_t> triangle_of_face{};
-    /// [triangles of the file] the face that each belongs to; empty: the same numbers.
-    std::vector<std::uint32_t> stored_face{};
+    /// [triangles of the file] the face of the file that each triangle is a part of; empty: the
+    /// same numbers.
+    std::vector<std::uint32_t> face_of_triangle{};
     /// Number of triangles with a coordinate that is not finite; for a cloud, number of such
     /// points.
     std::uint64_t non_finite = 0;
-    /// From `usable_part`: [F] the connected component of the whole mesh that each face is in.
+    /// From `usable_faces`: [F] the connected component of the whole mesh that each face is in.
     std::vector<std::uint32_t> component{};
-    std::uint64_t degenerate = 0;  ///< from `usable_part`: triangles that are a segment or a point
-    /// from `usable_part` with `details`: number of different points
+    std::uint64_t degenerate = 0;  ///< from `usable_faces`: triangles that are a segment or a point
+    /// from `usable_faces` with `details`: number of different points
     std::optional<std::uint64_t> distinct{};
-    std::uint64_t joined = 0;            ///< from `usable_part`: points merged by tolerance
+    std::uint64_t joined = 0;            ///< from `usable_faces`: points merged by tolerance
     std::vector<io_warning> warnings{};  ///< from `as_mesh`: those of the file
 
-    /// The triangle in the file of face `f`.
+    /// The number of face `f` among the triangles of the file.
     [[nodiscard]] std::uint32_t triangle(std::uint32_t f) const {
         return triangle_of_face.empty() ? f : triangle_of_face[f];
     }
     /// The number of face `f` in the file.
     [[nodiscard]] std::uint32_t face_in_file(std::uint32_t f) const {
         const std::uint32_t t = triangle(f);
-        return stored_face.empty() ? t : stored_face[t];
+        return face_of_triangle.empty() ? t : face_of_triangle[t];
     }
     operator mesh_view() const { return mesh; }  // NOLINT: meant to be implicit
 };
@@ -59,8 +60,8 @@ struct usable_mesh {
 /// The mesh of a file: `as_mesh(read(path))`.
 [[nodiscard]] TREEFORM_API usable_mesh read_mesh(const std::filesystem::path& path);
 
-/// Options of `usable_part`.
-struct part_options {
+/// Options of `usable_faces`.
+struct usable_options {
     /// Whether points with equal coordinates are one vertex.
     vertex_identity vertices = vertex_identity::by_coordinates;
     /// If greater than 0, points within this distance are joined, as by `weld`, after equal points.
@@ -73,14 +74,14 @@ struct part_options {
 /// The result has the number of each face in the file. Points that only dropped faces use are
 /// dropped as well.
 ///
-/// `stored_face` is `mesh_file::stored_face` of the file.
+/// `face_of_triangle` is `mesh_file::face_of_triangle` of the file.
 ///
 /// \throws std::invalid_argument as `faces_in_box`, `weld`
 /// \cost   O(V + F); with a tolerance, as `group_points`
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API usable_mesh usable_part(mesh given,
-                                                   std::vector<std::uint32_t> stored_face,
-                                                   const part_options& options = {});
+[[nodiscard]] TREEFORM_API usable_mesh usable_faces(mesh given,
+                                                    std::vector<std::uint32_t> face_of_triangle,
+                                                    const usable_options& options = {});
 
 /// Drops the faces of `mesh` with a corner that is not finite or out of range. Returns the previous
 /// number of each kept face [F]; empty if all are kept.
@@ -112,8 +113,9 @@ TREEFORM_API std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh);
 
 /// One file with all `files` as parts of a scene, with texture coordinates, normals, materials and
 /// textures. Other properties are omitted. `warnings` lists textures that could not be kept.
-/// `format` and `stored_as` are copied from the first file. For a file
-/// with a single part, `names` has its name. `labels` has the name of each file in warnings.
+/// `format` and `stored_as` are copied from the first file. `names` has one name for each file. Its
+/// part gets this name if the file has only one; so do faces before the first part. `labels` has
+/// the name of each file in warnings.
 ///
 /// \pre  there is at least one file, and one name and one label for each file
 /// \cost O(size of all files)

@@ -23,7 +23,7 @@ namespace treeform {
 
 /// Texture coordinates and normals that corners refer to by number, as in an OBJ. So a point may
 /// have different ones in each of its triangles (a seam, a sharp edge). Corners that share a value
-/// still share it in a file that is written.
+/// also share it in a written file.
 struct corner_values {
     /// Instead of a number: the corner has no value.
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -41,10 +41,10 @@ struct corner_values {
     [[nodiscard]] TREEFORM_API corner_values
     gathered(std::span<const std::uint32_t> triangles) const;
 
-    /// Appends `more`, the values of `more_triangles` triangles, to these values of `triangles`
-    /// triangles.
+    /// Appends `more`. This object has the values of `triangles` triangles, `more` those of
+    /// `more_triangles`.
     ///
-    /// \pre together, both have fewer texture coordinates, and fewer normals, than `none`
+    /// \pre the total numbers of texture coordinates and of normals are less than `none`
     TREEFORM_API void append(std::size_t triangles, const corner_values& more,
                              std::size_t more_triangles);
 
@@ -173,9 +173,9 @@ struct element {
     /// The column of that name; null when there is none.
     [[nodiscard]] TREEFORM_API const column* find(std::string_view column_name) const;
 
-    /// The names of the data columns that `column_name` means: the column of that name, or else,
-    /// for "normal", "uv" or "color", the columns of that kind, under the names of any format.
-    /// Empty if there are none.
+    /// The names of the data columns that match `column_name`: the column of that name. If there is
+    /// none, "normal", "uv" and "color" match all columns of that kind, in the naming of any
+    /// format. Empty if nothing matches.
     [[nodiscard]] TREEFORM_API std::vector<std::string> columns_called(
         std::string_view column_name) const;
 
@@ -194,13 +194,13 @@ struct element {
 };
 
 /// Consecutive faces to which a file gives the same names. A part ends where the next one starts.
-struct part {
+struct named_faces {
     std::string object{};          ///< OBJ `o`, the name of an STL solid or of a scene's node
     std::string group{};           ///< OBJ `g`
     std::string material{};        ///< OBJ `usemtl`
     std::uint32_t first_face = 0;  ///< number in the file
 
-    friend bool operator==(const part&, const part&) = default;
+    friend bool operator==(const named_faces&, const named_faces&) = default;
 };
 
 /// All attributes of a mesh.
@@ -211,7 +211,7 @@ struct attributes {
     /// Values of the corners of the mesh's triangles, even if the stored faces are polygons. The
     /// triangles of a polygon have equal values at shared corners.
     corner_values corners{};
-    std::vector<part> parts{};  ///< ascending by first face; empty if nothing is named
+    std::vector<named_faces> parts{};  ///< ascending by first face; empty if nothing is named
     std::vector<std::string> material_files{};  ///< OBJ `mtllib`, as in the file
     /// PLY: the names in the lines `comment TextureFile NAME`. The property "texnumber" of faces is
     /// a number in this list, from 0; without it, faces use the first.

@@ -49,9 +49,9 @@ class TREEFORM_API boolean_expression {
     /// \pre `in_operand` has a value for each operand
     [[nodiscard]] bool operator()(std::span<const bool> in_operand) const;
 
-    /// True if the result is inside this operand for any shapes: in `a-b` for a, in `a+b` for
-    /// neither. For a long formula, it may be false although the result is inside.
-    [[nodiscard]] bool needs(std::size_t operand) const;
+    /// Whether the result is inside this operand, whatever the shapes: true for a in `a-b`, false
+    /// for a and b in `a+b`. For a long formula, it may be false although the result is inside.
+    [[nodiscard]] bool is_inside(std::size_t operand) const;
 
     /// The formula in postfix notation: operands as numbers from 0, and these operations.
     enum : std::int32_t { add = -1, intersect = -2, minus = -3, exclude = -4 };
@@ -84,7 +84,7 @@ struct boolean_options {
     /// two regions. Uncut faces are not changed.
     bool keep_cuts = false;
     bool merge_coplanar = false;  ///< merge all coplanar faces of the result, also those not cut
-    /// [faces of all operands in order] or empty: only faces with equal numbers are merged.
+    /// [F of all operands, in order] or empty: only faces of the same group are merged.
     std::span<const std::uint32_t> face_groups{};
     /// Compute `boolean_result::volumes`; only for two operands, without filled gaps.
     bool volumes = false;
@@ -124,7 +124,7 @@ struct boolean_statistics {
     std::uint64_t exact_faces = 0;
     std::uint64_t split_vertices = 0;  ///< added where parts touch, so that edges have two faces
     /// Number of changes that joined points or removed thin faces where rounding made faces meet.
-    std::uint64_t slivers = 0;
+    std::uint64_t rounding_repairs = 0;
     int rounding_rounds = 0;         ///< how often faces that still met were cut and rounded again
     std::uint64_t small_parts = 0;   ///< number of solids and voids removed by `min_volume`
     double small_volume = 0.0;       ///< their total volume, in cubic units
@@ -154,7 +154,7 @@ struct TREEFORM_API boolean_result {
     std::uint64_t vanished_components = 0;
     /// The largest distance from `mesh` to a removed vertex of the exact result. It is large if a
     /// component lost a part too thin for the coordinates.
-    double vanished_reach = 0.0;
+    double vanished_distance = 0.0;
     std::vector<point3> vanished_at{};  ///< one point of each vanished component; at most 100
     std::optional<operand_volumes> volumes{};
     boolean_statistics statistics{};
@@ -181,8 +181,8 @@ struct TREEFORM_API boolean_result {
 ///         coordinate that is not finite or beyond 2^1000; if the `boolean_expression` has another
 ///         number of operands; for a `gap` if the expression is not a union of all operands
 /// \cost   O(F log F) for the F faces where the result's surface may be. For one or two closed
-///         manifolds that meet in few places: a search for these (once if prepared), and a copy.
-///         A `gap` adds O(P) for the P pairs of faces whose boxes are that near
+///         manifolds that meet in few places: a search for these places (only once for a prepared
+///         mesh), and a copy. A `gap` adds O(P) for the P pairs of faces whose boxes are that near
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API boolean_result boolean(const mesh_refs& operands,
                                                   const boolean_expression& expression,
@@ -220,9 +220,9 @@ template <std::convertible_to<std::string_view> Text>
 /// lowest face of the sheet that it lies in. The certificate does not check edges, since the result
 /// is open. If another operand is open, the status is `open_input` and the mesh is empty.
 ///
-/// \throws std::invalid_argument as `boolean`; if there is no operand number `sheet`; if the
-///         `boolean_expression` may be true outside of the sheet (`boolean_expression::needs`), as
-///         in a union; for `min_volume` or `gap`
+/// \throws std::invalid_argument as `boolean`; if `sheet` is not the number of an operand; if the
+///         `boolean_expression` may be true outside of the sheet
+///         (`boolean_expression::is_inside`), as in a union; for `min_volume` or `gap`
 /// \cost   as `boolean`; faces of solids whose boxes overlap no face of the sheet are skipped
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API boolean_result clip(const mesh_refs& operands, std::uint32_t sheet,

@@ -68,7 +68,7 @@ struct search_effort {
     std::uint64_t pairs = 0;  ///< pairs of faces tested; a pair in motion counts as two
     std::uint64_t bound = 0;  ///< the limit of `pairs`
     /// Number of candidates skipped because testing one would take more than 1/32 of the bound, or
-    /// more than the rest of it. If not 0, a better result may exist.
+    /// more than is left of it. If not 0, a better result may exist.
     std::uint64_t skipped_candidates = 0;
     friend bool operator==(const search_effort&, const search_effort&) = default;
 };
@@ -86,13 +86,13 @@ struct operand_element {
 struct TREEFORM_API certificate {
     treeform::status status = treeform::status::ok;
     /// Number of pairs of faces that meet beyond common corners and edges. A face paired with
-    /// itself is degenerate, or has the outside of the solid behind it. `meeting` lists the first
-    /// 100.
+    /// itself means that this face is degenerate, or that the outside of the solid is behind it.
+    /// `meeting` lists the first 100.
     std::uint64_t meeting_count = 0;
     std::vector<std::array<std::uint32_t, 2>> meeting{};
     std::vector<point3> meeting_at{};  ///< a corner of the first face of each pair in `meeting`
-    /// Number of edges whose signed face count is not zero, counted in pieces where edges overlap.
-    /// `open_edges` and `open_faces` list the first 100.
+    /// Number of edges whose signed face count is not zero. Where edges overlap, their pieces are
+    /// counted. `open_edges` and `open_faces` list the first 100.
     std::uint64_t open_count = 0;
     /// Ends of the open part of each edge; rounded if the edge is cut.
     std::vector<std::array<point3, 2>> open_edges{};
@@ -104,17 +104,16 @@ struct TREEFORM_API certificate {
     std::uint64_t boundary_edges = 0;
     std::uint64_t misoriented_edges = 0;
     /// The largest change of a coordinate by rounding, from the exact position of the vertex; for
-    /// vertices added or removed by mending, from the nearest point of the exact surface. Measured
-    /// on the result: intermediate moves do not add up.
+    /// vertices added or removed to repair what rounding did, from the nearest point of the exact
+    /// surface. Measured on the result: intermediate moves do not add up.
     double max_displacement = 0.0;
     treeform::precision precision = treeform::precision::float64;  ///< of the coordinates
     /// For status `vanished`: number of faces of the exact result, all too thin for the
     /// coordinates; 0 if it had no faces.
     std::uint64_t vanished_faces = 0;
-    /// For status `excessive_loss`: the volume (the area, if there is no solid) before and after.
-    double size_before = 0.0;
-    double size_after = 0.0;
-    bool size_is_volume = false;
+    double size_before = 0.0;     ///< for status `excessive_loss`: volume or area before
+    double size_after = 0.0;      ///< the same after
+    bool size_is_volume = false;  ///< `size_before` and `size_after` are volumes, not areas
 
     explicit operator bool() const { return status == treeform::status::ok; }
     /// The outcome as a clause for messages, without a full stop. Faces have the numbers in
@@ -148,7 +147,8 @@ struct rounding_effects {
     /// True if doubles became float32 and points moved, or if points moved by more than a millionth
     /// of the diagonal of the bounding box.
     bool noticeable = false;
-    /// `collapsed` and `meeting` were computed, since coordinates became coarser
+    /// Whether `collapsed` and `meeting` were computed: only if points moved, coordinates became
+    /// coarser, and there are faces.
     bool compared = false;
     std::uint64_t collapsed = 0;                     ///< faces that became degenerate
     std::uint64_t meeting = 0;                       ///< new pairs of faces that meet
@@ -158,9 +158,10 @@ struct rounding_effects {
     TREEFORM_API rounding_effects& operator+=(const rounding_effects& other);
 };
 
-/// The faces that become degenerate (`collapsed`), and the number of pairs of faces that newly meet
-/// (`meeting`; all kinds except touching and degenerate), when the points of `mesh` become
-/// `placed`. Exact. Distances are not compared, so `placed` may also be moved and rotated.
+/// Counts the defects that arise when `placed` replaces the points of `mesh`: faces that become
+/// degenerate (`collapsed`), and pairs of faces that newly meet (`meeting`; all kinds except
+/// touching and degenerate). Exact. Distances are not compared, so `placed` may also be moved and
+/// rotated.
 ///
 /// \throws std::invalid_argument as `self_intersections` for either, or if the numbers of points
 ///         differ
@@ -170,15 +171,16 @@ struct rounding_effects {
 [[nodiscard]] TREEFORM_API rounding_effects
 find_rounding_defects(mesh_view mesh, points_view placed, const progress_callback& progress = {});
 
-/// Compares `placed` with the points of `moving` transformed by `by`. If coordinates became
-/// coarser, also finds defects of the faces (`find_rounding_defects`).
+/// Compares `placed` with the points of `moving` transformed by `by`. `before` and `after` are the
+/// precisions of `moving` and of `placed`. If coordinates became coarser, also counts defects of
+/// faces (`find_rounding_defects`).
 ///
 /// \throws std::invalid_argument if the numbers of points differ
 /// \cost   O(V); if coordinates became coarser, also up to two `self_intersections`
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API rounding_effects
-effects_of_rounding(const mesh_ref& moving, const transform<3>& by, points_view placed,
-                    precision before = precision::float64, precision after = precision::float64,
-                    const progress_callback& progress = {});
+find_rounding_effects(const mesh_ref& moving, const transform<3>& by, points_view placed,
+                      precision before = precision::float64, precision after = precision::float64,
+                      const progress_callback& progress = {});
 
 }  // namespace treeform

@@ -56,7 +56,7 @@ struct contact_region {
 struct part_clash {
     std::uint32_t a = 0;  ///< the lower number
     std::uint32_t b = 0;  ///< number of the second part
-    /// touching, `penetrating` or `closer_than_clearance`
+    /// `touching`, `penetrating` or `closer_than_clearance`
     mesh_relation relation = mesh_relation::touching;
     bool a_inside_b = false;  ///< as in `measure`
     bool b_inside_a = false;  ///< the same with `a` and `b` swapped
@@ -75,11 +75,11 @@ struct part_clash {
 
 /// The result of `clash`.
 struct clash_result {
-    std::vector<part_clash> pairs{};       ///< pairs found, ascending
-    counts_by<mesh_relation, 5> counts{};  ///< number of tested pairs, by `mesh_relation`
-    std::uint64_t boxes_apart = 0;         ///< pairs excluded by their boxes
-    std::uint64_t ignored = 0;             ///< ignored pairs that boxes do not exclude
-    std::uint64_t parts_indexed = 0;
+    std::vector<part_clash> pairs{};                 ///< pairs found, ascending
+    counts_by<mesh_relation, 5> counts{};            ///< number of tested pairs, by `mesh_relation`
+    std::uint64_t boxes_apart = 0;                   ///< pairs excluded by their boxes
+    std::uint64_t ignored = 0;                       ///< ignored pairs that boxes do not exclude
+    std::uint64_t parts_indexed = 0;                 ///< number of parts with an index
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is invalid
 
     /// Number of pairs that penetrate or are closer than the clearance; with a clearance, also
@@ -115,21 +115,21 @@ struct clash_result {
 ///
 /// \throws std::invalid_argument as `intersects`
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API std::vector<bool> intersects(const mesh_ref& a, const mesh_ref& b,
-                                                        std::span<const mesh_positions> positions);
+[[nodiscard]] TREEFORM_API std::vector<bool> intersects(
+    const mesh_ref& a, const mesh_ref& b, std::span<const mesh_pair_options> positions);
 
 /// [P] `distance` for many positions, in parallel; infinite beyond the radius of each.
 ///
 /// \throws std::invalid_argument as `distance`
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API std::vector<double> distance(const mesh_ref& a, const mesh_ref& b,
-                                                        std::span<const mesh_positions> positions);
+[[nodiscard]] TREEFORM_API std::vector<double> distance(
+    const mesh_ref& a, const mesh_ref& b, std::span<const mesh_pair_options> positions);
 
 /// Two parts that penetrate, touch, or are closer than the clearance in a pose.
 struct pose_clash {
     std::uint32_t a = 0;  ///< the lower number
     std::uint32_t b = 0;
-    /// touching, `penetrating` or `closer_than_clearance`
+    /// `touching`, `penetrating` or `closer_than_clearance`
     mesh_relation relation = mesh_relation::touching;
     double distance = 0.0;  ///< for parts closer than the clearance; else 0
     friend bool operator==(const pose_clash&, const pose_clash&) = default;
@@ -150,8 +150,9 @@ struct pose_result {
 };
 
 /// The clashes in each of many poses. `poses` has a transform for each part, pose after pose:
-/// `poses[p * parts.size() + i]` moves part i in pose p. All pairs are tested, also of parts that
-/// do not move: if such a pair meets, every pose is in collision, unless `ignored` has it.
+/// `poses[p * parts.size() + i]` moves part i in pose p; the default transform leaves it in place.
+/// All pairs are tested, also of parts that do not move: if such a pair meets, every pose is in
+/// collision, unless `ignored` has it.
 ///
 /// Exact, like `clash` and `relation`, for the moved corners, rounded to double
 /// (`transform::operator()`). Two parts are only copied and indexed again for a pose if they touch,

@@ -31,7 +31,7 @@ struct cut_options {
     /// are open at the planes.
     bool caps = true;
     /// As in `boolean_options`, for a mesh that meets itself. Set it if merging would mix values
-    /// (`carry_sources::merging_mixes_values`).
+    /// (`attribute_sources::merging_mixes_values`).
     bool keep_cuts = false;
     progress_callback progress{};
 };
@@ -78,8 +78,8 @@ struct cut_result {
 /// `boolean`. Caps perpendicular to an axis stay flat and equal when rounded; others may bend by a
 /// unit in the last place.
 ///
-/// `carry_sources` transfers the attributes of a file to pieces. `carry_source::texture_caps` gives
-/// caps planar texture coordinates.
+/// `attribute_sources` transfers the attributes of a file to pieces.
+/// `attribute_source::texture_caps` gives caps planar texture coordinates.
 ///
 /// With caps, the mesh must bound a solid, like an operand of `boolean`. If it meets itself, or has
 /// parts that are inside out or hidden in others, it is first replaced by the solid that it winds
@@ -139,9 +139,9 @@ struct mesh_part {
 /// The connected components of a mesh (faces linked by common corners), in the order of their
 /// lowest faces. Corners with equal coordinates are one. A closed component that is inside out is a
 /// cavity; it is returned with the smallest closed component around it, if any. Parts with a volume
-/// below `min_volume`, in cubic units, are omitted; volumes count without sign, those of open parts
-/// as 0 here. If `largest` is not 0, only that many parts are returned: those of the greatest
-/// volume and, for equal volumes, the greatest area.
+/// below `min_volume`, in cubic units, are omitted; for this, volumes have no sign, and those of
+/// open parts are 0. If `largest` is not 0, only that many parts are returned: those of the
+/// greatest volume and, for equal volumes, the greatest area.
 ///
 /// \pre    every coordinate of a corner is finite
 /// \throws std::invalid_argument naming the lowest face with a corner out of range, and for a

@@ -19,9 +19,10 @@
 namespace treeform {
 
 /// Transforms of two meshes, and a search radius.
-struct mesh_positions {
-    transform<3> move_a{};  ///< applied to the corners first; moved corners are rounded to double
-    transform<3> move_b{};
+struct mesh_pair_options {
+    transform<3>
+        transform_a{};  ///< applied to the corners first; moved corners are rounded to double
+    transform<3> transform_b{};
     /// For distances: ignore points further apart than this; inclusive, not squared.
     double radius = std::numeric_limits<double>::infinity();
 };
@@ -57,11 +58,11 @@ struct closest_pair_result {
 ///         the last pair tested
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<closest_pair_result> closest_pair(
-    const mesh_ref& a, const mesh_ref& b, const mesh_positions& positions = {});
+    const mesh_ref& a, const mesh_ref& b, const mesh_pair_options& positions = {});
 
 /// The distance between the surfaces `a` and `b`; infinite if `closest_pair` returns none.
 [[nodiscard]] TREEFORM_API double distance(const mesh_ref& a, const mesh_ref& b,
-                                           const mesh_positions& positions = {});
+                                           const mesh_pair_options& positions = {});
 
 /// The point of a mesh that is nearest to a query.
 struct closest_point_result {
@@ -74,10 +75,10 @@ struct closest_point_result {
 /// The point of the surface of `mesh` nearest to `query`; none if the mesh is empty, or if all
 /// faces are further away than `radius` (inclusive).
 ///
-/// The error of the distance is at most 16 u L, where u = 2^-53 and L is the larger of the distance
-/// and the diagonal of the face's box, plus u times the coordinates. A degenerate face is treated
-/// as the segment or point that it is. Of several faces at the same computed distance, the lowest
-/// is returned.
+/// The error of the distance is at most 16 u L + u C, where u = 2^-53, L is the larger of the
+/// distance and the diagonal of the face's box, and C is the largest coordinate. A degenerate face
+/// is treated as the segment or point that it is. Of several faces at the same computed distance,
+/// the lowest is returned.
 ///
 /// \throws std::invalid_argument naming a face with a corner out of range or not finite, or a query
 ///         that is not finite; for a radius that is negative or NaN
@@ -98,7 +99,7 @@ struct closest_point_result {
 struct mesh_hit {
     std::uint32_t face = 0;
     /// corner, edge or interior that contains the first common point
-    feature at = feature::interior;
+    triangle_feature at = triangle_feature::interior;
     bool coplanar = false;  ///< the ray runs in the face's plane, or the face has no area
     double t = 0.0;         ///< of the first common point; relative error below 2^-40
     double t_end = 0.0;     ///< of the last common point; equal to t unless coplanar

@@ -39,8 +39,8 @@ namespace treeform {
 ///         overlap and the nodes above them. Up to twice as fast for prepared meshes
 /// \same   on any number of threads
 /// \source candidate pairs: Sajovic, Knez and Korez, tf::tree, section III-C
-[[nodiscard]] TREEFORM_API intersection_result
-mesh_intersections(const mesh_ref& a, const mesh_ref& b, const intersection_options& options = {});
+[[nodiscard]] TREEFORM_API face_pair_result
+mesh_intersections(const mesh_ref& a, const mesh_ref& b, const face_pair_options& options = {});
 
 /// Whether a face of `a` and a face of `b` have a common point; touching counts. Exact. Returns as
 /// soon as one pair is found. For meshes that are not prepared, only the faces that reach into the
@@ -49,7 +49,7 @@ mesh_intersections(const mesh_ref& a, const mesh_ref& b, const intersection_opti
 /// \throws std::invalid_argument as `mesh_intersections`
 /// \same   in its answer, on any number of threads
 [[nodiscard]] TREEFORM_API bool intersects(const mesh_ref& a, const mesh_ref& b,
-                                           const mesh_positions& positions = {});
+                                           const mesh_pair_options& positions = {});
 
 /// The faces, ascending, that have a point in the closed box from `min` to `max`.
 ///
@@ -102,16 +102,16 @@ struct curve_path {
 /// All curves of a mesh.
 struct curve_network {
     std::vector<curve_point> points;  ///< no two are equal as exact points
-    /// First open paths, between points where one segment or more than two end. Then closed paths.
-    /// Last single points: contacts of faces that are on no segment.
+    /// First open paths; at each of their ends, one segment or more than two end. Then closed
+    /// paths. Last single points: contacts of faces that are on no segment.
     std::vector<curve_path> paths;
 };
 
 /// The segments of `intersection_curves`, joined into paths where their ends are equal as exact
 /// points.
 ///
-/// A segment common to several pairs is listed once. Points are ordered by the elements that name
-/// them, paths by the number of their first point.
+/// A segment common to several pairs is listed once. Points are in the order of the edges and faces
+/// that define them, paths by the number of their first point.
 ///
 /// \throws std::invalid_argument naming the pair with a face or a corner that is out of range or
 ///         not finite; for a face without area

@@ -57,7 +57,7 @@ struct surface_point {
 };
 
 /// The relation and distance of two meshes.
-struct mesh_measure {
+struct relation_result {
     mesh_relation relation = mesh_relation::separate;
     /// Faces that prove the relation: two that cross, overlap with the inside on the same side, or
     /// touch. For a mesh that is entirely or partly inside the other, its lowest face there. Both
@@ -104,8 +104,8 @@ struct mesh_measure {
 /// \cost   as `intersects` for meshes that penetrate or are far apart; else O(V) more, plus a ray
 ///         for each component, or for each corner if the meshes touch
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API mesh_measure relation(const mesh_ref& a, const mesh_ref& b,
-                                                 const measure_options& options = {});
+[[nodiscard]] TREEFORM_API relation_result relation(const mesh_ref& a, const mesh_ref& b,
+                                                    const measure_options& options = {});
 
 /// The number of components of a closed mesh that are inside out (of negative volume) without being
 /// cavities, that is, inside no other component. Components are faces linked by edges, with corners
@@ -128,8 +128,8 @@ struct mesh_measure {
 ///         not finite; for a radius that is negative or NaN
 /// \cost   `distance`; if the boxes of the meshes meet, also `mesh_intersections` and `locate`
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API std::optional<mesh_measure> measure(const mesh_ref& a, const mesh_ref& b,
-                                                               const measure_options& options = {});
+[[nodiscard]] TREEFORM_API std::optional<relation_result> measure(
+    const mesh_ref& a, const mesh_ref& b, const measure_options& options = {});
 
 /// The separating translation found.
 struct penetration_depth_result {
@@ -174,7 +174,7 @@ enum class thickness_by : std::uint8_t {
 struct thickness_result {
     /// [F] The thickness at each face; infinite if nothing is behind it, or if it has no area.
     std::vector<double> of_face{};
-    double least = std::numeric_limits<double>::infinity();  ///< least thickness of all faces
+    double min = std::numeric_limits<double>::infinity();  ///< smallest thickness of all faces
     /// The lowest face with the least thickness.
     std::uint32_t thinnest = 0;
     treeform::status status = treeform::status::ok;  ///< or `cancelled`: the rest is invalid
@@ -182,7 +182,7 @@ struct thickness_result {
 
 /// The wall thickness of a solid at each face. The face through which a ray leaves is exact, for
 /// the rounded center and normal; lengths are rounded. Balls are accurate to 2^-20 of their
-/// diameter. Near a sharp edge balls are small: there they measure the edge.
+/// diameter. Near a sharp edge, balls are small, and do not measure a wall.
 ///
 /// \throws std::invalid_argument naming a face with a corner out of range or not finite
 /// \cost   a `raycast_all` for each face, and about ten `closest_point` for each ball
@@ -199,7 +199,7 @@ struct thickness_result {
 ///     const auto [inside, on, outside] = tf::count_sides(points, {bed, box});
 ///
 /// \throws std::invalid_argument naming a point that is not finite, or a face as in `locate`
-/// \cost   as `deviation` without distances, for points in the box of a solid
+/// \cost   as the signs of `deviation`, for points in the box of a solid
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::array<std::uint64_t, 3> count_sides(points_view points,
                                                                     const mesh_refs& solids);

@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// Points, triangle meshes, mesh views and bounding boxes; prepared meshes, which cache the
-/// indexes of queries; and the argument types of functions: one mesh of any type, or several.
+/// Points, triangle meshes, views and boxes; prepared meshes, which cache the indexes of queries;
+/// and the parameter types `mesh_ref` and `mesh_refs`. In all headers, [V] and [F] mean one element
+/// for each point or face; the lowest of several points or faces has the lowest number.
 
 #include <treeform/tree/detail/export.hpp>
 
@@ -142,12 +143,12 @@ class prepared_ref;
 class prepared_refs;
 }  // namespace detail::base
 
-/// A mesh for many queries. Every function of meshes takes a prepared mesh as well, with the same
-/// results. The first query that needs an index (a tree over the faces, triangles in the order of
-/// that tree, joined corners, whether the mesh is closed) builds it; later queries reuse it.
+/// A mesh for many queries. Every function that takes a mesh also takes a prepared mesh, with the
+/// same results. The first query that needs an index (a tree over the faces, triangles in the order
+/// of that tree, joined corners, whether the mesh is closed) builds it; later queries reuse it.
 ///
-/// Queries are const and may run on several threads at once. One thread builds an index; threads
-/// that need it meanwhile help. A build that is cancelled or throws leaves no partial index.
+/// Queries are const and may run on several threads at once. One thread builds an index; others
+/// that need it at the same time help. A build that is cancelled or throws leaves no partial index.
 /// Move-only. A moved-from object may only be destroyed or assigned to.
 class TREEFORM_API prepared_mesh {
   public:
@@ -168,7 +169,7 @@ class TREEFORM_API prepared_mesh {
     prepared_mesh& operator=(prepared_mesh&&) noexcept;
 
     /// The mesh that queries see: a cloud has a degenerate face for each point.
-    [[nodiscard]] mesh_view view() const { return is_cloud() ? view_of_cloud() : view_; }
+    [[nodiscard]] mesh_view indexed_view() const { return is_cloud() ? view_of_cloud() : view_; }
     operator mesh_view() const { return view_; }            // NOLINT: as given
     [[nodiscard]] bool is_cloud() const { return cloud_; }  ///< points without faces
     /// Number of indexes built so far. It does not grow when a query reuses its indexes.

@@ -22,8 +22,9 @@
 
 namespace treeform {
 
-/// Thrown if a file cannot be read or written, or a job in tiles cannot continue. `what()` names
-/// the path, the line or byte, and the reason: "part.obj:17: vertex index 0 (OBJ counts from 1)".
+/// Thrown if a file cannot be read or written, or if a job that stores tiles in a folder
+/// (`weld_stream`, `self_intersections_of_file`) cannot continue. `what()` names the path, the line
+/// or byte, and the reason: "part.obj:17: vertex index 0 (OBJ counts from 1)".
 class TREEFORM_API io_error : public std::runtime_error {
   public:
     enum class kind : std::uint8_t {
@@ -111,8 +112,8 @@ struct las_header {
 /// The range of the values of a column of points.
 struct value_range {
     std::string column{};
-    double least = 0.0;
-    double greatest = 0.0;
+    double min = 0.0;
+    double max = 0.0;
     bool whole = true;  ///< all values are integers
 
     friend bool operator==(const value_range&, const value_range&) = default;
@@ -134,7 +135,7 @@ struct mesh_file {
     treeform::mesh mesh{};  ///< polygons become triangle fans from their first corner
     /// [F] the number in the file of the face that each triangle comes from; empty if all faces are
     /// triangles.
-    std::vector<std::uint32_t> stored_face{};
+    std::vector<std::uint32_t> face_of_triangle{};
     std::size_t stored_faces = 0;  ///< faces in the file
     bool indexed = true;           ///< the format numbers its vertices (STL does not)
     /// float32 if every coordinate is a float32 value, or was one before its node's transform.
@@ -150,7 +151,7 @@ struct mesh_file {
 
     /// Makes each triangle a face of its own, so that each can get its own value. The row of a
     /// polygon in the element "face" is repeated for its triangles, parts are renumbered, and
-    /// `stored_face` becomes empty.
+    /// `face_of_triangle` becomes empty.
     TREEFORM_API void split_polygons();
 
     /// Drops points with a NaN or infinite coordinate, and faces with such a corner. Returns the
@@ -171,7 +172,7 @@ struct mesh_file {
 };
 
 /// Whether every coordinate is exactly representable in float32, NaN or infinite.
-[[nodiscard]] TREEFORM_API bool fits_single(std::span<const point3> points);
+[[nodiscard]] TREEFORM_API bool fits_float32(std::span<const point3> points);
 
 /// Several processes (ranks) that share a job, through a folder that all can access. All ranks call
 /// the same function with the same options. Outputs are written to the paths of rank 0. If a rank

@@ -20,7 +20,8 @@
 
 namespace treeform {
 
-/// Options of the functions of this header. Each function ignores those that do not concern it.
+/// Options of `offset`, `hollow`, `thicken` and `wrap`. Each function ignores those that do not
+/// concern it.
 struct offset_options {
     /// Edge length of the cells from which the surface is made, in the mesh's length unit; at most
     /// half of the distance. Every point whose distance differs from the given one by more than
@@ -95,8 +96,9 @@ struct TREEFORM_API offset_result {
                                                 const offset_options& options = {});
 
 /// Hollows the solid: its points deeper inside than `wall` become cavities; the outer surface stays
-/// bit for bit. The cavities are made of flat faces, so walls may be thinner:
-/// `offset_result::least_distance`. The status is `vanished` if there is no cavity.
+/// bit for bit. The cavities are made of flat faces, so the wall may be thinner than given:
+/// `offset_result::least_distance` is a lower bound. The status is `vanished` if there is no
+/// cavity.
 ///
 /// `drains` are holes through the wall: a point and a diameter. Each runs from the point of the
 /// surface nearest to the given one, along the shortest segment to a cavity. It is a regular prism

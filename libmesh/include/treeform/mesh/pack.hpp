@@ -37,9 +37,9 @@ struct lay_flat_options {
     /// coplanar, which suits models in round numbers. A flat face that was rotated and rounded
     /// falls into many exactly coplanar sides; about 1e-6 of the size joins them.
     double tolerance = 0.0;
-    double bed = 0.0;              ///< z of the bed
-    double overhang_angle = 45.0;  ///< in degrees from the vertical, 0 to 90
-    std::size_t overhang_sides = 32;
+    double bed = 0.0;                 ///< z of the bed
+    double overhang_angle = 45.0;     ///< in degrees from the vertical, 0 to 90
+    std::size_t overhang_sides = 32;  ///< compute the overhangs of this many sides
     treeform::precision precision = treeform::precision::float64;  ///< of the points returned
     progress_callback progress{};
 };
@@ -71,7 +71,7 @@ struct laid_flat {
     int mass_dimension = 3;
     std::size_t chosen = 0;                      ///< number in `sides`
     std::vector<std::uint32_t> on_bed{};         ///< points of the chosen side, ascending
-    std::optional<placement_contact> contact{};  ///< the lowest face with the lowest point
+    std::optional<placement_contact> contact{};  ///< a lowest point, and its face
     /// The largest change of a z, after the rotation, that put a point onto the bed: a few units in
     /// the last place; with a tolerance, about the tolerance.
     double corrected = 0.0;

@@ -29,7 +29,7 @@ enum class placement_outcome : std::uint8_t {
     unchanged,           ///< no motion is needed
     moved_apart,         ///< for `separate`: moved out of the fixed meshes
     nothing_met,         ///< no place: nothing is in the way, at least not within `max_travel`
-    too_far,             ///< no place: `mate`, `separate` or a bed above exceed `max_travel`
+    too_far,             ///< no place: the necessary motion is longer than `max_travel`
     starts_penetrating,  ///< no place: penetrates a fixed mesh at the start
     starts_too_near,     ///< no place: nearer than the clearance at the start
     starts_touching,     ///< no place: touches a fixed mesh at the start, and a clearance is given
@@ -104,7 +104,7 @@ struct placement {
     mesh_relation relation = mesh_relation::separate;           ///< relation at the place
     /// The relation, at the place, of the moving mesh (`a`) to the fixed mesh that it penetrates,
     /// else to one that it touches, else to the nearest. None if all are too far away.
-    std::optional<mesh_measure> nearest{};
+    std::optional<relation_result> nearest{};
     std::size_t nearest_fixed = 0;  ///< fixed mesh of `nearest`; the lowest if several qualify
     std::vector<placement_contact> contacts{};
     std::uint64_t contact_count = 0;     ///< number of all contacts, listed or not
@@ -184,7 +184,7 @@ struct TREEFORM_API body_set {
     ///
     /// \cost O(V + F)
     body_file& add(mesh_file file, std::string label = {}, std::string name = {});
-    /// The same with one body for each part of the file (`split_parts`), if it has several.
+    /// The same with one body for each part of the file (`file_parts`), if it has several.
     body_file& add_parts(mesh_file file, std::string label = {}, std::string name = {});
     /// The same with one body for each named part (OBJ o and g, nodes of a scene), or one body if
     /// there are no names. Unlike in `add_parts`, parts with common points are separate bodies, so
@@ -199,7 +199,7 @@ struct TREEFORM_API body_set {
     /// mesh.
     [[nodiscard]] std::uint32_t triangle(std::size_t body, std::uint32_t f) const;
     /// The number of a body's face `f` among the faces of its file.
-    [[nodiscard]] std::uint32_t stored_face(std::size_t body, std::uint32_t f) const;
+    [[nodiscard]] std::uint32_t face_in_file(std::size_t body, std::uint32_t f) const;
     /// For messages: the labels of the file and the part.
     [[nodiscard]] std::string label(std::size_t body) const;
     [[nodiscard]] std::vector<std::string> labels() const;  ///< [B] for `placement::message`

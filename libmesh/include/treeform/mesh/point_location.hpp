@@ -45,12 +45,12 @@ struct point_location {
     mesh_view mesh);
 
 /// The number (from 0) of the first of `tolerances` that closes `mesh` if points are joined as by
-/// `usable_part`: at least one face with three corners is left, and no edge is open. None if
+/// `usable_faces`: at least one face with three corners is left, and no edge is open. None if
 /// joining equal points already closes the mesh, or if no tolerance does.
 ///
 /// \pre    the coordinates of corners are finite
-/// \throws std::invalid_argument as `usable_part`
-/// \cost   as `usable_part` for each tolerance that is tried, and a copy of the mesh
+/// \throws std::invalid_argument as `usable_faces`
+/// \cost   as `usable_faces` for each tolerance that is tried, and a copy of the mesh
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::optional<std::size_t> closing_tolerance(
     mesh_view mesh, std::span<const double> tolerances);

@@ -112,9 +112,9 @@ class TREEFORM_API point_writer {
   public:
     /// `header` is the header of a `point_reader`, perhaps with columns added or removed. `count`
     /// is the number of points that will be written. Coordinates are written with the types of
-    /// their columns in "vertex". In binary formats, they are written as doubles if `stored_as` is
-    /// float64 and none of these types is wider than float32. `header` also has the number of rows
-    /// of other elements to be written; `most_corners` is the largest number of corners of a face.
+    /// their columns in "vertex". But binary formats get doubles if `stored_as` is float64 and none
+    /// of these types is wider than float32. `header` also has the number of rows of other elements
+    /// to be written; `most_corners` is the largest number of corners of a face.
     ///
     /// \throws io_error as `write`; also for a format other than ply, obj, pcd, las, laz, xyz
     ///         and csv, for LAS without `mesh_file::las` or to a pipe, and for rows of other

@@ -2,11 +2,12 @@
 /// \file
 /// Signs of polynomials in the coordinates of given points, exact for all finite doubles.
 ///
-/// Every function returns -1, 0 or +1: the sign of the real number its first line names, evaluated
-/// without rounding on the coordinates as given. A floating-point filter answers most calls; what
-/// it leaves undecided is evaluated in integers, on the smallest power-of-two lattice that holds
-/// the coordinates of that call. No tolerance, no state, no allocation, no exception; safe to call
-/// from any thread, in any rounding mode, with denormals flushed or not.
+/// A function that returns int returns -1, 0 or +1: the sign of the real number in the first line
+/// of its comment, evaluated without rounding on the coordinates as given. A floating-point filter
+/// answers most calls; what it leaves undecided is evaluated in integers, on the smallest
+/// power-of-two lattice that holds the coordinates of that call. No tolerance, no state, no
+/// allocation, no exception; safe to call from any thread, in any rounding mode, with denormals
+/// flushed or not.
 ///
 /// \pre for all: coordinates are finite. An optional `counters` counts the calls and their stages.
 /// \source filters: Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust
@@ -79,14 +80,14 @@ using triangle3 = std::array<point3, 3>;
 
 /// A part of a triangle. Edge `e0` runs from v0 to v1, `e1` from v1 to v2, `e2` from v2 to v0;
 /// `interior` is the triangle without its edges.
-enum class feature : std::uint8_t { v0, v1, v2, e0, e1, e2, interior };
+enum class triangle_feature : std::uint8_t { v0, v1, v2, e0, e1, e2, interior };
 
 /// A point of both triangles, named by the lowest-dimensional feature of each that it lies on. An
 /// end of the intersection is on a corner or an edge of at least one of the two.
-struct contact {
-    feature on_a;
-    feature on_b;
-    friend constexpr bool operator==(const contact&, const contact&) = default;
+struct feature_pair {
+    triangle_feature on_a;
+    triangle_feature on_b;
+    friend constexpr bool operator==(const feature_pair&, const feature_pair&) = default;
 };
 
 /// The intersection of two triangles.
@@ -101,7 +102,7 @@ struct triangle_contact {
     /// 6 for the corners of a convex area, counter-clockwise seen from the side to which the normal
     /// of `a` points.
     std::uint8_t count = 0;
-    std::array<contact, 6> ends{};  ///< the first `count` are set; no two are equal
+    std::array<feature_pair, 6> ends{};  ///< the first `count` are set; no two are equal
 };
 
 /// The intersection of the closed triangles `a` and `b`.

@@ -53,14 +53,16 @@ struct topology_counts {
     std::uint64_t repeated_corner_faces = 0;  ///< faces that repeat a corner
     /// Faces with the same three corners as an earlier one.
     std::uint64_t duplicate_faces = 0;
-    bool closed_manifold = false;  ///< every edge has two faces
+    /// Whether there are faces, and every edge has exactly two. Orientation and fans of points do
+    /// not matter.
+    bool closed_manifold = false;
 };
 
 /// Counts edges, components and defects of a mesh. Only corner numbers matter, so corners with
 /// equal coordinates should be joined first (`join_equal_points`).
 ///
-/// A fan of a point is a set of its faces linked by edges at that point, for edges of any number of
-/// faces. Fans and components do not depend on the orientation of faces.
+/// A fan of a point is a set of its faces that are linked by edges at that point, even by edges of
+/// three or more faces. Fans and components do not depend on the orientation of faces.
 ///
 /// \throws std::invalid_argument naming the lowest face with a corner that is not less than
 ///         `point_count`, or for more than 2^32 - 1 faces
@@ -107,8 +109,8 @@ struct topology_counts {
 struct mass_properties {
     double volume = 0.0;  ///< the enclosed volume; negative if the mesh is inside out
     point3 center{};      ///< the center of mass
-    /// Inertia tensor about the center, in axes x, y and z: the energy of rotation w is w .
-    /// (inertia w) / 2.
+    /// Inertia tensor about the center, in axes x, y and z: the kinetic energy at angular velocity
+    /// w is w . (inertia w) / 2.
     std::array<std::array<double, 3>, 3> inertia{};
     friend bool operator==(const mass_properties&, const mass_properties&) = default;
 };
@@ -171,19 +173,19 @@ struct feature_options {
 ///
 /// \throws std::invalid_argument naming a point that is not finite or a face with a corner out of
 ///         range; for options that are negative or NaN
-/// \cost   O(F log F), times the number of regions for which a face is tried
+/// \cost   O(F log F) if each face is tried for one region only; else more, in proportion
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API std::vector<mesh_feature> find_features(
     mesh_view mesh, feature_kind kind, const feature_options& options = {});
 
-/// The region around one face, of any size. None if it is not flat or cylindrical.
+/// The flat or cylindrical region that contains `face`. None if there is none.
 ///
 /// \throws std::invalid_argument as `find_features`, and for a face out of range
 [[nodiscard]] TREEFORM_API std::optional<mesh_feature> feature_at(
     mesh_view mesh, feature_kind kind, std::uint32_t face, const feature_options& options = {});
 
-/// The plane or axis fitted to exactly these faces, for any deviation. None if they have no area,
-/// or, for an axis, if they are flat.
+/// The plane or axis fitted to exactly these faces, however large the deviation. None if they have
+/// no area, or, for an axis, if they are flat.
 ///
 /// \throws std::invalid_argument as `find_features`, and for a face out of range
 [[nodiscard]] TREEFORM_API std::optional<mesh_feature> fit_feature(

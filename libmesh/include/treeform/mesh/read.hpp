@@ -31,12 +31,13 @@ namespace treeform {
 /// - OBJ: `vt` and `vn` are in `attributes::corners`. Material files are read if they exist and the
 ///   OBJ has a path: the diffuse colors of its materials become columns red, green, blue and, where
 ///   one is not opaque (`d`), alpha of faces; faces without a material are white.
-/// - STL: if the size of a binary file is that of whole triangles, a wrong count is ignored;
-///   otherwise, bytes after the counted triangles are. ASCII may have zero bytes between words, and
-///   words after `endloop` and `endfacet`. `mesh_file::warnings` reports all of these.
+/// - STL: if a binary file has the size of whole triangles, a wrong count in its header is ignored.
+///   Otherwise, bytes after the counted triangles are ignored. ASCII may have zero bytes between
+///   words, and words after `endloop` and `endfacet`. `mesh_file::warnings` reports all of these.
 /// - PLY: triangle strips, the element "tristrips", become faces, also those that repeat a vertex.
-/// - PLY: the list "texcoord" of faces is in `attributes::corners` when it has two numbers a
-///   corner, or none. Lines `comment TextureFile NAME` are in `attributes::texture_files`.
+/// - PLY: the list "texcoord" of faces is in `attributes::corners` if each of these lists is empty
+///   or has two numbers for each corner. Lines `comment TextureFile NAME` are in
+///   `attributes::texture_files`.
 /// - Text without a header (XYZ, CSV): the first line may name the columns. Then x, y and z may be
 ///   any columns; names such as easting, northing and elevation are accepted with a warning,
 ///   latitude and longitude are refused. `read_options::columns` assigns columns explicitly. An
@@ -100,10 +101,11 @@ struct urdf_joint {
     point3 axis{1.0, 0.0, 0.0};  ///< of length 1, in the joint's frame
     /// least and greatest value; of revolute and prismatic joints
     std::optional<std::array<double, 2>> limits{};
-    /// The joint that this one mimics, and the coefficients: value = first * (value of that joint)
-    /// + second.
+    /// The joint that this one mimics, or empty: its value is `mimic_multiplier` times the value of
+    /// that joint, plus `mimic_offset`.
     std::string mimics{};
-    std::array<double, 2> mimic_line{1.0, 0.0};
+    double mimic_multiplier = 1.0;
+    double mimic_offset = 0.0;
 };
 
 /// A mesh of a link, from a file or a geometric shape. `place` maps its points to the link's frame.

@@ -51,15 +51,15 @@ struct repair_options {
     bool resolve = true;  ///< cut self-intersections; drop faces that bound no solid
     bool detach = true;   ///< separate parts that touch in an edge or a vertex
     /// Widest crack to close, in the mesh's length unit. By default the narrowest that leaves the
-    /// fewest open edges, out of 0, a float step, and 1e-6, 1e-5, 1e-4, 1e-3 of the diagonal of the
-    /// bounding box.
+    /// fewest open edges, out of 0, a unit in the last place of float32, and 1e-6, 1e-5, 1e-4, 1e-3
+    /// of the diagonal of the bounding box.
     std::optional<double> gap{};
     /// Fill holes of at most this many edges.
     std::uint64_t largest_hole = std::numeric_limits<std::uint64_t>::max();
     /// Drops loose open pieces below this share of the area, and loose pieces of one or two faces
     /// below 1% of the area. If a larger component vanishes because it bounds no solid, the status
     /// is `excessive_loss`, unless `max_loss` is 1.
-    double strays = 0.001;
+    double stray_share = 0.001;
     /// The rule that defines the inside. By default `positive` if each shell is outward after
     /// `orient`, else `nonzero` or the labels of cells (see `repair`).
     std::optional<treeform::fill_rule> fill_rule{};
@@ -81,7 +81,7 @@ struct repair_options {
 /// Counts of each step's changes. Closed gaps, chosen orientations and filled holes are heuristic.
 struct repair_statistics {
     std::uint64_t tetrahedra = 0;    ///< tetrahedra formed by faces; only their boundary was kept
-    std::uint64_t degenerate = 0;    ///< dropped faces without area; if there are any, slivers, too
+    std::uint64_t degenerate = 0;    ///< dropped faces without area, and slivers dropped with them
     std::uint64_t repeated = 0;      ///< faces that repeat another, dropped
     std::uint64_t closed_edges = 0;  ///< pairs of border edges joined into one edge
     std::uint64_t split_edges = 0;   ///< border edges split at vertices that lie on them
@@ -93,12 +93,12 @@ struct repair_statistics {
     std::uint64_t holes = 0;           ///< holes filled
     std::uint64_t hole_edges = 0;      ///< edges around them
     std::uint64_t filled = 0;          ///< faces that fill them
-    std::uint64_t sheets = 0;          ///< rims not filled, since they are borders of sheets
+    std::uint64_t unfilled_rims = 0;   ///< rims not filled, since they are borders of sheets
     std::uint64_t open_edges = 0;      ///< open edges left after these steps
     bool resolved = false;             ///< whether faces met and were cut
     std::uint64_t pairs = 0;           ///< pairs of faces that met
     std::uint64_t labeled_cells = 0;   ///< cells labeled inside or outside, since faces disagreed
-    double dropped_area = 0.0;         ///< area of faces dropped for equal labels on both sides
+    double dropped_area = 0.0;         ///< area of faces dropped: equal labels on both sides
     double flipped_area = 0.0;         ///< area of faces flipped by the labels
     std::uint64_t removed = 0;         ///< input faces that resolving removed entirely
     /// For `resolve_self_intersections` with `split`: input faces that lie entirely on faces of
@@ -112,7 +112,7 @@ struct repair_statistics {
     std::uint64_t detached = 0;        ///< vertices moved apart
     std::uint64_t touching = 0;        ///< vertices that still have the coordinates of another
     /// Components (faces linked by vertices) that lost all of their faces; for `repair`, only those
-    /// larger than `repair_options::strays`.
+    /// larger than `repair_options::stray_share`.
     std::uint64_t vanished_components = 0;
     /// closed shells inside the solid, dropped; `even_odd` makes them cavities
     std::uint64_t dropped_shells = 0;
@@ -181,14 +181,15 @@ resolve_self_intersections(const mesh_ref& mesh, resolve_mode mode = resolve_mod
 /// heuristics, and counted in `statistics`. Points with equal coordinates are one. If faces are the
 /// sides of tetrahedra, only the boundary of the tetrahedra is kept. If faces remain inconsistent,
 /// a minimum cut labels cells inside or outside, by the orientations of faces and generalized
-/// winding numbers; the result is used if it loses less.
+/// winding numbers. Its result is used if it loses less area than repair without labels, or if
+/// there is no certified result otherwise.
 ///
 /// Holes are filled with triangles between their vertices; large holes in smooth surfaces also with
 /// new points, which continue the surface smoothly. Sheets are not filled, but reported as open,
 /// unless any loss is allowed. A sheet is a part whose fillings would have more than 0.6 times its
-/// area, unless its border is in a plane and it is on one side of the plane. In a mesh of more than
-/// 1000 faces, no hole is filled if more than one edge for every 10 faces has three or more
-/// inconsistent faces.
+/// area, unless its border is in a plane and it is on one side of the plane. In a mesh of F > 1000
+/// faces, no hole is filled if more than F / 10 edges have three or more faces and a signed face
+/// count that is not zero.
 ///
 /// \throws std::invalid_argument as `boolean`; if a gap or share is negative or not finite
 /// \cost   O(V log V + F log F), plus `resolve_self_intersections` if faces meet; for a hole of n

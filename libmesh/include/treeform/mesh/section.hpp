@@ -114,7 +114,7 @@ struct section_result {
 /// box has four. The segment after a point begins in the face in `faces`, and may continue in
 /// others.
 ///
-/// Loops are in the order of their lowest faces.
+/// The loops of a layer are in the order of their lowest face numbers.
 ///
 /// \throws std::invalid_argument naming a face with a corner out of range or not finite, for a
 ///         plane or height that is not finite, or a normal that is zero
@@ -146,7 +146,7 @@ struct isoline {
 
 /// The isolines of all levels, in the given order of levels.
 struct isolines_result {
-    std::vector<isoline> lines{};  ///< one after the other
+    std::vector<isoline> lines{};  ///< level after level
     std::vector<point3> points{};  ///< on edges of the mesh, rounded
     std::vector<std::uint32_t>
         faces{};  ///< [points] the face that contains the segment after each point

@@ -80,13 +80,13 @@ struct face_pair {
 
 /// Which pairs to search for, and the positions of meshes. Each function ignores the options that
 /// do not concern it.
-struct intersection_options {
+struct face_pair_options {
     /// For `self_intersections`: which corners count as shared.
     vertex_identity vertices = vertex_identity::by_coordinates;
-    /// `mesh_intersections`: applied to each mesh first. The answer is exact for the moved corners,
-    /// which are rounded to double. A prepared mesh is not changed.
-    transform<3> move_a{};
-    transform<3> move_b{};
+    /// `mesh_intersections`: applied to `a` first (`transform_b`: to `b`). The answer is exact for
+    /// the moved corners, which are rounded to double. A prepared mesh is not changed.
+    transform<3> transform_a{};
+    transform<3> transform_b{};
     bool first_only = false;  ///< only the first pair; the same on any number of threads
     /// kinds to find; other pairs are neither counted nor listed
     pair_kinds kinds = pair_kinds::all;
@@ -100,7 +100,7 @@ struct intersection_options {
 };
 
 /// Pairs of faces that meet.
-struct intersection_result {
+struct face_pair_result {
     /// ascending by (a, b); for two meshes, `a` is a face of the first
     std::vector<face_pair> pairs;
     counts_by<pair_kind, pair_kind_count> counts{};  ///< by kind
@@ -114,7 +114,7 @@ struct intersection_result {
 
 /// All pairs of faces that meet where they should not: in a point that is neither a shared corner
 /// nor on a shared edge. A mesh that repeats its vertices, as an STL does, gives the same pairs as
-/// one that does not (`intersection_options::vertices`).
+/// one that does not (`face_pair_options::vertices`).
 ///
 /// Exact on the coordinates as given. A degenerate face (collinear corners) is treated as the
 /// segment or point that it is; its pairs have a kind of their own.
@@ -126,8 +126,8 @@ struct intersection_result {
 /// \cost   O(F log F + B) time for the B pairs whose boxes overlap, about 100 bytes a face
 /// \same   on any number of threads
 /// \source candidate pairs: Sajovic, Knez and Korez, tf::tree, section III-C
-[[nodiscard]] TREEFORM_API intersection_result
-self_intersections(const mesh_ref& mesh, const intersection_options& options = {});
+[[nodiscard]] TREEFORM_API face_pair_result
+self_intersections(const mesh_ref& mesh, const face_pair_options& options = {});
 
 /// A connected set of faces that meet.
 struct intersection_region {
@@ -156,7 +156,7 @@ struct intersection_region {
     mesh_view mesh, std::span<const face_pair> pairs);
 
 /// Options of `self_intersections_of_file` and `shared_search`.
-struct stream_search_options {
+struct file_search_options {
     std::optional<vertex_identity> vertices{};  ///< none: by coordinates for STL, else by index
     pair_kinds kinds = pair_kinds::all;
     std::optional<box3> box{};       ///< only faces that have a point in the box
@@ -172,12 +172,12 @@ struct stream_search_options {
 };
 
 /// The pairs found in a file.
-struct stream_search_result {
+struct file_search_result {
     /// Only the faces that meet others, in the order of the file; `degenerate` and `non_finite`
     /// count all faces.
     usable_mesh part{};
     /// Pairs of faces of `part.mesh`. Its counters are sums over the tiles.
-    intersection_result found{};
+    face_pair_result found{};
     std::uint64_t stored_faces = 0;  ///< faces of the file
     std::uint64_t triangles = 0;     ///< triangles of these faces
     std::uint64_t searched = 0;      ///< finite triangles that meet the box
@@ -204,8 +204,8 @@ struct stream_search_result {
 ///         to 100 bytes for each tile that a face reaches into, and 24 bytes for each vertex of a
 ///         PLY
 /// \same   on any number of threads, with any memory and any folder
-[[nodiscard]] TREEFORM_API stream_search_result self_intersections_of_file(
-    const std::filesystem::path& input, const stream_search_options& options = {});
+[[nodiscard]] TREEFORM_API file_search_result self_intersections_of_file(
+    const std::filesystem::path& input, const file_search_options& options = {});
 
 /// `self_intersections_of_file` step by step, for many processes on one or more machines that share
 /// the folder: one process calls `scatter`; then each calls `search_tile` for its share of the
@@ -222,7 +222,7 @@ class TREEFORM_API shared_search {
     [[nodiscard]] static bool accepts(const std::filesystem::path& input,
                                       std::string_view format = {});
 
-    shared_search(std::filesystem::path input, stream_search_options options);
+    shared_search(std::filesystem::path input, file_search_options options);
     ~shared_search();
     shared_search(shared_search&&) noexcept;
     shared_search& operator=(shared_search&&) noexcept;
@@ -233,13 +233,13 @@ class TREEFORM_API shared_search {
     ///
     /// \throws io_error if no process has completed `scatter`; so do the functions below
     [[nodiscard]] std::size_t tiles();
-    [[nodiscard]] std::vector<std::size_t> unfinished();  ///< tiles
+    [[nodiscard]] std::vector<std::size_t> unfinished();  ///< tile numbers
     /// \throws std::out_of_range for a tile out of range
     [[nodiscard]] status search_tile(std::size_t tile);
     /// Combines the results of all tiles.
     ///
     /// \throws io_error naming tiles that are not finished, at most a hundred
-    [[nodiscard]] stream_search_result finish();
+    [[nodiscard]] file_search_result finish();
     void remove_folder();
 
   private:

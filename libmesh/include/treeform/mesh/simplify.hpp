@@ -28,8 +28,8 @@ struct simplify_options {
     /// [F] or empty: edges between faces of different groups are borders of both.
     std::span<const std::uint32_t> face_groups{};
     /// [3 F] or empty: groups of corners. An edge is a seam, and so a border of both faces, unless
-    /// at each end the corners of both faces are in one group. `carry_sources::corner_groups` has
-    /// the groups of a file.
+    /// at each end the corners of both faces are in one group. `attribute_sources::corner_groups`
+    /// has the groups of a file.
     std::span<const std::uint32_t> corner_groups{};
     progress_callback progress{};
 };
@@ -46,8 +46,8 @@ struct simplify_result {
     /// [3 F] for each corner, an input corner (3 f + i for corner i of face f) at its vertex, on
     /// the same side of seams; none at new vertices
     std::vector<std::uint32_t> corner_source;
-    std::uint64_t collapses = 0;            ///< edges collapsed
-    std::uint64_t fixed_vertices = 0;       ///< that stay: at nonmanifold edges and vertices
+    std::uint64_t collapses = 0;       ///< edges collapsed
+    std::uint64_t fixed_vertices = 0;  ///< vertices on nonmanifold edges or fans, never removed
     std::uint64_t refused_by_topology = 0;  ///< edges whose collapse would change the topology
     std::uint64_t refused_by_turning = 0;   ///< edges whose collapse would turn a face too far
     /// Edges whose collapse was not proven within the distance.
@@ -76,14 +76,14 @@ struct simplify_result {
 /// that meet may still meet. A closed, oriented manifold remains a closed, oriented manifold. The
 /// nesting of components is only checked at the end, in the certificate.
 ///
-/// Borders, features, and borders of groups are simplified as polylines on their own vertices,
-/// within the same distance. Vertices stay where such lines end, branch or cross, at nonmanifold or
-/// inconsistently oriented edges, and where their faces are not one fan.
+/// Borders, features, and borders of groups are simplified as polylines, within the same distance:
+/// vertices on them are removed, but not moved. Vertices stay where such lines end, branch or
+/// cross, at nonmanifold or inconsistently oriented edges, and where their faces are not one fan.
 ///
 /// Nothing is collapsed if the distance is below about 2^-46 of the largest coordinate, which
 /// doubles cannot prove, or if squares of coordinates overflow or underflow. Corners with equal
-/// coordinates are one vertex; faces with two equal corners are dropped, and belong to neither
-/// surface.
+/// coordinates are one vertex; faces with two equal corners are dropped, and distances do not take
+/// them into account.
 ///
 /// \throws std::invalid_argument for a distance that is negative or not finite, for a number of
 ///         groups other than that of faces or corners; naming a face with a corner that is out of

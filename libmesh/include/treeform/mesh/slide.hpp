@@ -20,8 +20,8 @@ namespace treeform {
 struct placement_options {
     double clearance = 0.0;              ///< gap to leave, a distance; 0: contact
     std::optional<double> max_travel{};  ///< largest distance to move; obstacles beyond are ignored
-    /// `mate_features`: planes face the same way instead of each other; for axes, that of `moving`
-    /// is reversed.
+    /// `mate_features`: planes face the same way, not each other; of axes, that of `moving` is
+    /// reversed.
     bool flip = false;
     double max_angle = 360.0;  ///< `turn`: in degrees; greater than 0, up to 360
     /// `turn`: the gap, beyond the clearance, that counts as contact; greater than 0. Default:
@@ -103,9 +103,9 @@ struct placement_options {
 /// About fifty directions are tried: along the axes, away from the nearest points, along normals of
 /// faces that meet, and others around the best. The nearest of the places found is returned, if its
 /// coordinates pass the check of `slide`. It need not be the globally nearest place, which is on
-/// the boundary of a set with O(n^2 m^2) faces. The search is limited by `effort`, and skips
-/// candidates that would take much of it, as in `penetration_depth`; `placement::effort` counts
-/// them.
+/// the boundary of a set with O(n^2 m^2) faces, for meshes of n and m faces. The search is limited
+/// by `effort`, and skips candidates that would take much of it, as in `penetration_depth`;
+/// `placement::effort` counts them.
 ///
 /// \throws std::invalid_argument as `slide`
 /// \cost   for each direction up to about 12 `intersects` or `distance`, a tree over `moving` and a
@@ -122,8 +122,9 @@ struct placement_options {
 /// \throws std::invalid_argument as `slide`
 /// \cost   `measure` for the fixed meshes that may be the nearest, and the pairs of faces that meet
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API placement measure_among(const mesh_ref& moving, const mesh_refs& fixed,
-                                                   const placement_options& options = {});
+[[nodiscard]] TREEFORM_API placement measure_in_place(const mesh_ref& moving,
+                                                      const mesh_refs& fixed,
+                                                      const placement_options& options = {});
 
 /// Rotates `moving` by the least angle that makes the features' directions opposite (planes) or
 /// parallel (axes), aligns their centers, and slides `moving` from outside along the direction of
@@ -133,7 +134,7 @@ struct placement_options {
 ///
 /// A shaft may go through its bore and meet nothing: then its center stays at the center of the
 /// bore, if that penetrates nothing and keeps the clearance. The place is checked exactly, on the
-/// returned coordinates. `travel` is 0.
+/// returned coordinates. `travel` is always 0.
 ///
 /// \throws std::invalid_argument as `slide`; for features of different kinds, with a direction that
 ///         is not of length 1, or with an origin that is not finite

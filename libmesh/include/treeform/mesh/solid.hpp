@@ -19,8 +19,8 @@ namespace treeform {
 /// may be called from several threads.
 class TREEFORM_API solid {
   public:
-    /// \throws not_certified_error if the mesh does not bound a solid, as operands of `boolean`
-    ///         must, with the open edges; std::invalid_argument as `boolean`
+    /// \throws not_certified_error, with the open edges, if the mesh does not bound a solid, as
+    ///         operands of `boolean` must; std::invalid_argument as `boolean`
     /// \cost   as `check_operand`
     explicit solid(treeform::mesh&& owned);
     explicit solid(usable_mesh&& owned);

@@ -24,8 +24,8 @@ namespace treeform {
 struct impact_options {
     /// Applied to each mesh before the motion. The result is exact for the moved corners,
     /// which are rounded to double. A prepared mesh is not changed.
-    transform<3> move_a{};
-    transform<3> move_b{};
+    transform<3> transform_a{};
+    transform<3> transform_b{};
     /// Ignore contacts after this time.
     double latest = std::numeric_limits<double>::infinity();
     /// List at most this many contacts, those with the lowest face numbers.
@@ -37,8 +37,9 @@ struct impact_options {
 struct face_contact {
     std::uint32_t face_a = 0;
     std::uint32_t face_b = 0;
-    contact at{feature::v0, feature::v0};  ///< features that meet; other features may meet, too
-    point3 point{};                        ///< a common point, on `b`, rounded
+    feature_pair at{triangle_feature::v0,
+                    triangle_feature::v0};  ///< features that meet; other features may meet, too
+    point3 point{};                         ///< a common point, on `b`, rounded
     friend bool operator==(const face_contact&, const face_contact&) = default;
 };
 
@@ -100,7 +101,7 @@ struct impact {
                                                    const impact_options& options = {});
 
 /// Turns `moving` until its distance from one of `fixed` is at most the clearance plus the
-/// tolerance; `max_travel` has no effect. The axis is the line through `origin` along `direction`,
+/// tolerance. `max_travel` has no effect. The axis is the line through `origin` along `direction`,
 /// of any length but 0. Turns are right-handed: counter-clockwise seen against the direction.
 ///
 /// Conservative advancement: bounds on the speed of corners guarantee that no faces meet within a

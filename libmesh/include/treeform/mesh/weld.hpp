@@ -19,7 +19,8 @@ namespace treeform {
 
 /// A partition of points into groups, each of which becomes one point.
 struct point_groups {
-    std::vector<std::uint32_t> group_of_point{};  ///< [V] groups in the order of their first points
+    /// [V] the group of each point; groups are numbered in the order of their first points
+    std::vector<std::uint32_t> group_of_point{};
     /// [G] the first point of each group, ascending: the lowest-numbered, unless `order_by` is set
     std::vector<std::uint32_t> first_of_group{};
     treeform::status status = status::ok;  ///< or cancelled; then the rest is empty
@@ -121,16 +122,16 @@ struct file_weld_result {
 /// float32 columns are rounded once more. Averaged normals are not scaled to length 1. A mean with
 /// a NaN or an infinity is NaN.
 ///
-/// `keep_manifold` merges points of a group only along edges: where two edges become one edge of at
-/// most two faces, or where an edge shrinks to a point. Points of a group linked in this way become
-/// one point; other points of the group stay separate. Each linked part has its own first,
-/// last or mean; points without faces join the lowest part with faces. So a surface that was cut
-/// open closes along its seams, while solids that meet in an edge or a corner stay apart. If
-/// merging a group would still make an edge or a point nonmanifold, because a point was nonmanifold
-/// before or faces collapse, the group is not merged. Points with equal coordinates are merged
-/// first, then the results are; so coincident corners stay merged, even if the rest of their group
-/// is not. In the result, every edge of more than two faces had more than two before, and every
-/// point with several fans contains a point that had several before. Points of one group may stay
+/// With `keep_manifold`, points of a group are merged only where two edges become one edge of at
+/// most two faces, or where an edge shrinks to a point. All points of a group that are linked in
+/// this way become one point, with a first, last or mean of its own; the other points of the group
+/// stay separate. Points without faces join the lowest such set of points with faces. So a surface
+/// that was cut open closes along its seams, while solids that meet in an edge or a corner stay
+/// apart. If merging a group would still make an edge or a point nonmanifold, because a point was
+/// nonmanifold before or faces collapse, the group is not merged. Points with equal coordinates are
+/// merged first, then the results are; so coincident corners stay merged, even if the rest of their
+/// group is not. In the result, an edge has more than two faces only if it had before, and a point
+/// has several fans only if one of the points merged into it had. Points of one group may stay
 /// within the tolerance of each other, and without `chain` a point may move by twice the tolerance.
 ///
 /// \throws std::invalid_argument for a tolerance that is negative or not finite; unless there is
@@ -139,11 +140,11 @@ struct file_weld_result {
 ///         another `keep` than `first`; for more than 2^32 / 3 faces with `keep_manifold`. The
 ///         message names the lowest invalid element
 /// \cost   O(V log V + F log F) for any tolerance and any number of equal points, if `may_merge` is
-///         empty or nearly always true. Parallel. Without `chain`, points with several others
-///         within the tolerance are processed serially if points come row by row or few are kept.
-///         Memory besides the result: up to 36 bytes a point (50 for dense chains), 40 more with
-///         `order_by`; 24 bytes a face, 100 with `keep_manifold`; 8 bytes a point for each property
-///         in a condition
+///         empty or nearly always true. Parallel. Exception: without `chain`, points with several
+///         others within the tolerance are processed serially if points are ordered row by row, or
+///         if few are kept. Memory besides the result: up to 36 bytes a point (50 for dense
+///         chains), 40 more with `order_by`; 24 bytes a face, 100 with `keep_manifold`; 8 bytes a
+///         point for each property in a condition
 /// \same   on any number of threads
 [[nodiscard]] TREEFORM_API weld_result weld(const mesh_ref& mesh, const weld_options& options = {});
 

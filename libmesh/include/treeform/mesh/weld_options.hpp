@@ -59,10 +59,10 @@ struct weld_options {
     std::vector<std::string> ignored_seams{};
     weld_keep keep = weld_keep::first;
     std::string keep_by{};  ///< for `lowest` and `highest`: a property as in `weld_condition`
-    /// A property as in `weld_condition`: the rule visits points by its values, the least first,
-    /// NaN last, of equal ones the lowest-numbered; the first point of a group in this order is
-    /// kept. Needs `weld_keep::first`. Empty: by point number. Kept points remain in the order of
-    /// their numbers.
+    /// A property as in `weld_condition`. Points are visited in the order of its values: the
+    /// smallest first, NaN last, equal values by point number. The point of a group that is visited
+    /// first is kept. Needs `weld_keep::first`. Empty: by point number. Kept points remain in the
+    /// order of their numbers.
     std::string order_by{};
     bool highest_first = false;    ///< for `order_by`: the greatest value first
     bool only_borders = false;     ///< merge only points on edges of exactly one face

@@ -87,7 +87,7 @@ struct cloud_survey {
     std::uint64_t triangles = 0;   ///< triangles of these faces
     std::uint64_t non_finite = 0;  ///< points with a NaN or infinite coordinate; all are kept
     std::optional<box3> box{};     ///< box of the finite points
-    bool single = true;            ///< float32 holds every coordinate exactly, and no file is LAS
+    bool fits_float32 = true;      ///< float32 holds every coordinate exactly, and no file is LAS
     /// For each input file: its format, the number of its points as `rows` of the element "vertex",
     /// and `stored_as`: float32 if float32 holds all its coordinates exactly.
     std::vector<mesh_file> sources{};
@@ -151,8 +151,8 @@ struct weld_stream_result {
 /// Welds the cloud in the files `inputs` (PLY without faces, PCD, LAS, LAZ, PTS, XYZ, CSV), and
 /// writes the outputs. Each output file is written completely or not at all. A single PLY or binary
 /// STL may be a mesh: then faces get their new corners, and collapsed faces are dropped, as by
-/// `weld`. `welded` must then be PLY or OBJ, and an STL needs tolerance 0 or `chain`. Ranks share
-/// points and faces.
+/// `weld`. `welded` must then be PLY or OBJ, and an STL needs tolerance 0 or `chain`. Of several
+/// ranks, each processes a share of the points and faces.
 ///
 /// \throws io_error if an input cannot be read, an output cannot be written, or the folder cannot
 ///         be used; std::invalid_argument for a tolerance that is negative or not finite, and as
@@ -201,7 +201,7 @@ class TREEFORM_API shared_weld {
     ///
     /// \throws io_error if no process has completed `scatter`; so do the functions below
     [[nodiscard]] std::size_t tiles();
-    [[nodiscard]] std::vector<std::size_t> unfinished();  ///< tiles
+    [[nodiscard]] std::vector<std::size_t> unfinished();  ///< tile numbers
     /// \throws std::out_of_range for a tile out of range
     [[nodiscard]] status weld_tile(std::size_t tile);
     /// Welds the points along the borders of tiles, and writes the outputs, each completely or not

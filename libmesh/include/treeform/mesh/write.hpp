@@ -43,8 +43,8 @@ struct write_options {
     /// Allow rounding of certified coordinates, which may invalidate the certificate. Coordinates
     /// without a certificate are always rounded to the precision.
     bool round = false;
-    /// Called with 0 at the start and during the writing, and with 1 before the file is renamed. If
-    /// it returns false, nothing is written, and an existing file is unchanged.
+    /// Called with numbers below 1 while writing, and with 1 before the file is renamed. If it
+    /// returns false, nothing is written, and an existing file is unchanged.
     progress_callback progress{};
 };
 
@@ -71,8 +71,8 @@ struct write_result {
 /// - OBJ: parts, material files, texture coordinates and normals of corners (else those of points),
 ///   colors of vertices.
 /// - OFF: normals, colors and texture coordinates of points.
-/// - STL: the header, without a leading "solid", and with a NUL as its last byte if it contains
-///   none; the names of solids; the column "stl_attribute".
+/// - STL: the header, without a leading "solid"; if it contains no NUL, its last byte becomes one;
+///   the names of solids; the column "stl_attribute".
 /// - XYZ and CSV: the other columns of points. PCD: also the lines "num_cols", "num_rows" and
 ///   "viewpoint" of `obj_info`.
 /// - LAS and LAZ: the dimensions listed at `las_header`; other columns as extra bytes. Columns red,
@@ -92,7 +92,7 @@ struct write_result {
 ///   scaled to length 1; s and t, u and v, or texture_u and texture_v become TEXCOORD_0 (u = s, v =
 ///   1-t). Normals and texture coordinates of corners take precedence over those of points; a point
 ///   with several of them is repeated.
-/// - 3MF: one object and one item of the build for each part (`split_parts`), with its name;
+/// - 3MF: one object and one item of the build for each part (`file_parts`), with its name;
 ///   materials of parts with the colors of their faces; else colors of faces, else of points; the
 ///   unit in the line "unit ..." of `obj_info`, else millimeters. Polygons are written as
 ///   triangles. Numbers are written as the shortest text of the double, so that readers of floats
@@ -128,10 +128,13 @@ TREEFORM_API double round_to_las(mesh_file& file, const write_options& options =
 TREEFORM_API write_result write(const std::filesystem::path& path, mesh surface,
                                 const write_options& options = {});
 
-/// A result with a mesh, such as `boolean_result`, `repair_result` and `weld_result`.
+/// A result with a mesh or a file, such as `boolean_result`, `weld_result` and `repaired_file`.
 template <class Result>
 concept mesh_result = requires(const Result& result) {
     { result.mesh } -> std::convertible_to<const mesh&>;
+}
+|| requires(const Result& result) {
+    { result.file } -> std::convertible_to<const mesh_file&>;
 };
 
 namespace detail::io {
@@ -141,8 +144,8 @@ TREEFORM_API write_result write_certified(const std::filesystem::path& path, con
                                           const write_options& options);
 }  // namespace detail::io
 
-/// Writes the mesh of a result, with its attributes if it has any; if it has a certificate, in the
-/// certified coordinates. Binary STL and GLB only hold `precision::float32`.
+/// Writes the mesh or the file of a result, with its attributes if it has any; if it has a
+/// certificate, in the certified coordinates. Binary STL and GLB only hold `precision::float32`.
 ///
 /// \throws not_certified_error unless the certificate's status is ok
 /// \throws io_error as for a file; if a coordinate would be rounded and `options.round` is not set
@@ -152,6 +155,8 @@ write_result write(const std::filesystem::path& path, const Result& result,
     if constexpr (requires { result.certificate; }) {
         return options.round ? write(path, result.value(), options)
                              : detail::io::write_certified(path, result.value(), options);
+    } else if constexpr (requires { result.file; }) {
+        return write(path, result.file, options);
     } else if constexpr (requires { result.attributes; }) {
         mesh_file file;
         file.mesh = result.mesh;

@@ -11,11 +11,11 @@
 
 namespace treeform {
 
-/// A block of candidate pairs: `first[i]` and `second[i]`, as places in leaf order.
+/// A block of candidate pairs: `first[i]` and `second[i]`, as positions in leaf order.
 ///
-/// `tree.ids()[place]` is the primitive. If you store your data in leaf order, a block accesses
-/// places that are near each other in memory. In a search of two trees, `first` has places of the
-/// first tree, and `second` of the second. In a search of one tree, `first[i] < second[i]`.
+/// `tree.ids()[position]` is the primitive. If you store your data in leaf order, the data of a
+/// block are near each other in memory. In a search of two trees, `first` has positions in the
+/// first tree, and `second` in the second. In a search of one tree, `first[i] < second[i]`.
 struct candidate_block {
     std::span<const std::uint32_t> first;   ///< [up to `max_candidates`]
     std::span<const std::uint32_t> second;  ///< [as many]

@@ -64,8 +64,8 @@ class builder {
 /// The tree over the boxes that `make_aabb` gives for the elements of `range`.
 ///
 /// The tree keeps boxes rounded outward to float, in a frame chosen from the data (`tree_frame`).
-/// They are only used for pruning. Elements are halved along the axis on which their centers spread
-/// most, even if many are equal.
+/// They are only used for pruning. Elements are halved by their number, along the axis on which
+/// their centers spread most, so many equal centers do no harm.
 ///
 /// `Strategy` is the selection algorithm: the default, or any `partition_strategy`.
 ///
@@ -199,8 +199,8 @@ template <class T, std::size_t D>
 }  // namespace detail
 
 /// The reason why `tree` is not a valid tree over `boxes`, or none. In a valid tree the ids are a
-/// permutation, every leaf slot contains the box of its primitive, every inner slot the boxes of
-/// its child, and no other slot is in use.
+/// permutation, every leaf slot contains the box of its primitive, every inner slot is exactly the
+/// box around the boxes of its child, and no other slot is in use.
 template <std::size_t D, class T>
 [[nodiscard]] std::optional<std::string> why_malformed(const tree<D>& tree,
                                                        std::span<const aabb<T, D>> boxes) {
@@ -220,7 +220,7 @@ template <std::size_t D, class T>
         for (std::size_t n = 0; n < tree.nodes_in_level(level); ++n) {
             const wide_node<D>& node = tree.level(level)[n];
             const bool leaf = tree.is_leaf_level(level);
-            const std::size_t used = tree.children(level, n);
+            const std::size_t used = tree.child_count(level, n);
             for (std::size_t slot = 0; slot < tree.width; ++slot) {
                 if (slot >= used) {
                     if (!is_clear(node, slot)) return at("slot should be empty", level, n, slot);

@@ -34,8 +34,7 @@ enum class node_order : std::uint8_t {
 /// answer's squared distance is at most the radius.
 inline constexpr double unlimited_radius = std::numeric_limits<double>::infinity();
 
-/// The query, from which distances are measured: a box `treeform::aabb<T, D>`, or a point, which is
-/// anything else with [].
+/// The box or point from which distances are measured: `treeform::aabb<T, D>`, or anything with [].
 template <class Q, std::size_t D>
 concept nearness_query = requires(const Q& q) {
     { q.min[D - 1] } -> std::convertible_to<double>;

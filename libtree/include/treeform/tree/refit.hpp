@@ -30,14 +30,14 @@ namespace treeform {
 template <std::size_t D>
 [[nodiscard]] TREEFORM_API std::vector<std::uint32_t> leaf_positions(const tree<D>& tree);
 
-/// How expensive a tree is to search: the sum of the extents of all node boxes, divided by those of
-/// the root. This is the number of nodes that a random plane (in 2D: line) through the root's box
-/// opens on average. 1 for a tree of one node, or if all primitives are the same point.
+/// How expensive a tree is to search: the sum of the extents of all node boxes, divided by the
+/// extents of the root. This is the number of nodes that a random plane (in 2D: line) through the
+/// root's box opens on average. 1 for a tree of one node, or if all primitives are the same point.
 ///
-/// Compare it with the value after the build: searches open more nodes in about this ratio. From a
-/// ratio of 1.3 on, a rebuild pays off after a few searches for all primitives.
+/// Divide it by the value after the last build: searches open about that many times as many nodes.
+/// From a ratio of 1.3 on, a rebuild pays off after a few searches that visit the whole tree.
 ///
-/// \cost O(N / 8)
+/// \cost O(N), to read a box for every 8 primitives
 /// \same on any number of threads
 /// \source Crofton: the measure of the planes that meet a convex body is its mean width, for a box
 ///         proportional to the sum of its extents. Goldsmith and Salmon, Automatic Creation of

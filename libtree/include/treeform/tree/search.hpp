@@ -28,12 +28,12 @@ namespace treeform {
 /// Calls `apply(id)` for the primitives that match `query`, in leaf order, until `apply` returns
 /// true (it may also return nothing). Returns counts of visited nodes and boxes.
 ///
-/// A box matches the primitives whose boxes overlap it, touching included. A check is a function
-/// that gets a box, in the coordinates of the primitives, and returns whether to accept it. A check
-/// that accepts a box must accept every larger box around it. It matches the primitives whose boxes
-/// it accepts. Boxes are those of the tree, rounded outward: no match is missed, and some
-/// primitives are included whose boxes miss by less than the rounding. An empty box matches
-/// nothing; an infinite box is valid.
+/// `query` is a box or a check. A box matches the primitives whose boxes overlap it, touching
+/// included. A check is a function that gets a box, in the coordinates of the primitives, and
+/// returns whether to accept it. A check that accepts a box must accept every larger box around it.
+/// It matches the primitives whose boxes it accepts. These boxes are those of the tree, rounded
+/// outward: no match is missed, but some primitives match only because of the rounding. An empty
+/// box matches nothing; an infinite box is valid.
 ///
 /// \throws std::invalid_argument if a box has a NaN coordinate
 /// \cost   O(log N + P) for P matches, if the query is not larger than the primitives
@@ -125,7 +125,7 @@ class TREEFORM_API self_search_chunks {
     /// \pre `tree` outlives the search and is not rebuilt meanwhile
     explicit self_search_chunks(const tree<D>& tree) : self_search_chunks(tree, nullptr) {}
 
-    /// Omits the pairs among the primitives below a marked node.
+    /// Omits pairs of two primitives below the same marked node.
     /// \pre also `skipped` outlives the search
     self_search_chunks(const tree<D>& tree, const detail::node_marks<D>& skipped)
         : self_search_chunks(tree, &skipped) {}

@@ -52,8 +52,8 @@ template <std::size_t D>
 class TREEFORM_API pair_search_chunks {
   public:
     /// Boxes of a moved tree count as overlapping if the axis-aligned boxes around them do. With
-    /// `in_both_frames`, the same must hold in the frame of the moved tree: about a quarter fewer
-    /// pairs of rotated surfaces, without missing primitives that meet. It makes no difference
+    /// `in_both_frames`, their boxes in the frame of the moved tree must overlap, too. For rotated
+    /// surfaces, this omits about a quarter of the pairs, but none that meet. It has no effect
     /// unless exactly one of the trees is moved.
     ///
     /// \pre the trees outlive the search and are not rebuilt meanwhile

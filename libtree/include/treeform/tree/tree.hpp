@@ -94,7 +94,7 @@ class tree {
         return level == 0 ? 1 : (size_ + capacity(level) - 1) / capacity(level);
     }
     /// Number of children of node `node` of `level`; on the last level, of its primitives.
-    [[nodiscard]] std::size_t children(unsigned level, std::size_t node) const {
+    [[nodiscard]] std::size_t child_count(unsigned level, std::size_t node) const {
         const std::size_t below = is_leaf_level(level) ? size_ : nodes_in_level(level + 1);
         return std::min(width, below - width * node);
     }
@@ -124,8 +124,10 @@ class tree {
     tree_frame<D> frame_;
 };
 
-/// Several trees (parts) that are searched as one. Every search accepts them like a `tree`, with
-/// the same results as on a tree over all their primitives.
+/// Several trees (parts) that are searched as one. Searches accept them like a `tree`, with the
+/// same results as on a tree over all their primitives. Exceptions, which require a `tree`: the
+/// searches for pairs in blocks (`search_broad`, `search_self_broad`, `..._chunks`), and
+/// `visit_swept`.
 ///
 /// `top()` is a tree over boxes around the parts; its `ids()` are the numbers of parts. `part(n)`
 /// is the tree of part n, which may be built at the first call; calls may come from several
@@ -180,7 +182,7 @@ class transformed {
 
     [[nodiscard]] const Tree& original() const { return *tree_; }
     [[nodiscard]] const transform<D>& map() const { return by_; }
-    [[nodiscard]] bool moves() const { return by_ != transform<D>{}; }
+    [[nodiscard]] bool is_moved() const { return by_ != transform<D>{}; }
 
   private:
     const Tree* tree_;
@@ -201,7 +203,7 @@ inline constexpr bool is_transformed<transformed<D, Tree>> = true;
 
 }  // namespace detail
 
-/// Either side of a search of two `tree`s: a `tree` or a `transformed` tree.
+/// Either side of a search of two trees that requires a `tree`: a `tree`, or a `transformed` one.
 template <class T>
 concept tree_or_transformed = detail::is_tree<T> || std::same_as<T, transformed<T::dimensions>>;
 static_assert(tree_or_transformed<tree<3>> && tree_or_transformed<transformed<2>>);

@@ -148,7 +148,7 @@ py::object find_solid_defects(const held_mesh& mesh) {
     }));
 }
 
-py::object self_intersections(const held_mesh& mesh, tf::intersection_options options) {
+py::object self_intersections(const held_mesh& mesh, tf::face_pair_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
         options.progress = report;
         return tf::self_intersections(mesh.ref(), options);
@@ -156,7 +156,7 @@ py::object self_intersections(const held_mesh& mesh, tf::intersection_options op
 }
 
 py::object mesh_intersections(const held_mesh& a, const held_mesh& b,
-                              tf::intersection_options options) {
+                              tf::face_pair_options options) {
     return as_python(run([&](const tf::progress_callback& report) {
         options.progress = report;
         return tf::mesh_intersections(a.ref(), b.ref(), options);
@@ -250,11 +250,11 @@ py::object time_of_impact(const held_mesh& a, const held_mesh& b, const array_of
     }));
 }
 
-py::object closest_pair(const held_mesh& a, const held_mesh& b, const array_of<double>& move_a,
-                        const array_of<double>& move_b, double radius) {
+py::object closest_pair(const held_mesh& a, const held_mesh& b, const array_of<double>& transform_a,
+                        const array_of<double>& transform_b, double radius) {
     return as_python(run([&](const tf::progress_callback&) {
         return tf::closest_pair(a.prepared(), b.prepared(),
-                                {transform_of(move_a), transform_of(move_b), radius});
+                                {transform_of(transform_a), transform_of(transform_b), radius});
     }));
 }
 

@@ -66,7 +66,7 @@ void each_field(tf::repair_options& how, const Visit& visit) {
     visit("detach", how.detach);
     visit("gap", how.gap);
     visit("largest_hole", how.largest_hole);
-    visit("strays", how.strays);
+    visit("stray_share", how.stray_share);
     visit("fill_rule", how.fill_rule);
     visit("max_loss", how.max_loss);
     visit("sheet", how.sheet);
@@ -99,17 +99,17 @@ void each_field(tf::feature_options& how, const Visit& visit) {
 }
 
 template <class Visit>
-void each_field(tf::intersection_options& how, const Visit& visit) {
+void each_field(tf::face_pair_options& how, const Visit& visit) {
     visit("vertices", how.vertices);
-    visit("move_a", how.move_a);
-    visit("move_b", how.move_b);
+    visit("transform_a", how.transform_a);
+    visit("transform_b", how.transform_b);
     visit("first_only", how.first_only);
     visit("kinds", how.kinds);
     visit("limit", how.limit);
 }
 
 template <class Visit>
-void each_field(tf::stream_search_options& how, const Visit& visit) {
+void each_field(tf::file_search_options& how, const Visit& visit) {
     visit("vertices", how.vertices);
     visit("kinds", how.kinds);
     visit("format", how.format);
@@ -175,8 +175,8 @@ void each_field(tf::measure_options& how, const Visit& visit) {
 
 template <class Visit>
 void each_field(tf::impact_options& how, const Visit& visit) {
-    visit("move_a", how.move_a);
-    visit("move_b", how.move_b);
+    visit("transform_a", how.transform_a);
+    visit("transform_b", how.transform_b);
     visit("latest", how.latest);
 }
 
@@ -204,7 +204,7 @@ void each_field(tf::align_options& how, const Visit& visit) {
     visit("max_iterations", how.max_iterations);
     visit("tolerance", how.tolerance);
     visit("starts", how.starts);
-    visit("samples", how.samples);
+    visit("max_samples", how.max_samples);
     visit("start", how.start);
     visit("precision", how.precision);
 }
@@ -252,8 +252,8 @@ void add_options(py::module_& module) {
     add_options_of<tf::offset_options>(module, "OffsetOptions");
     add_options_of<tf::simplify_options>(module, "SimplifyOptions");
     add_options_of<tf::feature_options>(module, "FeatureOptions");
-    add_options_of<tf::intersection_options>(module, "IntersectionOptions");
-    add_options_of<tf::stream_search_options>(module, "StreamSearchOptions");
+    add_options_of<tf::face_pair_options>(module, "FacePairOptions");
+    add_options_of<tf::file_search_options>(module, "FileSearchOptions");
     add_options_of<tf::weld_options>(module, "WeldOptions");
     add_options_of<tf::weld_stream_options>(module, "WeldStreamOptions");
     add_options_of<tf::placement_options>(module, "PlacementOptions");

@@ -48,8 +48,8 @@ py::object object(of_result, std::vector<std::optional<tf::closest_point_result>
 py::object object(of_result, std::vector<std::optional<tf::mesh_hit>>&& from) {
     py::dict made;
     made["face"] = column(from, &tf::mesh_hit::face);
-    made["at"] =
-        column(from, [](const auto& one) { return one ? one->at : tf::feature::interior; });
+    made["at"] = column(
+        from, [](const auto& one) { return one ? one->at : tf::triangle_feature::interior; });
     made["t"] = column(from, &tf::mesh_hit::t);
     return object_of("treeform._nearness", "RayHits", made);
 }
@@ -73,7 +73,7 @@ py::object object(of_result, tf::search_effort&& from) {
     return object_of("treeform._placement", "SearchEffort", made);
 }
 
-py::object object(of_result, tf::mesh_measure&& from) {
+py::object object(of_result, tf::relation_result&& from) {
     py::dict made;
     made["relation"] = as_python(std::move(from.relation));
     made["a_inside_b"] = as_python(std::move(from.a_inside_b));

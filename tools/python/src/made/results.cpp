@@ -36,7 +36,7 @@ py::object object(of_result, tf::boolean_result&& from, const carrying& attribut
     made["volumes"] = volumes_of(from);
     made["statistics"] =
         with(with(counters(from.statistics), "vanished_components", from.vanished_components),
-             "vanished_reach", from.vanished_reach);
+             "vanished_distance", from.vanished_distance);
     return object_of("treeform._booleans", "BooleanResult", made);
 }
 
@@ -142,7 +142,7 @@ py::object object(of_result, tf::simplify_result&& from, const carrying& attribu
 py::object object(of_result, tf::thickness_result&& from) {
     py::dict made;
     made["of_face"] = as_python(std::move(from.of_face));
-    made["least"] = as_python(std::move(from.least));
+    made["min"] = as_python(std::move(from.min));
     made["thinnest"] = as_python(std::move(from.thinnest));
     return object_of("treeform._shapes", "Thickness", made);
 }
@@ -256,7 +256,7 @@ py::object object(of_result, tf::mesh_feature&& from) {
     return object_of("treeform._properties", "Feature", made);
 }
 
-py::object object(of_result, tf::intersection_result&& from) {
+py::object object(of_result, tf::face_pair_result&& from) {
     py::dict made;
     made["pairs"] = column(from.pairs, [](const auto& one) { return std::array{one.a, one.b}; });
     made["kinds"] = column(from.pairs, [](const auto& one) { return one.kind; });
@@ -272,7 +272,7 @@ py::object object(of_result, tf::intersection_region&& from) {
     return object_of("treeform._intersections", "Region", made);
 }
 
-py::object object(of_result, tf::stream_search_result&& from) {
+py::object object(of_result, tf::file_search_result&& from) {
     py::dict made;
     made["face_in_file"] = faces_in_file(from.part);
     made["mesh"] = mesh_object(std::move(from.part.mesh), py::none(), py::none());
@@ -356,7 +356,7 @@ py::dict counters(const tf::boolean_statistics& from) {
     made["covered"] = from.covered;
     made["exact_faces"] = from.exact_faces;
     made["split_vertices"] = from.split_vertices;
-    made["slivers"] = from.slivers;
+    made["rounding_repairs"] = from.rounding_repairs;
     made["rounding_rounds"] = from.rounding_rounds;
     made["small_parts"] = from.small_parts;
     made["small_volume"] = from.small_volume;
@@ -379,7 +379,7 @@ py::dict counters(const tf::repair_statistics& from) {
     made["holes"] = from.holes;
     made["hole_edges"] = from.hole_edges;
     made["filled"] = from.filled;
-    made["sheets"] = from.sheets;
+    made["unfilled_rims"] = from.unfilled_rims;
     made["open_edges"] = from.open_edges;
     made["resolved"] = from.resolved;
     made["pairs"] = from.pairs;

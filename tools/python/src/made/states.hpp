@@ -29,7 +29,7 @@ void each_field(tf::element& how, const Visit& visit) {
 }
 
 template <class Visit>
-void each_field(tf::part& how, const Visit& visit) {
+void each_field(tf::named_faces& how, const Visit& visit) {
     visit("object", how.object);
     visit("group", how.group);
     visit("material", how.material);
@@ -81,14 +81,14 @@ void each_field(tf::las_header& how, const Visit& visit) {
 template <class Visit>
 void each_field(tf::value_range& how, const Visit& visit) {
     visit("column", how.column);
-    visit("least", how.least);
-    visit("greatest", how.greatest);
+    visit("min", how.min);
+    visit("max", how.max);
     visit("whole", how.whole);
 }
 
 template <class Visit>
 void each_field(tf::mesh_file& how, const Visit& visit) {
-    visit("stored_face", how.stored_face);
+    visit("face_of_triangle", how.face_of_triangle);
     visit("stored_faces", how.stored_faces);
     visit("indexed", how.indexed);
     visit("stored_as", how.stored_as);

@@ -19,10 +19,6 @@ struct words_of<tf::column_role> {
     static constexpr words<6> all{"data", "x", "y", "z", "corners", "texture"};
 };
 template <>
-struct words_of<tf::feature> {
-    static constexpr words<7> all{"v0", "v1", "v2", "e0", "e1", "e2", "interior"};
-};
-template <>
 struct words_of<tf::feature_kind> {
     static constexpr words<2> all{"plane", "axis"};
 };
@@ -87,6 +83,10 @@ struct words_of<tf::status> {
 template <>
 struct words_of<tf::thickness_by> {
     static constexpr words<2> all{"ray", "sphere"};
+};
+template <>
+struct words_of<tf::triangle_feature> {
+    static constexpr words<7> all{"v0", "v1", "v2", "e0", "e1", "e2", "interior"};
 };
 template <>
 struct words_of<tf::urdf_joint_kind> {

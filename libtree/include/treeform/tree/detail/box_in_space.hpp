@@ -62,7 +62,7 @@ template <std::size_t D>
     aabb<double, D> box;
     if (tree.empty()) return box;
     const wide_node<D>& root = tree.level(0)[0];
-    for (std::size_t slot = 0; slot < tree.children(0, 0); ++slot)
+    for (std::size_t slot = 0; slot < tree.child_count(0, 0); ++slot)
         if (root.min[0][slot] <= root.max[0][slot])  // else all below were removed
             box.include(box_in_space(tree.frame(), root, slot));
     for (std::size_t k = 0; k < D && !box.empty(); ++k) {

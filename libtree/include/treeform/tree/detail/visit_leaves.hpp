@@ -35,7 +35,7 @@ search_statistics visit_leaves(const tree<D>& tree, const MaskOf& mask_of, const
     while (waiting != 0) {
         const entry at = stack[--waiting];
         const unsigned mask =
-            mask_of(tree.level(at.level)[at.node], tree.children(at.level, at.node));
+            mask_of(tree.level(at.level)[at.node], tree.child_count(at.level, at.node));
         ++seen.nodes;
         ++seen.box_tests;
         const std::uint32_t first = 8 * at.node;

@@ -108,18 +108,18 @@ typedef struct treeform_part_clash {
 } treeform_part_clash;
 
 /// The result of `treeform_clash`.
-typedef struct treeform_clashes {
+typedef struct treeform_clash_result {
     void* owner;
     const treeform_part_clash* pairs;  ///< [count] pairs found, ascending
     size_t count;
-    uint64_t counts[5];    ///< number of tested pairs, by `treeform_mesh_relation`
-    uint64_t boxes_apart;  ///< pairs excluded by their boxes
-    uint64_t ignored;      ///< ignored pairs that boxes do not exclude
-    uint64_t parts_indexed;
+    uint64_t counts[5];      ///< number of tested pairs, by `treeform_mesh_relation`
+    uint64_t boxes_apart;    ///< pairs excluded by their boxes
+    uint64_t ignored;        ///< ignored pairs that boxes do not exclude
+    uint64_t parts_indexed;  ///< number of parts with an index
     /// Number of pairs that penetrate or are closer than the clearance; with a clearance, also
     /// pairs that touch.
     uint64_t clashes;
-} treeform_clashes;
+} treeform_clash_result;
 
 /// The relations of all pairs of parts of an assembly.
 ///
@@ -129,7 +129,7 @@ typedef struct treeform_clashes {
 /// clearance. A part is only indexed if its box is near that of another.
 TREEFORM_C_API treeform_code treeform_clash(const treeform_mesh* const* parts, size_t count,
                                             const treeform_clash_options* options,
-                                            treeform_clashes** clashes);
+                                            treeform_clash_result** result);
 
 /// All pairs of a part whose name matches the pattern `first` and one whose name matches `second`;
 /// * matches any characters, ? one character. Two numbers for each pair, for
@@ -142,8 +142,8 @@ TREEFORM_C_API treeform_code treeform_pairs_named(const char* const* names, size
 typedef struct treeform_pose_clash {
     uint32_t a;  ///< the lower number
     uint32_t b;
-    /// touching, `TREEFORM_RELATION_PENETRATING` or `TREEFORM_RELATION_CLOSER_THAN_CLEARANCE` (a
-    /// `treeform_mesh_relation`)
+    /// `TREEFORM_TOUCHING`, `TREEFORM_RELATION_PENETRATING` or
+    /// `TREEFORM_RELATION_CLOSER_THAN_CLEARANCE` (a `treeform_mesh_relation`)
     uint8_t relation;
     double distance;  ///< for parts closer than the clearance; else 0
 } treeform_pose_clash;

@@ -5,9 +5,10 @@
 /// Calls. Nearly every function returns a `treeform_code` and writes its result through its last
 /// parameters. 0 is success. A positive code comes with an incomplete result, a negative code
 /// without a result. `treeform_last_error` describes the error in a sentence, with the face, point,
-/// option or file. An argument may be null only if its description says so, or if it is a `format`
-/// (then detected by content or extension), a `unit`, a `progress` or `written`. Null arguments,
-/// numbers out of range and coordinates that are not finite are reported as errors.
+/// option or file. An argument may be null only if its description says so. In addition, these
+/// arguments may be null in all functions: `format` (it is then detected by content or extension),
+/// `unit`, `progress` and `written`. Null for other arguments, numbers out of range and coordinates
+/// that are not finite are reported as errors.
 ///
 /// Memory. Free all objects that functions create (meshes, files, trees, results) with
 /// `treeform_free`. Results are structs that own the arrays they point to, until they are freed.
@@ -23,9 +24,10 @@
 /// version.
 ///
 /// Numbers. Coordinates are doubles, points are consecutive x, y, z; faces are three 32-bit numbers
-/// of points, counter-clockwise seen from outside. Truth values are 0 and 1. An unset option is NaN
-/// or, for a count or index, `TREEFORM_NONE`; for an enumeration, -1. A matrix has 12 numbers, the
-/// first three rows of a 4x4 matrix: new = M * old. Null instead of a matrix means the identity.
+/// of points, counter-clockwise seen from outside. The lowest of several faces, points or edges is
+/// the one with the lowest number. Truth values are 0 and 1. An unset option is NaN or, for a count
+/// or index, `TREEFORM_NONE`; for an enumeration, -1. A matrix has 12 numbers, the first three rows
+/// of a 4x4 matrix: new = M * old. Null instead of a matrix means the identity.
 ///
 /// Threads. Functions may be called from several threads at once. Concurrent calls may share a
 /// handle if all take it as const. Results do not depend on the number of threads that the library
@@ -172,10 +174,10 @@ typedef struct treeform_box {
 // made of the headers of C++:
 //   operand_element indices strings status certificate search_effort
 /// A vertex or face of an operand: its number within that operand.
-typedef struct treeform_element {
+typedef struct treeform_operand_element {
     uint32_t operand;
     uint32_t index;
-} treeform_element;
+} treeform_operand_element;
 
 /// A list of numbers.
 typedef struct treeform_indices {
@@ -228,14 +230,14 @@ typedef struct treeform_certificate {
     treeform_status status;
     const char* message;  ///< the outcome as a clause for people, without a full stop
     /// Number of pairs of faces that meet beyond common corners and edges. A face paired with
-    /// itself is degenerate, or has the outside of the solid behind it. `meeting` lists the first
-    /// 100.
+    /// itself means that this face is degenerate, or that the outside of the solid is behind it.
+    /// `meeting` lists the first 100.
     uint64_t meeting_count;
     const uint32_t* meeting;   ///< [meeting_listed][2]
     const double* meeting_at;  ///< a corner of the first face of each pair in `meeting`
     size_t meeting_listed;
-    /// Number of edges whose signed face count is not zero, counted in pieces where edges overlap.
-    /// `open_edges` and `open_faces` list the first 100.
+    /// Number of edges whose signed face count is not zero. Where edges overlap, their pieces are
+    /// counted. `open_edges` and `open_faces` list the first 100.
     uint64_t open_count;
     size_t open_listed;
     /// The open edges counted in the operands, after joining equal coordinates: `boundary_edges`
@@ -245,21 +247,21 @@ typedef struct treeform_certificate {
     uint64_t boundary_edges;
     uint64_t misoriented_edges;
     /// The largest change of a coordinate by rounding, from the exact position of the vertex; for
-    /// vertices added or removed by mending, from the nearest point of the exact surface. Measured
-    /// on the result: intermediate moves do not add up.
+    /// vertices added or removed to repair what rounding did, from the nearest point of the exact
+    /// surface. Measured on the result: intermediate moves do not add up.
     double max_displacement;
     treeform_precision precision;  ///< of the coordinates
     /// For status `TREEFORM_STATUS_VANISHED`: number of faces of the exact result, all too thin
     /// for the coordinates; 0 if it had no faces.
     uint64_t vanished_faces;
-    /// For status `TREEFORM_STATUS_EXCESSIVE_LOSS`: the volume (the area, if there is no solid)
-    /// before and after.
+    /// for status `TREEFORM_STATUS_EXCESSIVE_LOSS`: volume or area before
     double size_before;
-    double size_after;
-    int32_t size_is_volume;
+    double size_after;       ///< the same after
+    int32_t size_is_volume;  ///< `size_before` and `size_after` are volumes, not areas
     /// [open_listed][2][3] Ends of the open part of each edge; rounded if the edge is cut.
     const double* open_edges;
-    const treeform_element* open_faces;  ///< one face at each edge in `open_edges`
+    /// one face at each edge in `open_edges`
+    const treeform_operand_element* open_faces;
 } treeform_certificate;
 
 /// The work of a bounded search, in pairs of faces tested. It depends on the input alone. A result
@@ -268,7 +270,7 @@ typedef struct treeform_search_effort {
     uint64_t pairs;  ///< pairs of faces tested; a pair in motion counts as two
     uint64_t bound;  ///< the limit of `pairs`
     /// Number of candidates skipped because testing one would take more than 1/32 of the bound, or
-    /// more than the rest of it. If not 0, a better result may exist.
+    /// more than is left of it. If not 0, a better result may exist.
     uint64_t skipped_candidates;
 } treeform_search_effort;
 // end

@@ -78,7 +78,7 @@ typedef struct treeform_section_result {
 /// box has four. The segment after a point begins in the face in `faces`, and may continue in
 /// others.
 ///
-/// Loops are in the order of their lowest faces.
+/// The loops of a layer are in the order of their lowest face numbers.
 ///
 /// A null `plane` means z = 0.
 TREEFORM_C_API treeform_code treeform_section(const treeform_mesh* mesh,
@@ -162,7 +162,7 @@ typedef struct treeform_cut_result {
 /// of `treeform_boolean`. Caps perpendicular to an axis stay flat and equal when rounded; others
 /// may bend by a unit in the last place.
 ///
-/// `treeform_carry` transfers the attributes of a file to pieces.
+/// `treeform_transfer_attributes` transfers the attributes of a file to pieces.
 ///
 /// With caps, the mesh must bound a solid, like an operand of `treeform_boolean`. If it meets
 /// itself, or has parts that are inside out or hidden in others, it is first replaced by the solid

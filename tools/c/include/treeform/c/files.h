@@ -15,8 +15,8 @@ typedef struct treeform_named_column {
 
 // made of the headers of C++:
 //   read() read_mesh() read_options read_as() read_memory() file_create() file_copy()
-//   scalar_type column element part io_warning mesh_file file_content() file_set_points()
-//   file_set_column() file_set_texture() file_add_part()
+//   scalar_type column element named_faces io_warning mesh_file file_content()
+//   file_set_points() file_set_column() file_set_texture() file_add_part()
 /// Reads the file at `path`, UTF-8; "-" is standard input. `format` is an extension without its
 /// dot ("stl", "ply", ...), or null: detected by content, then by extension. Coordinates are as
 /// stored.
@@ -88,12 +88,12 @@ typedef struct treeform_column {
 } treeform_column;
 
 /// A kind of row in a file, such as vertices, with its properties in the order of the file.
-typedef struct treeform_rows {
+typedef struct treeform_element {
     const char* name;  ///< "vertex", "face", "edge", ...
     size_t rows;
     const treeform_column* columns;  ///< [column_count]
     size_t column_count;
-} treeform_rows;
+} treeform_element;
 
 /// Consecutive faces to which a file gives the same names. A part ends where the next one starts.
 typedef struct treeform_named_faces {
@@ -104,10 +104,10 @@ typedef struct treeform_named_faces {
 } treeform_named_faces;
 
 /// A remark about a file that was read or written.
-typedef struct treeform_warning {
+typedef struct treeform_io_warning {
     const char* code;  ///< stable, for scripts: "trailing-bytes", "precision"
     const char* text;  ///< for people
-} treeform_warning;
+} treeform_io_warning;
 
 /// The content of a file. Points and faces have the order and numbers of the file: nothing is
 /// joined, split, reordered or dropped.
@@ -116,17 +116,17 @@ typedef struct treeform_file_view {
     treeform_arrays mesh;  ///< polygons become triangle fans from their first corner
     /// [F] the number in the file of the face that each triangle comes from; empty if all faces
     /// are triangles.
-    const uint32_t* stored_face;
+    const uint32_t* face_of_triangle;
     size_t stored_faces;  ///< faces in the file
     int32_t indexed;      ///< the format numbers its vertices (STL does not)
     /// float32 if every coordinate is a float32 value, or was one before its node's transform.
     treeform_precision stored_as;
-    const char* format;                ///< "stl-binary", "ply-ascii", "obj", ...
-    const treeform_warning* warnings;  ///< [warning_count]
+    const char* format;                   ///< "stl-binary", "ply-ascii", "obj", ...
+    const treeform_io_warning* warnings;  ///< [warning_count]
     size_t warning_count;
     /// [element_count] In the order of the file. "vertex" has a row for each point, "face" one for
     /// each face as stored.
-    const treeform_rows* elements;
+    const treeform_element* elements;
     size_t element_count;
     /// [part_count] ascending by first face; empty if nothing is named
     const treeform_named_faces* parts;
@@ -167,8 +167,8 @@ TREEFORM_C_API treeform_code treeform_file_set_points(treeform_file* file, const
                                                       size_t count);
 
 /// Sets a column of `element` ("vertex", "face") with one value for each row: `values` [rows] of
-/// `type`. For vertices and faces, `rows` must be their number in the file. Names of columns of
-/// coordinates or corners are an error.
+/// `type`. For vertices and faces, `rows` must be their number in the file. The columns of
+/// coordinates and corners cannot be set: their names are an error.
 TREEFORM_C_API treeform_code treeform_file_set_column(treeform_file* file, const char* element,
                                                       const char* name, treeform_scalar type,
                                                       const void* values, size_t rows);
@@ -197,7 +197,8 @@ enum {
 //   file_add_text() file_split_polygons() file_round_to_las() file_round_to_float32()
 //   file_transform() file_transform_normals() write_options write_result write() write_mesh()
 //   write_result()
-/// Adds a line of text: a comment, a remark, or the name of a material or texture file, by `kind`.
+/// Adds a line of text, by `kind`: a comment, a line `obj_info` of PLY, or the name of a material
+/// or texture file.
 TREEFORM_C_API treeform_code treeform_file_add_text(treeform_file* file, treeform_text_kind kind,
                                                     const char* text);
 
@@ -233,8 +234,8 @@ typedef struct treeform_write_options {
     /// float32 in 3MF, since most of its readers convert to float. Binary STL and GLB only hold
     /// float32.
     int32_t precision;
-    /// Called with 0 at the start and during the writing, and with 1 before the file is renamed.
-    /// If it returns other than 0, nothing is written, and an existing file is unchanged.
+    /// Called with numbers below 1 while writing, and with 1 before the file is renamed. If it
+    /// returns other than 0, nothing is written, and an existing file is unchanged.
     treeform_progress progress;
     void* progress_data;
     /// [drop_count] Columns of points to omit; "normal", "uv" or "color" for all columns of that
@@ -259,7 +260,7 @@ typedef struct treeform_written {
     treeform_precision written_as;
     /// Largest change of a coordinate by rounding to `written_as`.
     double max_displacement;
-    const treeform_warning* warnings;  ///< [warning_count]
+    const treeform_io_warning* warnings;  ///< [warning_count]
     size_t warning_count;
 } treeform_written;
 
@@ -274,8 +275,8 @@ TREEFORM_C_API treeform_code treeform_write_mesh(const char* path, const treefor
                                                  const treeform_write_options* options,
                                                  treeform_written** written);
 
-/// The mesh of a result, in its certified coordinates: fails instead of rounding them. Fails also
-/// if the certificate's status is not ok. `written` may be null.
+/// Writes the mesh of a result in its certified coordinates. Fails if the format would round them,
+/// or if the certificate's status is not ok. `written` may be null.
 TREEFORM_C_API treeform_code treeform_write_result(const char* path, const treeform_arrays* mesh,
                                                    const treeform_certificate* certificate,
                                                    const treeform_write_options* options,
@@ -290,7 +291,7 @@ typedef struct treeform_bytes {
 } treeform_bytes;
 
 // made of the headers of C++:
-//   write_memory() usable_mesh part_options usable_part() as_mesh() concatenate_files()
+//   write_memory() usable_mesh usable_options usable_faces() as_mesh() concatenate_files()
 //   scene_of()
 /// The bytes of the file, in the format in `options`.
 TREEFORM_C_API treeform_code treeform_write_memory(const treeform_file* file,
@@ -308,18 +309,18 @@ typedef struct treeform_usable_mesh {
     uint64_t non_finite;
     /// [F] with `details`: component of each face; else null
     const uint32_t* component;
-    /// from `treeform_usable_part`: triangles that are a segment or a point
+    /// from `treeform_usable_faces`: triangles that are a segment or a point
     uint64_t degenerate;
-    uint64_t joined;  ///< from `treeform_usable_part`: points merged by tolerance
+    uint64_t joined;  ///< from `treeform_usable_faces`: points merged by tolerance
     /// [F] number of each face in the file, counting polygons
     const uint32_t* face_in_file;
     /// [warning_count] from `treeform_as_mesh`: those of the file
-    const treeform_warning* warnings;
+    const treeform_io_warning* warnings;
     size_t warning_count;
 } treeform_usable_mesh;
 
-/// Options of `treeform_usable_part`.
-typedef struct treeform_part_options {
+/// Options of `treeform_usable_faces`.
+typedef struct treeform_usable_options {
     size_t struct_size;
     /// Whether points with equal coordinates are one vertex.
     treeform_vertex_identity vertices;
@@ -328,14 +329,14 @@ typedef struct treeform_part_options {
     double tolerance;
     const treeform_box* box;  ///< only faces that have a point in the box; or null
     int32_t details;          ///< also compute `component`, and count different points
-} treeform_part_options;
+} treeform_usable_options;
 /// Sets the defaults.
-TREEFORM_C_API void treeform_part_options_init(treeform_part_options* options, size_t size);
+TREEFORM_C_API void treeform_usable_options_init(treeform_usable_options* options, size_t size);
 
 /// The usable part of a file's mesh. Points that only dropped faces use are dropped as well.
-TREEFORM_C_API treeform_code treeform_usable_part(const treeform_file* file,
-                                                  const treeform_part_options* options,
-                                                  treeform_usable_mesh** mesh);
+TREEFORM_C_API treeform_code treeform_usable_faces(const treeform_file* file,
+                                                   const treeform_usable_options* options,
+                                                   treeform_usable_mesh** mesh);
 
 /// The whole mesh of a file: corners with equal coordinates become one vertex, triangles that are
 /// not finite are dropped. Points keep their numbers, so that attributes can be transferred.
@@ -370,12 +371,11 @@ typedef struct treeform_scene_parts {
 } treeform_scene_parts;
 
 // made of the headers of C++:
-//   split_parts()
+//   file_parts()
 /// The parts of a file, by its objects, groups or nodes, each as a file of its own. With
 /// `combine_patches`, parts with a common point, or whose open edges coincide, are combined.
-TREEFORM_C_API treeform_code treeform_split_parts(const treeform_file* file,
-                                                  int32_t combine_patches,
-                                                  treeform_scene_parts** parts);
+TREEFORM_C_API treeform_code treeform_file_parts(const treeform_file* file, int32_t combine_patches,
+                                                 treeform_scene_parts** parts);
 // end
 
 /// Whether scene formats other than glTF and GLB (DAE, FBX, ...) can be read: 0 if treeform was
@@ -398,7 +398,7 @@ TREEFORM_C_API treeform_code treeform_read_urdf(const char* path,
 
 /// A mesh of a link, from a file or a geometric shape. `place` maps its points to the link's
 /// frame.
-typedef struct treeform_robot_mesh {
+typedef struct treeform_urdf_mesh {
     uint32_t link;
     const char* file;      ///< empty for a box, a cylinder or a sphere
     double place[12];      ///< the origin, and the scale of the mesh
@@ -406,18 +406,18 @@ typedef struct treeform_robot_mesh {
     size_t point_count;
     const uint32_t* faces;  ///< [face_count][3]
     size_t face_count;
-} treeform_robot_mesh;
+} treeform_urdf_mesh;
 
 /// A joint: the frame of the child is that of the parent, times the fixed transform of the joint,
 /// times its motion.
-typedef struct treeform_robot_joint {
+typedef struct treeform_urdf_joint {
     const char* name;
     int32_t kind;     ///< 0 fixed, 1 revolute, 2 continuous, 3 prismatic
     uint32_t parent;  ///< numbers of links
     uint32_t child;
     double lower;  ///< least value; NaN without limits
     double upper;  ///< greatest value
-} treeform_robot_joint;
+} treeform_urdf_joint;
 
 /// A robot.
 typedef struct treeform_robot_view {
@@ -425,10 +425,9 @@ typedef struct treeform_robot_view {
     const char* name;
     const char* const* links;  ///< [L] names, in the order of the file
     size_t link_count;
-    /// [joint_count] parents before their children
-    const treeform_robot_joint* joints;
+    const treeform_urdf_joint* joints;  ///< [joint_count] parents before their children
     size_t joint_count;
-    const treeform_robot_mesh* meshes;  ///< [mesh_count] ordered by link
+    const treeform_urdf_mesh* meshes;  ///< [mesh_count] ordered by link
     size_t mesh_count;
     /// [adjacent_count][2] pairs of links connected by a joint, which need not be compared
     const uint32_t* adjacent;

@@ -43,11 +43,11 @@ TREEFORM_C_API const char* treeform_pair_kind_name(treeform_pair_kind value);
 #define TREEFORM_ALL_KINDS 127u
 
 // made of the headers of C++:
-//   face_pair intersection_result intersection_options self_intersections()
-//   intersection_region regions group_pairs() mesh_intersections() intersects()
-//   intersects_poses() faces_in_box() intersection_curves() curve_path curve_network
-//   intersection_paths() write_curves() color_pairs() stream_search_options
-//   stream_search_result self_intersections_of_file() is_searched_in_tiles()
+//   face_pair face_pair_result face_pair_options self_intersections() intersection_region
+//   regions group_pairs() mesh_intersections() intersects() intersects_poses() faces_in_box()
+//   intersection_curves() curve_path curve_network intersection_paths() write_curves()
+//   color_pairs() file_search_options file_search_result self_intersections_of_file()
+//   is_searched_in_tiles()
 /// Two faces that meet.
 typedef struct treeform_face_pair {
     uint32_t a;  ///< the lower face number
@@ -56,25 +56,26 @@ typedef struct treeform_face_pair {
 } treeform_face_pair;
 
 /// Pairs of faces that meet.
-typedef struct treeform_pairs {
+typedef struct treeform_face_pair_result {
     void* owner;
     /// [count] ascending by (a, b); for two meshes, `a` is a face of the first
     const treeform_face_pair* pairs;
     size_t count;
     uint64_t counts[7];  ///< by kind
     uint64_t box_pairs;  ///< pairs of faces whose boxes overlap, as moved
-} treeform_pairs;
+} treeform_face_pair_result;
 
 /// Which pairs to search for, and the positions of meshes. Each function ignores the options that
 /// do not concern it.
-typedef struct treeform_intersection_options {
+typedef struct treeform_face_pair_options {
     size_t struct_size;
-    /// [12] `treeform_mesh_intersections`: applied to each mesh first. The answer is exact for the
-    /// moved corners, which are rounded to double. The mesh itself is not changed; or null
-    const double* move_a;
-    const double* move_b;  ///< [12]; or null
-    int32_t first_only;    ///< only the first pair; the same on any number of threads
-    uint32_t kinds;        ///< kinds to find; other pairs are neither counted nor listed
+    /// [12] `treeform_mesh_intersections`: applied to `a` first (`transform_b`: to `b`). The
+    /// answer is exact for the moved corners, which are rounded to double. The mesh itself is not
+    /// changed; or null
+    const double* transform_a;
+    const double* transform_b;  ///< [12]; or null
+    int32_t first_only;         ///< only the first pair; the same on any number of threads
+    uint32_t kinds;             ///< kinds to find; other pairs are neither counted nor listed
     /// list at most this many pairs, the lowest; all are counted; default all
     uint64_t limit;
     treeform_progress progress;
@@ -84,19 +85,19 @@ typedef struct treeform_intersection_options {
     const uint32_t* component_of_face;  ///< [F] for `between` and `within`; or null
     int32_t between;                    ///< only pairs of faces of different components
     int32_t within;                     ///< only pairs of faces of one component
-} treeform_intersection_options;
+} treeform_face_pair_options;
 /// Sets the defaults.
-TREEFORM_C_API void treeform_intersection_options_init(treeform_intersection_options* options,
-                                                       size_t size);
+TREEFORM_C_API void treeform_face_pair_options_init(treeform_face_pair_options* options,
+                                                    size_t size);
 
 /// All pairs of faces that meet in a point that is neither a shared corner nor on a shared edge.
 /// Exact on the coordinates as given.
-TREEFORM_C_API treeform_code
-treeform_self_intersections(const treeform_mesh* mesh, const treeform_intersection_options* options,
-                            treeform_pairs** pairs);
+TREEFORM_C_API treeform_code treeform_self_intersections(const treeform_mesh* mesh,
+                                                         const treeform_face_pair_options* options,
+                                                         treeform_face_pair_result** result);
 
 /// A connected set of faces that meet.
-typedef struct treeform_region {
+typedef struct treeform_intersection_region {
     const uint32_t* faces;  ///< [face_count] ascending
     size_t face_count;
     double min[3];  ///< box of these faces
@@ -104,12 +105,12 @@ typedef struct treeform_region {
     /// [pair_count] numbers of its pairs in the list of pairs, ascending
     const uint32_t* pairs;
     size_t pair_count;
-} treeform_region;
+} treeform_intersection_region;
 
 /// Regions, in the order of their lowest faces.
 typedef struct treeform_regions {
     void* owner;
-    const treeform_region* regions;  ///< [count]
+    const treeform_intersection_region* regions;  ///< [count]
     size_t count;
 } treeform_regions;
 
@@ -128,22 +129,24 @@ TREEFORM_C_API treeform_code treeform_group_pairs(const treeform_mesh* mesh,
 /// inside the other that does not touch it gives no pair. `a` and `b` may be the same mesh. For
 /// meshes without an index, only the faces that reach into the intersection of both bounding boxes
 /// (after the transforms) are indexed.
-TREEFORM_C_API treeform_code
-treeform_mesh_intersections(const treeform_mesh* a, const treeform_mesh* b,
-                            const treeform_intersection_options* options, treeform_pairs** pairs);
+TREEFORM_C_API treeform_code treeform_mesh_intersections(const treeform_mesh* a,
+                                                         const treeform_mesh* b,
+                                                         const treeform_face_pair_options* options,
+                                                         treeform_face_pair_result** result);
 
 /// Whether a face of `a` and a face of `b` have a common point, each moved by a matrix (null: not
 /// moved); exact.
 TREEFORM_C_API treeform_code treeform_intersects(const treeform_mesh* a, const treeform_mesh* b,
-                                                 const double* move_a, const double* move_b,
-                                                 int32_t* result);
+                                                 const double* transform_a,
+                                                 const double* transform_b, int32_t* result);
 
-/// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null if
-/// the mesh is not moved; `meet` is [count].
+/// The same for many positions, in parallel: `transforms_a` and `transforms_b` are [count][12], or
+/// null if the mesh is not moved; `meet` is [count].
 TREEFORM_C_API treeform_code treeform_intersects_poses(const treeform_mesh* a,
                                                        const treeform_mesh* b,
-                                                       const double* moves_a, const double* moves_b,
-                                                       size_t count, uint8_t* meet);
+                                                       const double* transforms_a,
+                                                       const double* transforms_b, size_t count,
+                                                       uint8_t* meet);
 
 /// The faces, ascending, that have a point in the closed box; exact.
 TREEFORM_C_API treeform_code treeform_faces_in_box(const treeform_mesh* mesh,
@@ -161,32 +164,33 @@ TREEFORM_C_API treeform_code treeform_intersection_curves(const treeform_mesh* m
                                                           treeform_segments** segments);
 
 /// A path of different points, each joined to the next by a segment.
-typedef struct treeform_path {
-    /// [count] numbers in `treeform_paths::points`; one or more
+typedef struct treeform_curve_path {
+    /// [count] numbers in `treeform_curve_network::points`; one or more
     const uint32_t* points;
     size_t count;
     int32_t closed;  ///< a segment leads from the last point to the first
-} treeform_path;
+} treeform_curve_path;
 
 /// All curves of a mesh.
-typedef struct treeform_paths {
+typedef struct treeform_curve_network {
     void* owner;
     const double* points;  ///< [point_count][3]
     size_t point_count;
-    /// [path_count] First open paths, between points where one segment or more than two end. Then
-    /// closed paths. Last single points: contacts of faces that are on no segment.
-    const treeform_path* paths;
+    /// [path_count] First open paths; at each of their ends, one segment or more than two end.
+    /// Then closed paths. Last single points: contacts of faces that are on no segment.
+    const treeform_curve_path* paths;
     size_t path_count;
-} treeform_paths;
+} treeform_curve_network;
 
 /// The segments of `treeform_intersection_curves`, joined into paths where their ends are equal as
 /// exact points.
 ///
-/// A segment common to several pairs is listed once. Points are ordered by the elements that name
-/// them, paths by the number of their first point.
+/// A segment common to several pairs is listed once. Points are in the order of the edges and
+/// faces that define them, paths by the number of their first point.
 TREEFORM_C_API treeform_code treeform_intersection_paths(const treeform_mesh* mesh,
                                                          const treeform_face_pair* pairs,
-                                                         size_t count, treeform_paths** paths);
+                                                         size_t count,
+                                                         treeform_curve_network** network);
 
 /// Writes the intersection curves of pairs as lines, OBJ or PLY, by `format` or, if null, by the
 /// extension of `path`.
@@ -201,7 +205,7 @@ TREEFORM_C_API treeform_code treeform_color_pairs(treeform_file* file,
                                                   const treeform_face_pair* pairs, size_t count);
 
 /// Options of `treeform_self_intersections_of_file` and `treeform_shared_search`.
-typedef struct treeform_stream_search_options {
+typedef struct treeform_file_search_options {
     size_t struct_size;
     /// a `treeform_vertex_identity`; -1: by coordinates for STL, else by index
     int32_t vertices;
@@ -215,18 +219,18 @@ typedef struct treeform_stream_search_options {
     void* progress_data;
     /// not for `treeform_shared_search`; or null
     const treeform_communicator* communicator;
-} treeform_stream_search_options;
+} treeform_file_search_options;
 /// Sets the defaults.
-TREEFORM_C_API void treeform_stream_search_options_init(treeform_stream_search_options* options,
-                                                        size_t size);
+TREEFORM_C_API void treeform_file_search_options_init(treeform_file_search_options* options,
+                                                      size_t size);
 
 /// The pairs found in a file.
-typedef struct treeform_stream_search_result {
+typedef struct treeform_file_search_result {
     void* owner;
     treeform_arrays mesh;          ///< only the intersecting faces
     const uint32_t* face_in_file;  ///< [F] number of each face in the file
     /// Pairs of faces of `mesh`. Its counters are sums over the tiles.
-    const treeform_pairs* found;
+    const treeform_face_pair_result* found;
     uint64_t stored_faces;  ///< faces of the file
     uint64_t triangles;     ///< triangles of these faces
     uint64_t searched;      ///< finite triangles that meet the box
@@ -235,7 +239,7 @@ typedef struct treeform_stream_search_result {
     size_t tiles;
     size_t finished_tiles;  ///< tiles finished by an earlier run
     uint64_t non_finite;    ///< number of triangles that are not finite
-} treeform_stream_search_result;
+} treeform_file_search_result;
 
 /// The pairs that `treeform_self_intersections` finds in the usable part of a file, for files
 /// larger than memory: binary STL, and PLY with vertices before faces. Space is cut into tiles.
@@ -245,9 +249,9 @@ typedef struct treeform_stream_search_result {
 ///
 /// If the process is killed, the folder stays, and the same call resumes there. With several
 /// ranks, rank 0 makes the tiles, all ranks search them, and rank 0 gets the result.
-TREEFORM_C_API treeform_code treeform_self_intersections_of_file(
-    const char* input, const treeform_stream_search_options* options,
-    treeform_stream_search_result** result);
+TREEFORM_C_API treeform_code
+treeform_self_intersections_of_file(const char* input, const treeform_file_search_options* options,
+                                    treeform_file_search_result** result);
 
 /// Whether the file has a format that can be searched in tiles; an error if it cannot be read, or
 /// its header is damaged. `format` may be null.
@@ -262,9 +266,8 @@ typedef struct treeform_shared_search treeform_shared_search;
 //   shared_search_unfinished() shared_search_tile() shared_search_finish()
 //   shared_search_remove_folder()
 /// Begins a search. All processes must pass the same input and options, except for `progress`.
-TREEFORM_C_API treeform_code
-treeform_shared_search_create(const char* path, const treeform_stream_search_options* options,
-                              treeform_shared_search** search);
+TREEFORM_C_API treeform_code treeform_shared_search_create(
+    const char* path, const treeform_file_search_options* options, treeform_shared_search** search);
 
 /// Writes the faces of each tile, unless already done. `result`, which may be null, is the number
 /// of tiles. Called by one process.
@@ -286,7 +289,7 @@ TREEFORM_C_API treeform_code treeform_shared_search_tile(treeform_shared_search*
 /// Combines the results of all tiles; an error unless all tiles are finished. A step that is
 /// called too early fails, and ends the search.
 TREEFORM_C_API treeform_code treeform_shared_search_finish(treeform_shared_search* search,
-                                                           treeform_stream_search_result** result);
+                                                           treeform_file_search_result** result);
 
 /// Removes the folder of the tiles.
 TREEFORM_C_API treeform_code treeform_shared_search_remove_folder(treeform_shared_search* search);

@@ -20,7 +20,7 @@ typedef struct treeform_lay_flat_options {
     double tolerance;
     double bed;               ///< z of the bed
     double overhang_angle;    ///< in degrees from the vertical, 0 to 90; default 45.0
-    uint64_t overhang_sides;  ///< default 32
+    uint64_t overhang_sides;  ///< compute the overhangs of this many sides; default 32
     /// of the points returned; default `TREEFORM_FLOAT64`
     treeform_precision precision;
     treeform_progress progress;
@@ -220,8 +220,8 @@ typedef struct treeform_align_options {
     /// Ignore partners farther apart than this. Not squared, not negative; default infinite
     double max_distance;
     /// Also find a uniform scale. The search tries scales from half to twice that of `start`, and
-    /// from half to twice the scale that makes both sides equally large. It compares results by
-    /// the distances between both sides, relative to their sizes.
+    /// from half to twice the scale that makes `moving` and `fixed` equally large. It compares
+    /// results by the distances between both, relative to their sizes.
     int32_t scale;
     uint32_t max_iterations;  ///< largest number of steps from each start; default 100
     /// Converged if the cost falls by less than this share in each of 5 consecutive steps, or if a
@@ -229,14 +229,11 @@ typedef struct treeform_align_options {
     /// mesh's box; default 1e-6
     double tolerance;
     /// Number of starts, at least 1. The first is the present position; then the principal axes of
-    /// both sides aligned, in the 4 possible ways; then rotations spread evenly over all
+    /// `moving` and `fixed` aligned, in the 4 possible ways; then rotations spread evenly over all
     /// rotations, small ones first, with aligned centers. The best result is returned; of equal
     /// results the first; default 1
     uint32_t starts;
     int32_t accelerate;  ///< Anderson acceleration with the 5 previous steps; default 1
-    /// Use at most this many moving points in the steps, spread evenly over space; 0 is all;
-    /// default 100000
-    uint64_t samples;
     /// [12] Applied to the moving points first, which gives the "present position"; any affine
     /// map; or null
     const double* start;
@@ -254,6 +251,9 @@ typedef struct treeform_align_options {
     /// 4.5 times the median of the near distances. If false, all partners have the same weight;
     /// default 1
     int32_t robust;
+    /// Use at most this many moving points in the steps, spread evenly over space; 0 is all;
+    /// default 100000
+    uint64_t max_samples;
 } treeform_align_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_align_options_init(treeform_align_options* options, size_t size);
@@ -261,13 +261,13 @@ TREEFORM_C_API void treeform_align_options_init(treeform_align_options* options,
 /// A small motion of the moving points, and how well the distances determine it. It is a rotation
 /// about `treeform_align_result::pivot_moved` and a shift, scaled so that the root mean square of
 /// the motion over the points is 1.
-typedef struct treeform_freedom {
+typedef struct treeform_align_freedom {
     double turn[3];   ///< axis times angle, about `pivot_moved`
     double shift[3];  ///< after the turn
     /// Share of the squared motion along the normals, 0 to 1: near 0 if points slide on the
     /// surface, like a plane on a plane.
     double stiffness;
-} treeform_freedom;
+} treeform_align_freedom;
 
 /// How the search ended.
 typedef int32_t treeform_align_outcome;
@@ -314,7 +314,7 @@ typedef struct treeform_align_result {
     /// whole regions deviate to one side.
     double correlation;
     /// [freedom_count] The independent motions, ascending by stiffness; none without partners.
-    const treeform_freedom* freedoms;
+    const treeform_align_freedom* freedoms;
     size_t freedom_count;
     size_t undetermined;             ///< number of `freedoms` that the data do not determine
     treeform_align_outcome outcome;  ///< how the search ended
@@ -347,11 +347,11 @@ typedef struct treeform_align_result {
 /// every fourth is held out of the fit and used for this test. If its residuals are more than
 /// noise, other starts around `start` are tried: shifts by 8% of the diagonal, rotations by 14
 /// degrees. If residuals are still more than noise: on a fixed cloud, the result is
-/// `TREEFORM_ALIGN_DOUBTFUL` if they exceed 0.6 times the thickness of both sides around their
-/// planes. On a fixed mesh, it is `TREEFORM_ALIGN_DOUBTFUL` if another start, tried with few
-/// points, ends better, or if the deviation exceeds 0.2% of the diagonal.
+/// `TREEFORM_ALIGN_DOUBTFUL` if they exceed 0.6 times the thickness of both point sets around
+/// their fitted planes. On a fixed mesh, it is `TREEFORM_ALIGN_DOUBTFUL` if another start, tried
+/// with few points, ends better, or if the deviation exceeds 0.2% of the diagonal.
 ///
-/// If either side has no points, the result is `start`, not converged.
+/// If `moving` or `fixed` has no points, the result is `start`, not converged.
 TREEFORM_C_API treeform_code treeform_align(const treeform_mesh* moving, const treeform_mesh* fixed,
                                             const treeform_align_options* options,
                                             treeform_align_result** result);

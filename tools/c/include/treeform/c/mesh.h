@@ -16,8 +16,8 @@ enum {
 };
 
 // made of the headers of C++:
-//   mesh_create() mesh_create_float() mesh_of() mesh_of_box() mesh_arrays() mesh_is_cloud()
-//   mesh_indexes_built()
+//   mesh_create() mesh_create_float() mesh_of() mesh_of_box() rotation() mesh_arrays()
+//   mesh_is_cloud() mesh_indexes_built()
 /// A mesh of `points` [point_count][3] and `faces` [face_count][3]; without faces, a point cloud,
 /// which can be measured, moved, welded and aligned like a mesh. Queries take each point of a
 /// cloud as a degenerate face, so face numbers are point numbers. A cloud bounds no solid.
@@ -37,12 +37,17 @@ TREEFORM_C_API treeform_code treeform_mesh_create_float(const float* points, siz
                                                         const uint32_t* faces, size_t face_count,
                                                         uint32_t flags, treeform_mesh** mesh);
 
-/// The mesh of the arrays of a result, as `result->mesh`; `flags` as in `treeform_mesh_create`.
+/// A mesh of arrays that a result owns, such as `&result->mesh`; `flags` as in
+/// `treeform_mesh_create`.
 TREEFORM_C_API treeform_code treeform_mesh_of(const treeform_arrays* arrays, uint32_t flags,
                                               treeform_mesh** mesh);
 
 /// The box as a solid of 8 points and 12 faces.
 TREEFORM_C_API treeform_code treeform_mesh_of_box(const treeform_box* box, treeform_mesh** mesh);
+
+/// Sets `matrix` [12] to the rotation about an axis through the origin, counterclockwise if the
+/// axis points to the viewer. Quarter turns about a coordinate axis are exact.
+TREEFORM_C_API treeform_code treeform_rotation(const double* axis, double degrees, double* matrix);
 
 /// The arrays of a mesh, valid as long as the mesh exists.
 TREEFORM_C_API treeform_code treeform_mesh_arrays(const treeform_mesh* mesh,
@@ -66,7 +71,7 @@ typedef struct treeform_made_mesh {
 
 // made of the headers of C++:
 //   join_equal_points() join_meshes() select_faces() rounded() coordinate_step()
-//   rounding_effects rounding_effects()
+//   rounding_effects find_rounding_effects()
 /// The mesh with points of equal coordinates joined (-0 equals +0), in the order in which they
 /// first appear; faces keep their order. `index` [V] is the new number of each point. O(V + F).
 TREEFORM_C_API treeform_code treeform_join_equal_points(const treeform_mesh* mesh,
@@ -83,7 +88,7 @@ TREEFORM_C_API treeform_code treeform_select_faces(const treeform_mesh* mesh, co
                                                    size_t count, treeform_made_mesh** made);
 
 /// The mesh with each coordinate rounded to the nearest number of the precision; infinite beyond
-/// its range. `treeform_rounding_effects` finds the defects that this causes.
+/// its range. `treeform_find_rounding_effects` finds the defects that this causes.
 TREEFORM_C_API treeform_code treeform_rounded(const treeform_mesh* mesh,
                                               treeform_precision precision,
                                               treeform_made_mesh** made);
@@ -94,25 +99,26 @@ TREEFORM_C_API treeform_code treeform_coordinate_step(const treeform_mesh* mesh,
                                                       treeform_precision of, double* result);
 
 /// How far rounding moved points, and the defects that it caused.
-typedef struct treeform_rounding {
+typedef struct treeform_rounding_effects {
     void* owner;
     double max_displacement;  ///< largest change of a coordinate, after the transform
     double step;              ///< spacing of numbers at the largest written coordinate
     /// True if doubles became float32 and points moved, or if points moved by more than a
     /// millionth of the diagonal of the bounding box.
     int32_t noticeable;
-    /// `collapsed` and `meeting` were computed, since coordinates became coarser
+    /// Whether `collapsed` and `meeting` were computed: only if points moved, coordinates became
+    /// coarser, and there are faces.
     int32_t compared;
     uint64_t collapsed;  ///< faces that became degenerate
     uint64_t meeting;    ///< new pairs of faces that meet
-} treeform_rounding;
+} treeform_rounding_effects;
 
 /// Compares `placed` [V][3], of precision `after`, with the points of the mesh, of precision
 /// `before`, moved by `matrix` [12] (null: not moved). If coordinates became coarser, or with
 /// `always_compare`, also finds the faces that became degenerate, and the pairs of faces that
 /// newly meet; exact (`treeform_self_intersections`).
-TREEFORM_C_API treeform_code treeform_rounding_effects(
+TREEFORM_C_API treeform_code treeform_find_rounding_effects(
     const treeform_mesh* mesh, const double* matrix, const double* placed,
     treeform_precision before, treeform_precision after, int32_t always_compare,
-    treeform_progress progress, void* progress_data, treeform_rounding** rounding);
+    treeform_progress progress, void* progress_data, treeform_rounding_effects** effects);
 // end

@@ -34,20 +34,21 @@ typedef struct treeform_closest {
 /// The nearest points of the surfaces `a` and `b`, each moved by a matrix (null: not moved), at
 /// most `radius` apart.
 TREEFORM_C_API treeform_code treeform_closest_pair(const treeform_mesh* a, const treeform_mesh* b,
-                                                   const double* move_a, const double* move_b,
-                                                   double radius, treeform_closest* result);
+                                                   const double* transform_a,
+                                                   const double* transform_b, double radius,
+                                                   treeform_closest* result);
 
 /// The distance of the surfaces; infinite if one has no faces.
 TREEFORM_C_API treeform_code treeform_distance(const treeform_mesh* a, const treeform_mesh* b,
-                                               const double* move_a, const double* move_b,
+                                               const double* transform_a, const double* transform_b,
                                                double* result);
 
-/// The same for many positions, in parallel: `moves_a` and `moves_b` are [count][12], or null if
-/// the mesh is not moved; `distances` [count] are infinite beyond `radius`.
+/// The same for many positions, in parallel: `transforms_a` and `transforms_b` are [count][12], or
+/// null if the mesh is not moved; `distances` [count] are infinite beyond `radius`.
 TREEFORM_C_API treeform_code treeform_distance_poses(const treeform_mesh* a, const treeform_mesh* b,
-                                                     const double* moves_a, const double* moves_b,
-                                                     size_t count, double radius,
-                                                     double* distances);
+                                                     const double* transforms_a,
+                                                     const double* transforms_b, size_t count,
+                                                     double radius, double* distances);
 
 /// The position of a point relative to a surface or curve.
 typedef int32_t treeform_location;
@@ -89,7 +90,7 @@ typedef struct treeform_ray {
 } treeform_ray;
 
 // made of the headers of C++:
-//   feature mesh_hit raycast() raycast_any()
+//   triangle_feature mesh_hit raycast() raycast_any()
 /// A part of a triangle. Edge `TREEFORM_AT_E0` runs from v0 to v1, `TREEFORM_AT_E1` from v1 to v2,
 /// `TREEFORM_AT_E2` from v2 to v0; `TREEFORM_AT_INTERIOR` is the triangle without its edges.
 typedef int32_t treeform_triangle_feature;
@@ -104,7 +105,7 @@ enum {
 };
 
 /// A face that a ray hits. The point hit is origin + t direction.
-typedef struct treeform_hit {
+typedef struct treeform_mesh_hit {
     uint32_t face;
     /// corner, edge or interior that contains the first common point (a
     /// `treeform_triangle_feature`)
@@ -112,12 +113,12 @@ typedef struct treeform_hit {
     uint8_t coplanar;  ///< the ray runs in the face's plane, or the face has no area
     double t;          ///< of the first common point; relative error below 2^-40
     double t_end;      ///< of the last common point; equal to t unless coplanar
-} treeform_hit;
+} treeform_mesh_hit;
 
 /// `hits` [count]: the first face that each ray hits, exactly; of several faces at the same point,
 /// the lowest. For a ray that hits none, `face` is `TREEFORM_NONE`, `t` and `t_end` are NaN.
 TREEFORM_C_API treeform_code treeform_raycast(const treeform_mesh* mesh, const treeform_ray* rays,
-                                              size_t count, treeform_hit* hits);
+                                              size_t count, treeform_mesh_hit* hits);
 
 /// `hit` [count]: 1 if the ray hits any face, else 0.
 TREEFORM_C_API treeform_code treeform_raycast_any(const treeform_mesh* mesh,
@@ -129,12 +130,12 @@ TREEFORM_C_API treeform_code treeform_raycast_any(const treeform_mesh* mesh,
 typedef struct treeform_hits {
     void* owner;
     const size_t* begin;  ///< [count + 1]
-    const treeform_hit* hits;
+    const treeform_mesh_hit* hits;
     size_t count;  ///< rays
 } treeform_hits;
 
 // made of the headers of C++:
-//   raycast_all() mesh_relation mesh_measure measure_options measure() relation()
+//   raycast_all() mesh_relation relation_result measure_options measure() relation()
 //   penetration_depth() count_inside_out() count_sides() deviation_options deviation_result
 //   deviation()
 /// All faces that each ray hits, in the exact order along the ray, then by number.
@@ -156,7 +157,7 @@ enum {
 TREEFORM_C_API const char* treeform_mesh_relation_name(treeform_mesh_relation value);
 
 /// The relation and distance of two meshes.
-typedef struct treeform_mesh_measure {
+typedef struct treeform_relation_result {
     void* owner;
     treeform_mesh_relation relation;
     /// Faces that prove the relation: two that cross, overlap with the inside on the same side, or
@@ -178,7 +179,7 @@ typedef struct treeform_mesh_measure {
     double on_b[3];           ///< the nearest point on the surface of `b`
     double barycentric_a[3];  ///< barycentric coordinates of `on_a` in that face
     double barycentric_b[3];  ///< barycentric coordinates of `on_b` in that face
-} treeform_mesh_measure;
+} treeform_relation_result;
 
 /// Options of `treeform_relation`, `treeform_measure` and `treeform_penetration_depth`. Each
 /// ignores those that do not concern it.
@@ -209,7 +210,7 @@ TREEFORM_C_API void treeform_measure_options_init(treeform_measure_options* opti
 /// meet, the points are on them.
 TREEFORM_C_API treeform_code treeform_measure(const treeform_mesh* a, const treeform_mesh* b,
                                               const treeform_measure_options* options,
-                                              treeform_mesh_measure** measure);
+                                              treeform_relation_result** result);
 
 /// Only the relation, exactly: separate, touching or penetrating.
 TREEFORM_C_API treeform_code treeform_relation(const treeform_mesh* a, const treeform_mesh* b,
@@ -233,8 +234,8 @@ TREEFORM_C_API treeform_code treeform_penetration_depth(const treeform_mesh* a,
 TREEFORM_C_API treeform_code treeform_count_inside_out(const treeform_mesh* mesh, uint64_t* result);
 
 /// Counts `points` [points_count][3] by their position relative to `solids` [solids_count],
-/// exactly: counts[0] strictly inside any solid, counts[1] else on the surface of any, counts[2]
-/// outside of all.
+/// exactly: counts[0] is the number of points strictly inside at least one solid, counts[1] that
+/// of other points on a surface, counts[2] that of points outside all solids.
 TREEFORM_C_API treeform_code treeform_count_sides(const double* points, size_t points_count,
                                                   const treeform_mesh* const* solids,
                                                   size_t solids_count, uint64_t counts[3]);

@@ -14,7 +14,7 @@
 
 // made of the headers of C++:
 //   placement_outcome placement_contact placement placement_options slide() drop() mate()
-//   separate() turn() mate_features() measure_among()
+//   separate() turn() mate_features() measure_in_place()
 /// The reason why a placement ended.
 typedef int32_t treeform_placement_outcome;
 enum {
@@ -28,7 +28,7 @@ enum {
     TREEFORM_OUTCOME_MOVED_APART = 3,
     /// no place: nothing is in the way, at least not within `max_travel`
     TREEFORM_OUTCOME_NOTHING_MET = 4,
-    /// no place: `treeform_mate`, `treeform_separate` or a bed above exceed `max_travel`
+    /// no place: the necessary motion is longer than `max_travel`
     TREEFORM_OUTCOME_TOO_FAR = 5,
     /// no place: penetrates a fixed mesh at the start
     TREEFORM_OUTCOME_STARTS_PENETRATING = 6,
@@ -51,14 +51,14 @@ enum {
 TREEFORM_C_API const char* treeform_placement_outcome_name(treeform_placement_outcome value);
 
 /// A pair of faces that meet, or are at the clearance, at the place.
-typedef struct treeform_contact {
+typedef struct treeform_placement_contact {
     double point[3];
     /// unit normal from the fixed to the moving mesh; 0 if there is none
     double normal[3];
     uint32_t moving;      ///< face of the moving mesh
     uint32_t fixed_face;  ///< `TREEFORM_NONE` for the bed
     uint32_t fixed;       ///< number of the fixed mesh
-} treeform_contact;
+} treeform_placement_contact;
 
 /// The result of a placement. "The place" is the new position of the moving mesh, or the present
 /// one if it does not move.
@@ -88,8 +88,8 @@ typedef struct treeform_placement {
     size_t nearest_fixed;  ///< fixed mesh of `nearest`; the lowest if several qualify
     /// The relation, at the place, of the moving mesh (`a`) to the fixed mesh that it penetrates,
     /// else to one that it touches, else to the nearest. Null if all are too far away.
-    const treeform_mesh_measure* nearest;
-    const treeform_contact* contacts;  ///< [contact_listed]
+    const treeform_relation_result* nearest;
+    const treeform_placement_contact* contacts;  ///< [contact_listed]
     size_t contact_listed;
     uint64_t contact_count;  ///< number of all contacts, listed or not
     /// number of steps back, since rounding made the mesh penetrate
@@ -116,7 +116,7 @@ typedef struct treeform_placement_options {
     double clearance;  ///< gap to leave, a distance; 0: contact
     /// largest distance to move; obstacles beyond are ignored; NaN: not given
     double max_travel;
-    /// `treeform_mate_features`: planes face the same way instead of each other; for axes, that of
+    /// `treeform_mate_features`: planes face the same way, not each other; of axes, that of
     /// `moving` is reversed.
     int32_t flip;
     /// `treeform_turn`: in degrees; greater than 0, up to 360; default 360.0
@@ -192,16 +192,16 @@ TREEFORM_C_API treeform_code treeform_mate(const treeform_mesh* moving,
 /// About fifty directions are tried: along the axes, away from the nearest points, along normals
 /// of faces that meet, and others around the best. The nearest of the places found is returned, if
 /// its coordinates pass the check of `treeform_slide`. It need not be the globally nearest place,
-/// which is on the boundary of a set with O(n^2 m^2) faces. The search is limited by `effort`, and
-/// skips candidates that would take much of it, as in `treeform_penetration_depth`;
-/// `treeform_placement::effort` counts them.
+/// which is on the boundary of a set with O(n^2 m^2) faces, for meshes of n and m faces. The
+/// search is limited by `effort`, and skips candidates that would take much of it, as in
+/// `treeform_penetration_depth`; `treeform_placement::effort` counts them.
 TREEFORM_C_API treeform_code treeform_separate(const treeform_mesh* moving,
                                                const treeform_mesh* const* fixed, size_t count,
                                                const treeform_placement_options* options,
                                                treeform_placement** placement);
 
 /// Turns `moving` until its distance from one of `fixed` is at most the clearance plus the
-/// tolerance; `max_travel` has no effect. The axis is the line through `origin` along `direction`,
+/// tolerance. `max_travel` has no effect. The axis is the line through `origin` along `direction`,
 /// of any length but 0. Turns are right-handed: counter-clockwise seen against the direction.
 ///
 /// Conservative advancement: bounds on the speed of corners guarantee that no faces meet within a
@@ -228,17 +228,18 @@ TREEFORM_C_API treeform_code treeform_turn(const treeform_mesh* moving,
 /// Aligns two planes, or two axes, and slides `moving` until it meets one of `fixed`.
 TREEFORM_C_API treeform_code treeform_mate_features(const treeform_mesh* moving,
                                                     const treeform_mesh* const* fixed, size_t count,
-                                                    const treeform_feature* of_moving,
-                                                    const treeform_feature* of_fixed,
+                                                    const treeform_mesh_feature* of_moving,
+                                                    const treeform_mesh_feature* of_fixed,
                                                     const treeform_placement_options* options,
                                                     treeform_placement** placement);
 
 /// The relation of `moving` to all of `fixed` at its present position. Moves nothing. Meshes
 /// nearer than the clearance are `TREEFORM_RELATION_CLOSER_THAN_CLEARANCE`.
-TREEFORM_C_API treeform_code treeform_measure_among(const treeform_mesh* moving,
-                                                    const treeform_mesh* const* fixed, size_t count,
-                                                    const treeform_placement_options* options,
-                                                    treeform_placement** placement);
+TREEFORM_C_API treeform_code treeform_measure_in_place(const treeform_mesh* moving,
+                                                       const treeform_mesh* const* fixed,
+                                                       size_t count,
+                                                       const treeform_placement_options* options,
+                                                       treeform_placement** placement);
 // end
 
 /// The relation of each face to the other meshes, with `moving` at the place: a
@@ -253,10 +254,14 @@ typedef struct treeform_face_relations {
 } treeform_face_relations;
 
 // made of the headers of C++:
-//   write_placement() find_face_relations() face_contact impact impact_options
+//   moved() write_placement() find_face_relations() face_contact impact impact_options
 //   time_of_impact() time_to_distance()
-/// Writes `moving` at its place, in the coordinates that were checked: fails instead of rounding
-/// them, and if there is no place. `written` may be null.
+/// The mesh that was placed, with the points of the placement.
+TREEFORM_C_API treeform_code treeform_moved(const treeform_placement* placement,
+                                            const treeform_mesh* moving, treeform_mesh** mesh);
+
+/// Writes `moving` at its place, in the coordinates that were checked. Fails if the format would
+/// round them, or if there is no place. `written` may be null.
 TREEFORM_C_API treeform_code treeform_write_placement(const char* path, const treeform_mesh* moving,
                                                       const treeform_placement* placement,
                                                       const treeform_write_options* options,
@@ -271,14 +276,14 @@ TREEFORM_C_API treeform_code treeform_find_face_relations(const treeform_mesh* m
                                                           treeform_face_relations** relations);
 
 /// A pair of faces that meet when the meshes first do.
-typedef struct treeform_impact_contact {
+typedef struct treeform_face_contact {
     uint32_t face_a;
     uint32_t face_b;
     /// corner, edge or interior of the face (a `treeform_triangle_feature`)
     uint8_t on_a;
     uint8_t on_b;
     double point[3];  ///< a common point, on `b`, rounded
-} treeform_impact_contact;
+} treeform_face_contact;
 
 /// The first contact of two meshes.
 typedef struct treeform_impact {
@@ -291,7 +296,7 @@ typedef struct treeform_impact {
     /// times the motion has not passed it. 0 when they meet at the start.
     double time;
     /// [contact_listed] pairs that meet at t, ascending; empty at the start
-    const treeform_impact_contact* contacts;
+    const treeform_face_contact* contacts;
     size_t contact_listed;
     uint64_t contact_count;  ///< all pairs that meet at t, listed or not
     uint64_t pairs_tested;   ///< pairs of faces tested; the others were skipped
@@ -302,9 +307,9 @@ typedef struct treeform_impact_options {
     size_t struct_size;
     /// [12] Applied to each mesh before the motion. The result is exact for the moved corners,
     /// which are rounded to double. The mesh itself is not changed; or null
-    const double* move_a;
-    const double* move_b;  ///< [12]; or null
-    double latest;         ///< Ignore contacts after this time; default infinite
+    const double* transform_a;
+    const double* transform_b;  ///< [12]; or null
+    double latest;              ///< Ignore contacts after this time; default infinite
     /// List at most this many contacts, those with the lowest face numbers; default 1000
     uint64_t limit;
     treeform_progress progress;

@@ -22,8 +22,8 @@ TREEFORM_C_API treeform_code treeform_surface_area(const treeform_mesh* mesh, do
 typedef struct treeform_mass_properties {
     double volume;     ///< the enclosed volume; negative if the mesh is inside out
     double center[3];  ///< the center of mass
-    /// Inertia tensor about the center, in axes x, y and z: the energy of rotation w is w .
-    /// (inertia w) / 2.
+    /// Inertia tensor about the center, in axes x, y and z: the kinetic energy at angular velocity
+    /// w is w . (inertia w) / 2.
     double inertia[9];
 } treeform_mass_properties;
 
@@ -49,7 +49,7 @@ TREEFORM_C_API treeform_code treeform_check_operand(const treeform_mesh* mesh,
 /// Counts over the faces with three different corner numbers. Faces that repeat a corner have no
 /// edges here and are counted separately. Faces with collinear corners, and duplicates, are
 /// counted like all others. The Euler characteristic is points_used - edges + faces.
-typedef struct treeform_topology {
+typedef struct treeform_topology_counts {
     void* owner;
     uint64_t edges;                  ///< undirected
     uint64_t boundary_edges;         ///< used by one face
@@ -62,12 +62,14 @@ typedef struct treeform_topology {
     uint64_t faces;                  ///< faces with three different corners
     uint64_t repeated_corner_faces;  ///< faces that repeat a corner
     uint64_t duplicate_faces;        ///< Faces with the same three corners as an earlier one.
-    int32_t closed_manifold;         ///< every edge has two faces
-} treeform_topology;
+    /// Whether there are faces, and every edge has exactly two. Orientation and fans of points do
+    /// not matter.
+    int32_t closed_manifold;
+} treeform_topology_counts;
 
 /// Counts edges, components and defects. Join equal points first (`treeform_join_equal_points`).
 TREEFORM_C_API treeform_code treeform_count_topology(const treeform_mesh* mesh,
-                                                     treeform_topology** topology);
+                                                     treeform_topology_counts** counts);
 
 /// `component` [F]: the connected component of each face, by shared corners; components are
 /// numbered in the order of their lowest faces. `count` is their number.
@@ -121,7 +123,7 @@ typedef int32_t treeform_feature_kind;
 enum { TREEFORM_PLANE = 0, TREEFORM_AXIS = 1 };
 
 /// A plane or an axis, fitted to faces by least squares.
-typedef struct treeform_feature {
+typedef struct treeform_mesh_feature {
     treeform_feature_kind kind;  ///< plane or axis
     int32_t hollow;              ///< for a cylinder: the faces point toward the axis, as in a hole
     double origin[3];            ///< center of the faces, on the plane or the axis
@@ -132,12 +134,12 @@ typedef struct treeform_feature {
     double deviation;       ///< largest distance of a corner from the plane or cylinder
     const uint32_t* faces;  ///< [face_count] the faces that it was fitted to, ascending
     size_t face_count;
-} treeform_feature;
+} treeform_mesh_feature;
 
 /// Features, largest area first.
 typedef struct treeform_features {
     void* owner;
-    const treeform_feature* features;  ///< [count]
+    const treeform_mesh_feature* features;  ///< [count]
     size_t count;
 } treeform_features;
 
@@ -178,8 +180,8 @@ TREEFORM_C_API treeform_code treeform_feature_at_point(const treeform_mesh* mesh
                                                        const treeform_feature_options* options,
                                                        treeform_features** features);
 
-/// The plane or axis fitted to exactly these faces, for any deviation. Null, with `TREEFORM_OK`,
-/// if they have no area, or, for an axis, if they are flat.
+/// The plane or axis fitted to exactly these faces, however large the deviation. Null, with
+/// `TREEFORM_OK`, if they have no area, or, for an axis, if they are flat.
 TREEFORM_C_API treeform_code treeform_fit_feature(const treeform_mesh* mesh,
                                                   treeform_feature_kind kind, const uint32_t* faces,
                                                   size_t count, treeform_features** features);

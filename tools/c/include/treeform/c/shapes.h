@@ -10,7 +10,8 @@
 //   offset_options offset_result wrap() offset() hollow() thicken() simplify_options
 //   simplify_result simplify() thickness_by thickness_result wall_thickness() oriented_box
 //   find_oriented_box() isoline isolines_result isolines() write_isolines() cut_along()
-/// Options of the functions of this header. Each function ignores those that do not concern it.
+/// Options of `offset`, `treeform_hollow`, `treeform_thicken` and `treeform_wrap`. Each function
+/// ignores those that do not concern it.
 typedef struct treeform_offset_options {
     size_t struct_size;
     /// Edge length of the cells from which the surface is made, in the mesh's length unit; at most
@@ -164,7 +165,7 @@ typedef struct treeform_simplify_result {
     double input_to_result_bound;
     /// Bound of the distance from any point of the result to the input.
     double result_to_input_bound;
-    uint64_t fixed_vertices;  ///< that stay: at nonmanifold edges and vertices
+    uint64_t fixed_vertices;  ///< vertices on nonmanifold edges or fans, never removed
 } treeform_simplify_result;
 
 /// The mesh with fewer faces, by edge collapses in the order of their quadric error.
@@ -174,14 +175,14 @@ typedef struct treeform_simplify_result {
 /// that meet may still meet. A closed, oriented manifold remains a closed, oriented manifold. The
 /// nesting of components is only checked at the end, in the certificate.
 ///
-/// Borders, features, and borders of groups are simplified as polylines on their own vertices,
-/// within the same distance. Vertices stay where such lines end, branch or cross, at nonmanifold
-/// or inconsistently oriented edges, and where their faces are not one fan.
+/// Borders, features, and borders of groups are simplified as polylines, within the same distance:
+/// vertices on them are removed, but not moved. Vertices stay where such lines end, branch or
+/// cross, at nonmanifold or inconsistently oriented edges, and where their faces are not one fan.
 ///
 /// Nothing is collapsed if the distance is below about 2^-46 of the largest coordinate, which
 /// doubles cannot prove, or if squares of coordinates overflow or underflow. Corners with equal
-/// coordinates are one vertex; faces with two equal corners are dropped, and belong to neither
-/// surface.
+/// coordinates are one vertex; faces with two equal corners are dropped, and distances do not take
+/// them into account.
 TREEFORM_C_API treeform_code treeform_simplify(const treeform_mesh* mesh, double max_distance,
                                                const treeform_simplify_options* options,
                                                treeform_simplify_result** result);
@@ -201,13 +202,13 @@ typedef struct treeform_thickness_result {
     void* owner;
     /// [F] The thickness at each face; infinite if nothing is behind it, or if it has no area.
     const double* of_face;
-    double least;       ///< least thickness of all faces
+    double min;         ///< smallest thickness of all faces
     uint32_t thinnest;  ///< The lowest face with the least thickness.
 } treeform_thickness_result;
 
 /// The wall thickness of a solid at each face. The face through which a ray leaves is exact, for
 /// the rounded center and normal; lengths are rounded. Balls are accurate to 2^-20 of their
-/// diameter. Near a sharp edge balls are small: there they measure the edge.
+/// diameter. Near a sharp edge, balls are small, and do not measure a wall.
 TREEFORM_C_API treeform_code treeform_wall_thickness(const treeform_mesh* mesh,
                                                      treeform_thickness_by by,
                                                      treeform_progress progress,
@@ -249,7 +250,7 @@ typedef struct treeform_isoline {
 /// The isolines of all levels, in the given order of levels.
 typedef struct treeform_isolines_result {
     void* owner;
-    const treeform_isoline* lines;  ///< [line_count] one after the other
+    const treeform_isoline* lines;  ///< [line_count] level after level
     size_t line_count;
     const double* points;  ///< [point_count][3] on edges of the mesh, rounded
     size_t point_count;

@@ -43,8 +43,7 @@ typedef struct treeform_boolean_options {
     int32_t merge_coplanar;
     /// Compute `treeform_boolean_result::volumes`; only for two operands, without filled gaps.
     int32_t volumes;
-    /// [faces of all operands in order] or empty: only faces with equal numbers are merged; or
-    /// null
+    /// [F of all operands, in order] or empty: only faces of the same group are merged; or null
     const uint32_t* face_groups;
     size_t face_group_count;
     treeform_progress progress;
@@ -64,14 +63,14 @@ typedef struct treeform_boolean_options {
 TREEFORM_C_API void treeform_boolean_options_init(treeform_boolean_options* options, size_t size);
 
 /// The volumes of two operands, their union and intersection: first + second = either + both.
-typedef struct treeform_volumes {
+typedef struct treeform_operand_volumes {
     /// The magnitude of `treeform_signed_volume`, for an operand that winds once around its
     /// inside. For others the sum over the cells inside, like the volumes below.
     double first;
     double second;
     double either;  ///< in the first or the second
     double both;    ///< in the first and in the second
-} treeform_volumes;
+} treeform_operand_volumes;
 
 /// The surface of a solid in rounded coordinates, with its sources and certificate.
 typedef struct treeform_boolean_result {
@@ -82,12 +81,12 @@ typedef struct treeform_boolean_result {
     /// [F] the lowest operand face that contains each face or a part of it. Where rounding made
     /// faces meet, it may be a neighbor of that face. For a face that fills a `gap`, it is the
     /// operand face at or opposite to it; such faces come last.
-    const treeform_element* face_source;
+    const treeform_operand_element* face_source;
     /// [V] the lowest operand vertex equal to each vertex, or `TREEFORM_NONE`
-    const treeform_element* vertex_source;
+    const treeform_operand_element* vertex_source;
     /// [V] for each new vertex, an operand face that contains it; in a filled `gap`, as in
     /// `face_source`. Empty with `keep_cuts`.
-    const treeform_element* face_of_cut_vertex;
+    const treeform_operand_element* face_of_cut_vertex;
     /// Status ok means, verified on the coordinates of `mesh`: any two faces share a corner, an
     /// edge or nothing; no face is degenerate; the signed face count of every edge is zero; and
     /// the inside is behind every face: the surface winds once around points just behind the face,
@@ -97,11 +96,11 @@ typedef struct treeform_boolean_result {
     uint64_t vanished_components;
     /// The largest distance from `mesh` to a removed vertex of the exact result. It is large if a
     /// component lost a part too thin for the coordinates.
-    double vanished_reach;
+    double vanished_distance;
     /// [vanished_listed][3] one point of each vanished component; at most 100
     const double* vanished_at;
     size_t vanished_listed;
-    const treeform_volumes* volumes;
+    const treeform_operand_volumes* volumes;
     uint64_t pairs;       ///< pairs of tested faces that meet beyond shared corners
     uint64_t cut_faces;   ///< input faces that were cut or covered by others
     uint64_t degenerate;  ///< input faces without area
@@ -113,13 +112,13 @@ typedef struct treeform_boolean_result {
     /// result was too thin for the coordinates, or removed as `small_parts`.
     uint64_t exact_faces;
     uint64_t split_vertices;  ///< added where parts touch, so that edges have two faces
-    /// Number of changes that joined points or removed thin faces where rounding made faces meet.
-    uint64_t slivers;
     /// how often faces that still met were cut and rounded again
     int32_t rounding_rounds;
     uint64_t small_parts;   ///< number of solids and voids removed by `min_volume`
     double small_volume;    ///< their total volume, in cubic units
     uint64_t filled_faces;  ///< faces of operands at filled gaps (`gap`)
+    /// Number of changes that joined points or removed thin faces where rounding made faces meet.
+    uint64_t rounding_repairs;
 } treeform_boolean_result;
 
 /// The solid that `expression` defines over the `operands` [count]: a formula of a, b, c, ... with
@@ -174,7 +173,7 @@ TREEFORM_C_API treeform_code treeform_difference_all(const treeform_mesh* a,
                                                      treeform_boolean_result** result);
 
 /// An open surface cut by solids: the pieces of operand number `sheet` for which `expression` is
-/// true.
+/// true. With the sheet as a, "a-b" keeps the pieces outside of b, and "a*b" those inside.
 TREEFORM_C_API treeform_code treeform_clip(const treeform_mesh* const* operands, size_t count,
                                            uint32_t sheet, const char* expression,
                                            const treeform_boolean_options* options,
@@ -231,9 +230,8 @@ TREEFORM_C_API void treeform_resolve_options_init(treeform_resolve_options* opti
 
 /// Counts of each step's changes. Closed gaps, chosen orientations and filled holes are heuristic.
 typedef struct treeform_repair_statistics {
-    uint64_t tetrahedra;  ///< tetrahedra formed by faces; only their boundary was kept
-    /// dropped faces without area; if there are any, slivers, too
-    uint64_t degenerate;
+    uint64_t tetrahedra;      ///< tetrahedra formed by faces; only their boundary was kept
+    uint64_t degenerate;      ///< dropped faces without area, and slivers dropped with them
     uint64_t repeated;        ///< faces that repeat another, dropped
     uint64_t closed_edges;    ///< pairs of border edges joined into one edge
     uint64_t split_edges;     ///< border edges split at vertices that lie on them
@@ -242,19 +240,19 @@ typedef struct treeform_repair_statistics {
     uint64_t holes;           ///< holes filled
     uint64_t hole_edges;      ///< edges around them
     uint64_t filled;          ///< faces that fill them
-    uint64_t sheets;          ///< rims not filled, since they are borders of sheets
+    uint64_t unfilled_rims;   ///< rims not filled, since they are borders of sheets
     uint64_t open_edges;      ///< open edges left after these steps
     int32_t resolved;         ///< whether faces met and were cut
     uint64_t pairs;           ///< pairs of faces that met
     uint64_t labeled_cells;   ///< cells labeled inside or outside, since faces disagreed
-    double dropped_area;      ///< area of faces dropped for equal labels on both sides
+    double dropped_area;      ///< area of faces dropped: equal labels on both sides
     double flipped_area;      ///< area of faces flipped by the labels
     uint64_t removed;         ///< input faces that resolving removed entirely
     uint64_t split_vertices;  ///< vertices split where parts of the solid touch
     uint64_t detached;        ///< vertices moved apart
     uint64_t touching;        ///< vertices that still have the coordinates of another
     /// Components (faces linked by vertices) that lost all of their faces; for `treeform_repair`,
-    /// only those larger than `treeform_repair_options::strays`.
+    /// only those larger than `treeform_repair_options::stray_share`.
     uint64_t vanished_components;
     /// closed shells inside the solid, dropped; `TREEFORM_EVEN_ODD` makes them cavities
     uint64_t dropped_shells;
@@ -333,14 +331,10 @@ typedef struct treeform_repair_options {
     int32_t resolve;
     int32_t detach;  ///< separate parts that touch in an edge or a vertex; default 1
     /// Widest crack to close, in the mesh's length unit. By default the narrowest that leaves the
-    /// fewest open edges, out of 0, a float step, and 1e-6, 1e-5, 1e-4, 1e-3 of the diagonal of
-    /// the bounding box; NaN: not given
+    /// fewest open edges, out of 0, a unit in the last place of float32, and 1e-6, 1e-5, 1e-4,
+    /// 1e-3 of the diagonal of the bounding box; NaN: not given
     double gap;
     uint64_t largest_hole;  ///< Fill holes of at most this many edges; default all
-    /// Drops loose open pieces below this share of the area, and loose pieces of one or two faces
-    /// below 1% of the area. If a larger component vanishes because it bounds no solid, the status
-    /// is `TREEFORM_STATUS_EXCESSIVE_LOSS`, unless `max_loss` is 1; default 0.001
-    double strays;
     /// The rule that defines the inside. By default `TREEFORM_POSITIVE` if each shell is outward
     /// after `orient`, else `TREEFORM_NONZERO` or the labels of cells (see `treeform_repair`); a
     /// `treeform_fill_rule`, or -1 for the default
@@ -360,6 +354,10 @@ typedef struct treeform_repair_options {
     int32_t keep_cuts;
     /// for `treeform_repair_file`: all parts of a scene become one solid
     int32_t as_one;
+    /// Drops loose open pieces below this share of the area, and loose pieces of one or two faces
+    /// below 1% of the area. If a larger component vanishes because it bounds no solid, the status
+    /// is `TREEFORM_STATUS_EXCESSIVE_LOSS`, unless `max_loss` is 1; default 0.001
+    double stray_share;
 } treeform_repair_options;
 /// Sets the defaults.
 TREEFORM_C_API void treeform_repair_options_init(treeform_repair_options* options, size_t size);
@@ -373,14 +371,15 @@ TREEFORM_C_API void treeform_repair_options_init(treeform_repair_options* option
 /// is decided by heuristics, and counted in `statistics`. Points with equal coordinates are one.
 /// If faces are the sides of tetrahedra, only the boundary of the tetrahedra is kept. If faces
 /// remain inconsistent, a minimum cut labels cells inside or outside, by the orientations of faces
-/// and generalized winding numbers; the result is used if it loses less.
+/// and generalized winding numbers. Its result is used if it loses less area than repair without
+/// labels, or if there is no certified result otherwise.
 ///
 /// Holes are filled with triangles between their vertices; large holes in smooth surfaces also
 /// with new points, which continue the surface smoothly. Sheets are not filled, but reported as
 /// open, unless any loss is allowed. A sheet is a part whose fillings would have more than 0.6
 /// times its area, unless its border is in a plane and it is on one side of the plane. In a mesh
-/// of more than 1000 faces, no hole is filled if more than one edge for every 10 faces has three
-/// or more inconsistent faces.
+/// of F > 1000 faces, no hole is filled if more than F / 10 edges have three or more faces and a
+/// signed face count that is not zero.
 TREEFORM_C_API treeform_code treeform_repair(const treeform_mesh* mesh,
                                              const treeform_repair_options* options,
                                              treeform_repair_result** result);

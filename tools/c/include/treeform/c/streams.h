@@ -101,7 +101,7 @@ typedef struct treeform_shared_weld treeform_shared_weld;
 // made of the headers of C++:
 //   shared_weld_create() shared_weld_scatter() shared_weld_tiles() shared_weld_unfinished()
 //   shared_weld_tile() shared_weld_finish() shared_weld_remove_folder()
-/// Begins a weld in steps, and shares the lock of the folder until the handle is freed; fails
+/// Begins a weld in steps. Until it is freed, the handle holds a shared lock on the folder. Fails
 /// while another handle scatters or finishes. All processes must pass the same inputs and options.
 /// Options of outputs are used by `finish`; `communicator` is not used.
 TREEFORM_C_API treeform_code treeform_shared_weld_create(

@@ -63,10 +63,10 @@ typedef struct treeform_weld_options {
     /// for `TREEFORM_KEEP_LOWEST` and `TREEFORM_KEEP_HIGHEST`: a property as in
     /// `treeform_weld_condition`
     const char* keep_by;
-    /// A property as in `treeform_weld_condition`: the rule visits points by its values, the least
-    /// first, NaN last, of equal ones the lowest-numbered; the first point of a group in this
-    /// order is kept. Needs `TREEFORM_KEEP_FIRST`. Empty: by point number. Kept points remain in
-    /// the order of their numbers.
+    /// A property as in `treeform_weld_condition`. Points are visited in the order of its values:
+    /// the smallest first, NaN last, equal values by point number. The point of a group that is
+    /// visited first is kept. Needs `TREEFORM_KEEP_FIRST`. Empty: by point number. Kept points
+    /// remain in the order of their numbers.
     const char* order_by;
     int32_t highest_first;  ///< for `order_by`: the greatest value first
     int32_t only_borders;   ///< merge only points on edges of exactly one face
@@ -83,7 +83,8 @@ TREEFORM_C_API void treeform_weld_options_init(treeform_weld_options* options, s
 typedef struct treeform_weld_result {
     void* owner;
     treeform_arrays mesh;
-    const uint32_t* group_of_point;  ///< [V] groups in the order of their first points
+    /// [V] the group of each point; groups are numbered in the order of their first points
+    const uint32_t* group_of_point;
     size_t point_count;
     /// [G] the first point of each group, ascending: the lowest-numbered, unless `order_by` is set
     const uint32_t* first_of_group;
@@ -127,17 +128,17 @@ typedef struct treeform_weld_result {
 /// float32 columns are rounded once more. Averaged normals are not scaled to length 1. A mean with
 /// a NaN or an infinity is NaN.
 ///
-/// `keep_manifold` merges points of a group only along edges: where two edges become one edge of
-/// at most two faces, or where an edge shrinks to a point. Points of a group linked in this way
-/// become one point; other points of the group stay separate. Each linked part has its own first,
-/// last or mean; points without faces join the lowest part with faces. So a surface that was cut
-/// open closes along its seams, while solids that meet in an edge or a corner stay apart. If
-/// merging a group would still make an edge or a point nonmanifold, because a point was
+/// With `keep_manifold`, points of a group are merged only where two edges become one edge of at
+/// most two faces, or where an edge shrinks to a point. All points of a group that are linked in
+/// this way become one point, with a first, last or mean of its own; the other points of the group
+/// stay separate. Points without faces join the lowest such set of points with faces. So a surface
+/// that was cut open closes along its seams, while solids that meet in an edge or a corner stay
+/// apart. If merging a group would still make an edge or a point nonmanifold, because a point was
 /// nonmanifold before or faces collapse, the group is not merged. Points with equal coordinates
 /// are merged first, then the results are; so coincident corners stay merged, even if the rest of
-/// their group is not. In the result, every edge of more than two faces had more than two before,
-/// and every point with several fans contains a point that had several before. Points of one group
-/// may stay within the tolerance of each other, and without `chain` a point may move by twice the
+/// their group is not. In the result, an edge has more than two faces only if it had before, and a
+/// point has several fans only if one of the points merged into it had. Points of one group may
+/// stay within the tolerance of each other, and without `chain` a point may move by twice the
 /// tolerance.
 TREEFORM_C_API treeform_code treeform_weld(const treeform_mesh* mesh,
                                            const treeform_weld_options* options,

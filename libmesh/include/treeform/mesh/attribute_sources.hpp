@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Transfers attributes of input files to results of operations. Repairs files, and splits them
-/// into parts. Marks the faces that meet.
+/// Transfers attributes of input files to results of operations. Repairs files, and returns their
+/// parts. Marks the faces that meet.
 
 #include <treeform/mesh/as_mesh.hpp>
 #include <treeform/mesh/certificate.hpp>
@@ -21,22 +21,23 @@
 
 namespace treeform {
 
-/// An input of an operation. Its vertices are numbered as in the file, its faces as in
-/// `file->mesh`.
-struct carry_source {
+/// An input of an operation. If faces of `file->mesh` were dropped after reading,
+/// `triangle_of_face` has the numbers of the others in the file. Points have the numbers of the
+/// file.
+struct attribute_source {
     const mesh_file* file = nullptr;
-    /// [F] number in the file of the triangle of each face of `file->mesh`; empty: the same
+    /// [F] the number of each face of `file->mesh` among the triangles of the file; empty: the same
     /// numbers.
     std::span<const std::uint32_t> triangle_of_face{};
 
-    /// The triangle in the file of face `f`.
+    /// The number of face `f` among the triangles of the file.
     [[nodiscard]] std::uint32_t triangle(std::uint32_t f) const {
         return triangle_of_face.empty() ? f : triangle_of_face[f];
     }
     /// The number of face `f` in the file.
-    [[nodiscard]] std::uint32_t stored_face(std::uint32_t f) const {
+    [[nodiscard]] std::uint32_t face_in_file(std::uint32_t f) const {
         const std::uint32_t t = triangle(f);
-        return file->stored_face.empty() ? t : file->stored_face[t];
+        return file->face_of_triangle.empty() ? t : file->face_of_triangle[t];
     }
     /// Gives the corners of caps (`cut_piece::cap`) planar texture coordinates, if this source, the
     /// mesh that was cut, has texture coordinates. The axes are those of `oriented_plane::axes` for
@@ -50,12 +51,13 @@ struct carry_source {
 
 /// The inputs of an operation; its result gets their attributes. Files are not copied; they must
 /// outlive this object.
-class carry_sources {
+class attribute_sources {
   public:
-    carry_sources(const carry_source& one) : all_{one} {}  // NOLINT: one is many, too
-    carry_sources(std::vector<carry_source> all) : all_(std::move(all)) {}  // NOLINT: as above
+    attribute_sources(const attribute_source& one) : all_{one} {}  // NOLINT: one is many, too
+    attribute_sources(std::vector<attribute_source> all)
+        : all_(std::move(all)) {}  // NOLINT: as above
 
-    [[nodiscard]] const std::vector<carry_source>& all() const { return all_; }
+    [[nodiscard]] const std::vector<attribute_source>& all() const { return all_; }
 
     /// Gives `file`, whose mesh is the result, the attributes of the inputs: columns of vertices
     /// and faces with one value a row, texture coordinates and normals of corners, materials and
@@ -70,20 +72,20 @@ class carry_sources {
     ///
     /// \pre  sources are in range
     /// \cost O(V + F) for each column
-    TREEFORM_API void carry(mesh_file& file, std::span<const operand_element> face_source,
-                            std::span<const operand_element> vertex_source,
-                            std::span<const operand_element> face_of_cut_vertex = {}) const;
+    TREEFORM_API void transfer(mesh_file& file, std::span<const operand_element> face_source,
+                               std::span<const operand_element> vertex_source,
+                               std::span<const operand_element> face_of_cut_vertex = {}) const;
 
     /// The same for a result of a single input, with sources as in `repair_result`:
     /// `operand_element::none` stands for no source.
     ///
     /// With sources of `simplify_result`, faces may reach beyond their sources. Values of corners
-    /// are those of `corner_source`, and interpolated at new vertices; a face whose corners had
-    /// equal normals gets its own normal.
-    TREEFORM_API void carry(mesh_file& file, std::span<const std::uint32_t> face_source,
-                            std::span<const std::uint32_t> vertex_source,
-                            std::span<const std::uint32_t> face_of_new_vertex = {},
-                            std::span<const std::uint32_t> corner_source = {}) const;
+    /// are those of `corner_source`; at new vertices they are interpolated. A face whose source has
+    /// equal normals at its corners gets its own normal.
+    TREEFORM_API void transfer(mesh_file& file, std::span<const std::uint32_t> face_source,
+                               std::span<const std::uint32_t> vertex_source,
+                               std::span<const std::uint32_t> face_of_new_vertex = {},
+                               std::span<const std::uint32_t> corner_source = {}) const;
 
     /// [3 F] Groups for `simplify_options::corner_groups`, of a single input. Two corners at a
     /// point are in one group if neighboring faces link them. Such faces must have one material and
@@ -109,7 +111,7 @@ class carry_sources {
     /// \cost as `face_groups`
     [[nodiscard]] TREEFORM_API bool merging_mixes_values() const;
 
-    /// Whether an input has values that `carry` does not transfer.
+    /// Whether an input has values that `transfer` leaves out.
     [[nodiscard]] TREEFORM_API bool has_values_left_out() const;
 
     /// Names of materials, ascending, that occur in inputs with different material files. An OBJ
@@ -117,7 +119,7 @@ class carry_sources {
     [[nodiscard]] TREEFORM_API std::vector<std::string> ambiguous_materials() const;
 
   private:
-    std::vector<carry_source> all_;
+    std::vector<attribute_source> all_;
 };
 
 /// Gives faces the uint32 columns NAME_mesh and NAME_face: the operand and the face number of each
@@ -131,20 +133,20 @@ TREEFORM_API void set_source_columns(mesh_file& file, const std::string& name,
 
 /// A part of a scene as a separate file.
 struct file_part {
-    std::string name{};                        ///< "object", "object/group", "group" or empty
-    mesh_file file{};                          ///< with the attributes of its faces and points
-    std::vector<std::uint32_t> stored_face{};  ///< [F] the number of each face in the given file
+    std::string name{};                         ///< "object", "object/group", "group" or empty
+    mesh_file file{};                           ///< with the attributes of its faces and points
+    std::vector<std::uint32_t> face_in_file{};  ///< [F] the number of each face in the given file
 };
 
 /// The parts of a file, by its objects, groups or nodes, each with its own points and faces and
-/// their attributes (`carry_sources`). With `combine_patches`, parts with a common point, or whose
-/// open edges coincide, are patches of one surface, and are combined into one part; solids that
-/// touch are not combined.
+/// their attributes (`attribute_sources`). With `combine_patches`, parts with a common point, or
+/// whose open edges coincide, are patches of one surface, and are combined into one part; solids
+/// that touch are not combined.
 ///
 /// \throws std::invalid_argument naming the lowest face with a corner out of range
 /// \cost   O(V log V + F log F), and O(V + F) for each part and column
-[[nodiscard]] TREEFORM_API std::vector<file_part> split_parts(const carry_source& whole,
-                                                              bool combine_patches = false);
+[[nodiscard]] TREEFORM_API std::vector<file_part> file_parts(const attribute_source& whole,
+                                                             bool combine_patches = false);
 
 /// A repaired part of a file.
 struct repaired_part {
@@ -159,7 +161,7 @@ struct repaired_part {
 
 /// A repaired file.
 struct repaired_file {
-    mesh_file file{};  ///< in the format of the input, with its attributes (`carry_sources`)
+    mesh_file file{};  ///< in the format of the input, with its attributes (`attribute_sources`)
     /// [F'] the number in the input file of the source of each face, or `repair_result::none`.
     std::vector<std::uint32_t> face_source{};
     std::vector<std::uint8_t> is_kept{};  ///< [F of the input's mesh] as in `repair_result`
@@ -168,6 +170,13 @@ struct repaired_file {
     treeform::certificate certificate{};
     repair_statistics statistics{};      ///< sums over all parts
     std::vector<repaired_part> parts{};  ///< empty if all was repaired as one mesh
+
+    /// The file.
+    /// \throws not_certified_error unless the certificate's status is ok
+    [[nodiscard]] const mesh_file& value() const {
+        if (!certificate) throw not_certified_error(certificate);
+        return file;
+    }
 };
 
 /// `repair` of each part of a file; with `repair_options::as_one`, of all parts as one mesh.
@@ -176,12 +185,12 @@ struct repaired_file {
 /// nodes of the file, with its vertex numbers; those whose open edges coincide are patches of one
 /// surface, and are combined into one part. Limits in `repair_options`, such as `max_loss`, apply
 /// to each part. Within a part, cuts are kept where merging faces would mix values
-/// (`carry_sources::merging_mixes_values`).
+/// (`attribute_sources::merging_mixes_values`).
 ///
 /// \throws std::invalid_argument as `repair`
-/// \cost   as `repair` and `carry_sources::carry`
+/// \cost   as `repair` and `attribute_sources::transfer`
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API repaired_file repair_file(const carry_source& input,
+[[nodiscard]] TREEFORM_API repaired_file repair_file(const attribute_source& input,
                                                      const repair_options& options = {});
 
 /// The total defects of all parts; parts are defined as in `repair_file`. Faces of the file that
@@ -190,7 +199,7 @@ struct repaired_file {
 /// \throws std::invalid_argument as `self_intersections`
 /// \cost   as `find_solid_defects` of a mesh
 /// \same   on any number of threads
-[[nodiscard]] TREEFORM_API solid_defects find_solid_defects(const carry_source& input,
+[[nodiscard]] TREEFORM_API solid_defects find_solid_defects(const attribute_source& input,
                                                             const progress_callback& progress = {});
 
 /// Gives all `files` one common list of texture files, and their faces int32 indices into it
@@ -200,7 +209,7 @@ struct repaired_file {
 /// Faces of a file without indices get the index of its first texture file, or -1 if it has none.
 /// Faces without a texture file get -1; a warning names other indices out of range. No indices are
 /// added if there is only one name in all files, no file has indices, and no file has texture
-/// coordinates without a name. A single file and files without names are unchanged.
+/// coordinates without a name. Nothing changes for a single file, or if no file has a name.
 [[nodiscard]] TREEFORM_API std::vector<io_warning> unite_textures(
     std::span<mesh_file* const> files, std::span<const std::string> names);
 
