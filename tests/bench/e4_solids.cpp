@@ -61,7 +61,7 @@ std::function<const T&()> once(const std::function<T()>& find) {
 double errors_of(const answer& found) {
     if (!found) return 1;
     const surface_defects d = defects_of(*found);
-    return static_cast<double>(d.intersections + d.degenerate + d.boundary_edges);
+    return static_cast<double>(d.intersections + d.degenerate + d.open_edges);
 }
 
 std::vector<figure> figures_of(const answer& found, const true_solid& truth) {
@@ -69,7 +69,7 @@ std::vector<figure> figures_of(const answer& found, const true_solid& truth) {
     const surface_defects d = defects_of(*found);
     std::vector<figure> figures{{failures_name, 0},
                                 {intersections_name, static_cast<double>(d.intersections)},
-                                {open_name, static_cast<double>(d.boundary_edges)},
+                                {open_name, static_cast<double>(d.open_edges)},
                                 {"crowded edges", static_cast<double>(d.crowded_edges)},
                                 {degenerate_name, static_cast<double>(d.degenerate)},
                                 {"faces", static_cast<double>(found->faces.size())}};

@@ -137,18 +137,18 @@ void for_chunks(std::size_t count, std::size_t grain,
     bench::resume();
 }
 
-struct once::state {
+struct detail::once::state {
     bool done = false;
 };
 
-void once::call(detail::function_ref<void()> work) {
+void detail::once::call(detail::function_ref<void()> work) {
     if (state_->done) return;
     work();
     state_->done = true;
 }
 
-once::once() : state_(std::make_unique<state>()) {}
-once::~once() = default;
+detail::once::once() : state_(std::make_unique<state>()) {}
+detail::once::~once() = default;
 
 struct thread_scope::state {};
 
