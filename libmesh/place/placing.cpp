@@ -280,15 +280,28 @@ void placing::separate() {
     const bool near =
         result_.relation_at_start == mesh_relation::penetrating ||
         (options_.clearance > 0.0 && result_.relation_at_start != mesh_relation::clear);
-    if (!near) return stay();
+    // If rounding brings the mesh too near to a neighbor again, the search keeps a step more.
+    double kept = options_.clearance;
+    const auto keep_more = [&] {
+        if (result_.outcome != placement_outcome::not_representable) return false;
+        if (kept > options_.clearance) return false;
+        kept += coordinate_step(prepared_.indexed_view().points, options_.precision);
+        forget_place();
+        return true;
+    };
+    if (!near) {
+        stay();
+        if (!keep_more()) return;
+    }
     // The way out of what is near, if nothing else is there; else out of more.
-    double reach = options_.clearance;
+    double reach = kept;
     base::effort effort(options_.effort, faces_);
     while (true) {
         const chosen_parts parts = among_.around(*box_, reach);
         result_.statistics.fixed_culled = among_.size() - parts.parts.size();
-        leave(parts, effort);
+        leave(parts, kept, effort);
         result_.effort = effort.so_far();
+        if (keep_more()) continue;
         if (!placed()) return;
         const box3 there = *box_of_faces({result_.points, prepared_.indexed_view().faces});
         if (!among_.others_around(there, options_.clearance, parts)) return;
@@ -299,10 +312,10 @@ void placing::separate() {
 }
 
 /// To the first place that can be written at which the mesh is clear of these.
-void placing::leave(const chosen_parts& parts, base::effort& effort) {
+void placing::leave(const chosen_parts& parts, double clearance, base::effort& effort) {
     effort.hold(0.5);  // for the judgments
     const separations found = search_separations(moving_, parts.parts,
-                                                 {.clearance = options_.clearance,
+                                                 {.clearance = clearance,
                                                   .normals = options_.normals,
                                                   .face_pairs = options_.face_pairs,
                                                   .effort = &effort,

@@ -72,7 +72,7 @@ class placing {
     void settle(const chosen_parts& known, const point3& motion, double time, placement_outcome end,
                 bool close_in = false, base::effort* effort = nullptr);
     void lift(const point3& motion, double above);
-    void leave(const chosen_parts& parts, base::effort& effort);
+    void leave(const chosen_parts& parts, double clearance, base::effort& effort);
     void forget_place();
 
     const prepared_mesh& prepared_;

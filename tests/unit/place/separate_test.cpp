@@ -1,5 +1,6 @@
 #include <libmesh/place/separation_search.hpp>
 #include <libmesh/place/snap_to_representable.hpp>
+#include <treeform/mesh/certificate.hpp>
 #include <treeform/mesh/distance.hpp>
 #include <treeform/mesh/measure.hpp>
 #include <treeform/mesh/slide.hpp>
@@ -51,6 +52,22 @@ TEST_CASE("separate: where nothing is too near, nothing moves") {
     CHECK(moves(moved(box(1, 1, 1), {5, 0, 0}), b, 1.0).empty());
     CHECK(moves({}, b).empty());
     CHECK(moves(b, {}).empty());
+}
+
+TEST_CASE("separate: what rounding would push into its neighbor moves away by a step") {
+    for (const double x : {0.1, 1.0 / 3.0, 0.7, 1234.56789})
+        for (const double clearance : {0.0, 0.01}) {
+            const tf::mesh a = tf::box3{{x - 1.0, 0, 0}, {x, 1, 1}}.mesh();
+            const tf::mesh b = tf::box3{{x + clearance, 0, 0}, {x + 2.0, 1, 1}}.mesh();
+            const tf::placement made =
+                tf::separate(a, b, {.clearance = clearance, .precision = tf::precision::float32});
+            CAPTURE(x);
+            CAPTURE(clearance);
+            REQUIRE(made);
+            CHECK(made.travel <= 3.0 * tf::coordinate_step(a.points, tf::precision::float32));
+            CHECK(made.relation != mesh_relation::penetrating);
+            CHECK(tf::distance(tf::mesh{made.points, a.faces}, b) >= clearance);
+        }
 }
 
 TEST_CASE("separate: a box leaves another by the shortest of its sides") {

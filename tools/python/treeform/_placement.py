@@ -255,7 +255,7 @@ def mate(moving: Body, fixed: Any, *, clearance: float = 0.0, max_travel: float 
 def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: float | None = None,
              precision: str = "float64", effort: int = 0, progress: Progress = None) -> Placement:
     """Translates `moving` to a place where it penetrates none of `fixed` and keeps the clearance.
-    If it already does, it stays.
+    If it already does, in coordinates of the precision, it stays.
 
     About fifty directions are tried: along the axes, away from the nearest points, along normals of
     faces that meet, and others around the best. The nearest of the places found is returned, if its

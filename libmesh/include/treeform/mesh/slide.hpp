@@ -98,7 +98,7 @@ struct placement_options {
                                           const placement_options& options = {});
 
 /// Translates `moving` to a place where it penetrates none of `fixed` and keeps the clearance. If
-/// it already does, it stays.
+/// it already does, in coordinates of the precision, it stays.
 ///
 /// About fifty directions are tried: along the axes, away from the nearest points, along normals of
 /// faces that meet, and others around the best. The nearest of the places found is returned, if its
