@@ -94,6 +94,23 @@ class Pictures(ToolTest):
             red, _, blue = rows[70][85]  # y is up in OBJ. The map colors MOVING alone
             self.assertEqual(red > blue + 60, sees)
 
+    def test_points_of_a_measured_cloud_are_seen_in_the_part(self):
+        self.tool = PLACE
+        part = write(self.path("part.obj"), CLEAN)
+        cloud = self.put("cloud.xyz", "".join(f"{x / 8} {y / 8} {z / 4}\n" for x in range(1, 8)
+                                              for y in range(1, 8) for z in range(1, 4)))
+        command = ("measure", cloud, "--fixed", part, "--tolerance-band=-0.2,0.2", "--no-depth")
+        blue = lambda r, g, b: b > r + 60
+        self.assertGreater(self.count(self.picture(*command, size="640x480", status=1), blue), 300)
+        self.run_tool(*command, "--html", "p.html", status=1)
+        scene = self.scene_in("p.html")
+        self.assertEqual([m["ghost"] for m in scene["meshes"]], [True])
+        self.assertEqual(scene["tables"][0]["rows"][-1]["cells"], ["out of the band", 75])
+        self.assertIn("penetrating part.obj; 95% within 0.375; 75 are out of the band from -0.2 "
+                      "to 0.2</p>", self.read("p.html"))
+        self.run_tool("measure", part, "--fixed", part, "--html", "q.html")
+        self.assertEqual([m["ghost"] for m in self.scene_in("q.html")["meshes"]], [False, False])
+
     def test_z_is_up_over_a_bed_and_else_as_the_formats_of_all_inputs_have_it(self):
         slab = ([tuple(s * c for s, c in zip((4, 4, 1), p)) for p in cube()[0]], cube()[1])
         up_in = {}

@@ -27,6 +27,11 @@ struct mark {
     };
 };
 
+/// Whether the page is about how far MOVING is from the fixed meshes.
+bool measures(const placing& p) {
+    return p.settings.mode == place_mode::measure || p.settings.mode == place_mode::align;
+}
+
 std::vector<scene_class> classes_of(const placing& p) {
     const tf::body_file& file = p.moving.files[0];
     return {
@@ -119,6 +124,7 @@ void add_deviation(scene& shown, const placing& p, const tf::deviation_result& r
         {"95 % within", r.p95}, {"99 % within", r.p99},      {"least", r.lowest},
         {"greatest", r.highest}};
     for (const auto& [name, value] : values) table.rows.push_back({.cells = {name, value}});
+    if (r.band_counts) table.rows.push_back({.cells = {"out of the band", out_of_band(r)}});
     shown.tables.push_back(std::move(table));
 }
 
@@ -183,7 +189,7 @@ void add_contacts(scene& shown, const placing& p) {
 /// The map of distances, and the value of each point.
 std::vector<double> add_map(scene& shown, const placing& p, const tf::deviation_result& r) {
     std::vector<double> values = r.distances;
-    if (p.settings.mode == place_mode::measure || p.settings.mode == place_mode::align) {
+    if (measures(p)) {
         add_deviation(shown, p, r);
         return values;
     }
@@ -272,8 +278,7 @@ void write_page(job& work, const placing& p, const tf::deviation_result* known) 
     shown.classes = classes_of(p);
     const tf::prepared_mesh& shape = p.moving.shapes[0];
     const tf::points_view before = shape.indexed_view().points;
-    const bool measures = p.settings.mode == place_mode::measure;
-    const bool moves = p.at && !measures && !p.at.points.empty();
+    const bool moves = p.at && p.settings.mode != place_mode::measure && !p.at.points.empty();
     const tf::points_view points = moves ? tf::points_view(p.at.points) : before;
 
     std::optional<tf::deviation_result> found;
@@ -281,6 +286,12 @@ void write_page(job& work, const placing& p, const tf::deviation_result* known) 
     if (found) known = &*found;
     std::vector<double> values;
     if (known != nullptr) values = add_map(shown, p, *known);
+    if (known != nullptr && p.settings.mode == place_mode::measure &&
+        (known->band_counts || shape.is_cloud())) {
+        shown.verdict += "; 95% within " + in_unit(shown, known->p95) +
+                         band_in_words(*known, p.settings.deviation);
+        if (known->band_counts) shown.good = out_of_band(*known) == 0;
+    }
     std::vector<std::vector<tf::mesh_relation>> relations = face_relations(p);
     relations.resize(1 + p.fixed.shapes.size());
     add_body(shown, p.moving, 0, points, mark::moving, relations[0], std::move(values));
@@ -290,6 +301,9 @@ void write_page(job& work, const placing& p, const tf::deviation_result* known) 
     for (std::size_t i = 0; i < p.fixed.shapes.size(); ++i)
         add_body(shown, p.fixed, i, p.fixed.shapes[i].indexed_view().points, mark::fixed,
                  relations[1 + i]);
+    // Points of a measured cloud are what one looks for, and half of them may be inside.
+    if (known != nullptr && measures(p) && shape.is_cloud())
+        for (scene_mesh& m : shown.meshes) m.ghost = true;
     tf::mesh floor;
     if (p.at.bed || p.laid) floor = bed_under(to, p.at.bed.value_or(to.min.z));
     if (!floor.faces.empty())

@@ -86,24 +86,28 @@ void write_distances(job& work, const deviation_settings& settings, const tf::bo
     place.commit();
 }
 
+std::string sentence(const tf::deviation_result& r, const deviation_settings& settings) {
+    const std::string text = std::string(r.is_signed ? "signed" : "unsigned") + " distances of " +
+                             counted(r.distances.size(), "point", "points") + ": mean " +
+                             brief(r.mean) + ", rms " + brief(r.rms) + ", 95% within " +
+                             brief(r.p95) + ", from " + brief(r.lowest) + " to " + brief(r.highest);
+    return text + band_in_words(r, settings);
+}
+
+}  // namespace
+
 std::uint64_t out_of_band(const tf::deviation_result& r) {
     return r.band_counts ? r.band_counts->front() + r.band_counts->back() : 0;
 }
 
-std::string sentence(const tf::deviation_result& r, const deviation_settings& settings) {
-    std::string text = std::string(r.is_signed ? "signed" : "unsigned") + " distances of " +
-                       counted(r.distances.size(), "point", "points") + ": mean " + brief(r.mean) +
-                       ", rms " + brief(r.rms) + ", 95% within " + brief(r.p95) + ", from " +
-                       brief(r.lowest) + " to " + brief(r.highest);
-    if (!r.band_counts) return text;
+std::string band_in_words(const tf::deviation_result& r, const deviation_settings& settings) {
+    if (!r.band_counts) return {};
     const std::uint64_t out = out_of_band(r);
-    return text + "; " +
+    return "; " +
            (out == 0 ? "all within" : grouped(out) + (out == 1 ? " is" : " are") + " out of") +
            " the band from " + shortest((*settings.band)[0]) + " to " +
            shortest((*settings.band)[1]);
 }
-
-}  // namespace
 
 void warn_of_inside_out(job& work, const tf::prepared_mesh& body, const std::string& name) {
     const std::uint64_t count = tf::count_inside_out(body);

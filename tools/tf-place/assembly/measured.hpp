@@ -11,6 +11,7 @@
 #include <treeform/tf.hpp>
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -27,6 +28,13 @@ struct deviation_settings {
 
 /// Says where a body is inside out, in whole or in part: `name` is its name.
 void warn_of_inside_out(job& work, const tf::prepared_mesh& body, const std::string& name);
+
+/// Points above and below the tolerance band; 0 without one.
+[[nodiscard]] std::uint64_t out_of_band(const tf::deviation_result& r);
+
+/// "; 3 are out of the band from -0.1 to 0.1", or nothing without a band.
+[[nodiscard]] std::string band_in_words(const tf::deviation_result& r,
+                                        const deviation_settings& settings);
 
 void add_deviation_options(command_line& line, deviation_settings& settings);
 
