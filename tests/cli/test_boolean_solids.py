@@ -426,6 +426,16 @@ class Solids(BooleanTest):
         entry = self.made("union", "a.obj", "right.obj", "--merge-coplanar", "--source", "from",
                           name="out.ply")
         self.assertEqual(entry["output"]["faces"], 20)
+        # Faces with texture coordinates of corners stay apart, also if nothing is written.
+        for name, low in (("a.obj", 0), ("right.obj", 2)):
+            points, faces = box((low, 0, 0), (low + 2, 2, 2))
+            self.put(name, "".join("v %g %g %g\n" % p for p in points)
+                     + "vt 0 0\nvt 1 0\nvt 1 1\n"
+                     + "".join("f %d/1 %d/2 %d/3\n" % tuple(v + 1 for v in f) for f in faces))
+        entry = self.made("union", "a.obj", "right.obj", "--merge-coplanar")
+        self.assertEqual(entry["output"]["faces"], 20)
+        entry = self.entry("union", "a.obj", "right.obj", "--merge-coplanar", "-n", status=0)
+        self.assertEqual(entry["output"]["faces"], 20)
         # Faces with values of their own stay apart, except for --no-attributes.
         points, faces = box((0, 0, 0), (2, 2, 2))
         self.ply("a.ply", points, faces, [(0, 0, 0)] * 8)

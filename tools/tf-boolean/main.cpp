@@ -75,11 +75,10 @@ void add_outputs(command_line& line, boolean_settings& s, common_options& option
                 {"--curves", "FILE", "the lines along which the inputs meet, as OBJ or PLY"});
 }
 
-/// Merging is not to lose what is written of faces.
-std::vector<std::uint32_t> groups_of(const tools::job& work, const boolean_settings& s,
+/// Merging is not to lose what is written of faces, or would be with -o.
+std::vector<std::uint32_t> groups_of(const boolean_settings& s,
                                      const std::vector<tools::solid>& solids) {
-    const bool of_properties = !s.no_attributes && tools::wants_mesh(work.options);
-    return tools::sources_of(solids).face_groups(of_properties, s.source_given);
+    return tools::sources_of(solids).face_groups(!s.no_attributes, s.source_given);
 }
 
 bool keeps_cuts(const boolean_settings& s, const std::vector<tools::solid>& solids) {
@@ -98,7 +97,7 @@ tf::boolean_result ask(tools::job& work, const boolean_settings& s,
                                 .merge_coplanar = s.simplify,
                                 .min_volume = s.min_volume,
                                 .gap = s.gap ? s.gap->used(tools::diagonal_of(solids)) : 0.0};
-    const std::vector<std::uint32_t> groups = groups_of(work, s, solids);
+    const std::vector<std::uint32_t> groups = groups_of(s, solids);
     options.face_groups = groups;
     options.volumes = work.options.detailed();
     options.progress = work.progress(s.name());
