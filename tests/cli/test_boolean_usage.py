@@ -49,7 +49,16 @@ class Usage(BooleanTest):
         self.assertIn("no operation", self.refused("unite", "a.obj"))
         self.assertIn("expected an INPUT", self.refused("union"))
         both = ("a.obj", "b.obj")
-        self.assertIn("position 3", self.refused("--expr", "a-c", *both))
+        for name in ("a.stl", "b.stl"):
+            self.run_tool("union", "a.obj", "-o", name, status=0)
+        for inputs in (both, ("a.stl", "b.stl")):
+            for formula, name in (("a-c", "c"), ("plate-hole", "plate"), ("A-hole", "hole")):
+                self.assertIn(f"no operand is named {name}; the names are a, b",
+                              self.refused("--expr", formula, *inputs, "-n"))
+        self.assertIn("no operand is named b; the only one is a",
+                      self.refused("--expr", "a-b", "a.stl", "-n"))
+        self.assertIn("the names are a, b, c, d, e, f, g, h, i, j, ...",
+                      self.refused("--expr", "a-bb", *["a.stl"] * 12, "-n"))
         self.assertIn("position 2", self.refused("--expr", "a)", *both))
         for options in (["--fill-rule", "even"], ["--max-move", "-1"], ["--matrix", "m.txt"],
                         ["--min-volume", "-1"], ["--min-volume", "1%"], ["--gap", "-1"],

@@ -84,9 +84,34 @@ void refuse_what_does_nothing(const boolean_settings& s, const common_options& o
         refuse("--source needs an output with properties: ply, glb");
 }
 
+/// Of operands by number: a, ..., z, aa, ...
+std::string letters_of(std::size_t number) {
+    std::string name;
+    for (std::size_t n = number + 1; n > 0; n = (n - 1) / 26)
+        name.insert(name.begin(), static_cast<char>('a' + (n - 1) % 26));
+    return name;
+}
+
 }  // namespace
 
 bool holds_sources(const std::string& format) { return format == "ply" || format == "glb"; }
+
+void refuse_unknown(const std::vector<std::string>& names, std::size_t operands) {
+    const auto is_name = [operands](const std::string& name) {
+        const auto lower = [](char c) { return c | 0x20; };
+        for (std::size_t i = 0; i < operands; ++i)
+            if (std::ranges::equal(name, letters_of(i), {}, lower)) return true;
+        return false;
+    };
+    const auto unknown = std::ranges::find_if_not(names, is_name);
+    if (unknown == names.end()) return;
+    constexpr std::size_t most = 10;
+    std::string known = letters_of(0);
+    for (std::size_t i = 1; i < std::min(operands, most); ++i) known += ", " + letters_of(i);
+    refuse("--expr: no operand is named " + *unknown +
+           (operands == 1 ? "; the only one is " : "; the names are ") + known +
+           (operands > most ? ", ..." : ""));
+}
 
 const char* name_of(tf::fill_rule rule) { return fill_rules[static_cast<std::size_t>(rule)]; }
 
@@ -106,9 +131,11 @@ void settle_words(boolean_settings& settings, common_options& options) {
         const bool letters =
             options.inputs.size() > 1 &&
             std::ranges::all_of(settings.names, [](auto& name) { return name.size() == 1; });
-        if (std::ranges::none_of(options.inputs, may_have_parts) || settings.names.empty() ||
-            letters)
+        if (settings.names.empty()) throw error;
+        if (letters || std::ranges::none_of(options.inputs, may_have_parts)) {
+            refuse_unknown(settings.names, options.inputs.size());
             throw error;
+        }
     }
 }
 

@@ -57,6 +57,10 @@ struct boolean_settings {
 /// or --check makes do without, and refuses what makes no sense. \throws failure (bad_usage)
 void settle_words(boolean_settings& settings, common_options& options);
 
+/// Refuses the first of `names` that is not the letter of an operand, and says which letters are.
+/// \throws failure (bad_usage)
+void refuse_unknown(const std::vector<std::string>& names, std::size_t operands);
+
 /// \throws failure (bad_usage) when the formula cannot be read
 [[nodiscard]] tf::boolean_expression formula_of(const boolean_settings& settings,
                                                 std::size_t operands);

@@ -102,6 +102,8 @@ std::vector<solid> named_parts(job& work, std::vector<std::string> names,
                          .part = part.name,
                          .faces_in_file = std::move(part.face_in_file)};
         }
+    std::erase(known, "");
+    if (known.empty()) refuse_unknown(names, wholes.size());
     for (std::size_t k = 0; k < names.size(); ++k)
         if (named[k].path.empty())
             refuse("--expr: no part is named " + names[k] + "; the parts are " + joined(known));
