@@ -139,6 +139,22 @@ class Objects(BooleanTest):
         run = self.run_tool("union", "a.3mf", "a.3mf", "-o", "y.ply", status=0)
         self.assertNotIn("unit", run.err)
 
+    def test_reports_have_the_unit_that_files_declare(self):
+        for name, unit in (("a.3mf", "millimeter"), ("b.3mf", "inch"), ("c.3mf", "micron")):
+            self.package(name, [("a", (0, 0, 1), (1, 1, 2))], unit=unit)
+        write(self.path("d.obj"), box((0, 0, 0), (1, 1, 1)))
+        for inputs, unit in ((["a.3mf"], "mm"), (["b.3mf"], "in"), (["c.3mf"], "um"),
+                             (["a.3mf", "d.obj"], "mm"), (["d.obj"], "unknown"),
+                             (["a.3mf", "b.3mf"], "unknown"), (["a.3mf", "--units", "cm"], "cm")):
+            for tool, *words in ((CUT, "info"), (PLACE, "drop", "-n"), (PLACE, "clash"),
+                                 (MEND, "--check")):
+                self.tool = tool
+                with self.subTest(tool=tool, words=words, inputs=inputs):
+                    self.assertEqual(self.report(*words, *inputs)["unit"], unit)
+        self.tool = PLACE
+        self.run_tool("drop", "a.3mf", "-n", "--html", "p.html", status=0)
+        self.assertIn('"unit_name":"mm"', self.read("p.html"))
+
     def test_archives_with_zip64_and_streamed_ones_are_read(self):
         for how in ({"zip64": True}, {"streamed": True}, {"zip64": True, "streamed": True}):
             self.crossing(**how)

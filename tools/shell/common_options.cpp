@@ -211,7 +211,7 @@ void add_common_options(command_line& line, common_options& target,
     line.option(
         o.unit,
         {"--units", "U", "unit of the inputs: mm cm m in ft; STL, OBJ, PLY and\nOFF carry none",
-         "report as \"unknown\""},
+         "what a 3MF declares"},
         {"mm", "cm", "m", "in", "ft"});
     line.output(o.report, {"-r, --report", "FILE", "JSON report; \"-\" = stdout"});
     if (features.page) add_picture_options(line, o);

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -187,6 +188,19 @@ void job::compare_units(const std::string& input, const tf::mesh_file& file) {
                               unit_ + "; numbers are not converted");
         }
     }
+}
+
+std::string job::unit() const {
+    constexpr std::array<std::array<const char*, 2>, 6> names{{{"millimeter", "mm"},
+                                                               {"centimeter", "cm"},
+                                                               {"meter", "m"},
+                                                               {"inch", "in"},
+                                                               {"foot", "ft"},
+                                                               {"micron", "um"}}};
+    if (options.unit != "unknown") return options.unit;
+    for (const auto& [name, unit] : names)
+        if (!warned_of_units_ && unit_ == std::string("unit ") + name) return unit;
+    return {};
 }
 
 job::timer::timer(double& sum) : sum_(sum), start_(now()) {}

@@ -22,6 +22,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <new>
+#include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -255,6 +256,7 @@ class session {
         for (const auto& step : steps) seconds_[step] = 0.0;
         exit_status worst = done;
         bool halted = false;
+        std::set<std::string> units;
         const std::vector<std::string> inputs =
             options_.joined ? std::vector<std::string>{options_.inputs.front()} : options_.inputs;
         for (const std::string& input : inputs) {
@@ -271,7 +273,9 @@ class session {
             halted = halted || result.status == stopped;
             worst = worse(worst, result.status);
             report["files"].push_back(std::move(one.entry));
+            if (!one.unit().empty()) units.insert(one.unit());
         }
+        if (units.size() == 1) report["unit"] = *units.begin();
         json& times = report["seconds"] = json::object();
         for (const auto& step : steps) times[step] = seconds_[step];
         if (inputs.size() > 1) out_.table(table_of(report["files"], options_.table));

@@ -61,6 +61,10 @@ class job {
     /// After such a call: \throws failure (stopped) where it was `cancelled`, or the tool has to
     void call_ended(bool cancelled = false);
 
+    /// mm, cm, m, in, ft or um, as --units has it, or as what was read declares; empty where
+    /// neither does, or files differ.
+    [[nodiscard]] std::string unit() const;
+
     /// A remark for the person and for the report.
     void warn(const std::string& code, const std::string& text);
     /// The remarks of a reader or writer; `whose` stands ahead of each.

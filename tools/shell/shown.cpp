@@ -83,7 +83,7 @@ void leave_folders_out(scene& shown, const job& work) {
 scene scene_of(const job& work, const char* tool) {
     scene shown;
     shown.title = work.name;
-    if (work.options.unit != "unknown") shown.unit = work.options.unit;
+    shown.unit = work.unit();
     const auto text_of = [&](const char* key) {
         const auto at = work.entry.find(key);
         return at != work.entry.end() && at->is_string() ? at->get<std::string>() : std::string();
@@ -93,8 +93,8 @@ scene scene_of(const job& work, const char* tool) {
     shown.facts.emplace_back("file", work.name + (format.empty() ? "" : ", " + format));
     if (!text_of("sha256").empty()) shown.facts.emplace_back("sha256", text_of("sha256"));
     if (!text_of("precision_in").empty())
-        shown.facts.emplace_back("coordinates",
-                                 text_of("precision_in") + ", unit " + work.options.unit);
+        shown.facts.emplace_back("coordinates", text_of("precision_in") + ", unit " +
+                                                    (shown.unit.empty() ? "unknown" : shown.unit));
     shown.facts.emplace_back("program", std::string(tool) + " " + tf::version_string());
     return shown;
 }

@@ -121,20 +121,6 @@ cut_off cut_off_of(tf::mesh&& mesh, std::vector<std::uint32_t>&& face_source,
     return made;
 }
 
-std::string unit_of(const job& work, const tf::mesh_file& file) {
-    constexpr std::array<std::array<const char*, 2>, 6> names{{{"millimeter", "mm"},
-                                                               {"centimeter", "cm"},
-                                                               {"meter", "m"},
-                                                               {"inch", "in"},
-                                                               {"foot", "ft"},
-                                                               {"micron", "um"}}};
-    if (work.options.unit != "unknown") return work.options.unit;
-    for (const std::string& line : file.attributes.obj_info)
-        for (const auto& [name, unit] : names)
-            if (line == std::string("unit ") + name) return unit;
-    return {};
-}
-
 double diagonal_of(const usable_input& input) {
     const auto box = tf::bounding_box(input.file.mesh.points);
     return box ? box->diagonal() : 0.0;
@@ -243,7 +229,7 @@ void say_info(job& work, const cut_settings& s, const usable_input& input) {
     const std::uint64_t parts =
         tf::count_topology(joined.points.size(), joined.faces).components_by_point;
     const double area = tf::surface_area(mesh);
-    const std::string unit = unit_of(work, input.file);
+    const std::string unit = work.unit();
     work.entry["info"] = {{"unit", or_null(!unit.empty(), unit)},
                           {"box", box ? json{{"min", box->min}, {"max", box->max}} : json(nullptr)},
                           {"oriented_box", nullptr},

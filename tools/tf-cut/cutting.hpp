@@ -105,10 +105,6 @@ void check_request(const command_line& line, cut_settings& s, common_options& op
 /// As `signed_volume`; none of an open surface, of which it would depend on the origin.
 [[nodiscard]] std::optional<double> volume_of(const tf::mesh& mesh);
 
-/// The unit of lengths in the file: mm, cm, m, in, ft or um, by --units or as the file says; empty
-/// where neither does.
-[[nodiscard]] std::string unit_of(const job& work, const tf::mesh_file& file);
-
 /// Of the box around it.
 [[nodiscard]] double diagonal_of(const usable_input& input);
 

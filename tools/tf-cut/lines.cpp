@@ -111,11 +111,10 @@ tf::section_result layer_of(const tf::section_result& all, std::size_t i) {
 /// Writes lines by `write(path, i, format, unit)`, where they are asked for: `count` files, where
 /// the name has a place for a number.
 template <class Write>
-void give_lines(job& work, const cut_settings& s, const usable_input& input, std::size_t count,
-                const Write& write) {
+void give_lines(job& work, const cut_settings& s, std::size_t count, const Write& write) {
     if (s.output.empty() || work.options.dry_run) return;
     const auto timing = work.time("write");
-    const std::string format = lines_format(s.output), unit = unit_of(work, input.file);
+    const std::string format = lines_format(s.output), unit = work.unit();
     const auto paths = numbered_paths(work, s.output, count);
     for (std::size_t i = 0; i < paths.size(); ++i) {
         output_place place(paths[i], work.options.force);
@@ -201,7 +200,7 @@ exit_status make_section(job& work, const usable_input& input, cut_settings s) {
         write_page(work, input, "section", true, {}, &lines);
     }
     const bool apart = has_number(s.output);
-    give_lines(work, s, input, made.layers.size(),
+    give_lines(work, s, made.layers.size(),
                [&](const auto& path, std::size_t i, const auto& format, const auto& unit) {
                    tf::write_section(path, apart ? layer_of(made, i) : made, format, unit);
                });
@@ -225,7 +224,7 @@ exit_status make_isolines(job& work, const usable_input& input, const cut_settin
         const drawn_lines lines = drawn(made);
         write_page(work, input, "isolines", true, {}, &lines);
     }
-    give_lines(work, s, input, 1,
+    give_lines(work, s, 1,
                [&](const auto& path, std::size_t, const auto& format, const auto& unit) {
                    tf::write_isolines(path, made, s.plane, format, unit);
                });
