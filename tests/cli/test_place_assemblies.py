@@ -249,6 +249,9 @@ class Assemblies(PlaceTest):
         self.assertEqual(run.status, 1)
         self.assertIn("8 are out of the band from -0.2 to 1", run.text)
         self.assertEqual(self.run_tool(*files, "--tolerance-band", "1,-1").status, 2)
+        said = " ".join(self.run_tool("measure", "--help", status=0).text.split())
+        self.assertIn("Exit status 1 only if a point is out of --tolerance-band: 0 also if MOVING "
+                      "penetrates", said)
         self.assertEqual(self.run_tool("drop", "part.obj", "-n", "--distances", "x.ply").status, 2)
         self.assertEqual(self.run_tool(*files, "--distances", "d.ply").status, 4)  # it is there
 
