@@ -38,6 +38,7 @@ class Usage(PlaceTest):
 
     def test_help_fits_80_columns_and_names_what_is_accepted(self):
         run = self.run_tool("--help", status=0)
+        self.assertIn("LAS and LAZ are read, but not written", run.text)
         self.assertTrue(run.text.startswith("Usage: tf-place MODE [OPTIONS] MOVING..."))
         self.assertEqual([line for line in run.text.splitlines() if len(line) > 80], [])
         for word in ("Modes:", "Options:", "Output:", "Common options:", "Examples:",

@@ -33,7 +33,8 @@ int main(int argc, char** argv) {
     });
     line.inputs(options.inputs,
                 "meshes: STL OBJ PLY OFF GLB/glTF 3MF; points: PLY\n"
-                "PCD XYZ CSV; or folders of them; \"-\" = stdin",
+                "PCD LAS LAZ XYZ PTS CSV; or folders of them; \"-\" =\n"
+                "stdin. LAS and LAZ are read, but not written",
                 "MOVING");
     options.takes_points = true;
     line.group("Modes");
