@@ -30,6 +30,12 @@ class Cut(ToolTest):
         os.remove(self.path("half0.stl"))
         self.run_tool("half", part, "--height", "0.5", "-o", "half%d.stl", status=4)
         self.assertFalse(os.path.exists(self.path("half0.stl")))
+        self.put("half0.stl", "mine")
+        self.put("lines0.svg", "mine")
+        for words in (("half", "none.stl", "--height", "0.5", "-o", "half%d.stl"),
+                      ("section", "none.stl", "--layers", "0.5", "-o", "lines%d.svg")):
+            run = self.run_tool(*words, status=4)  # before anything is read
+            self.assertIn("exists; -f overwrites it", run.err)
         for name in ("no.stl", "no.ply", "no.obj", "no.off", "no.3mf"):
             run = self.run_tool("half", part, "--height", "7", "--keep", "above", "-o", name,
                                 status=0)

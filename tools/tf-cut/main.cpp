@@ -92,8 +92,16 @@ exit_status not_made(tools::job& work, const cut_settings& s, const usable_input
     return tools::found;
 }
 
-exit_status look_at(tools::job& work, const cut_settings& s) {
+/// Of numbered outputs, at least the first is known before the cut.
+void check_outputs(tools::job& work, const cut_settings& s) {
     tools::check_outputs(work, {}, {s.output});
+    if (work.options.dry_run) return;
+    for (const auto& path : {s.output, tools::mesh_output(work.options, work.path).value_or("")})
+        static_cast<void>(tools::numbered_paths(work, path, 1));
+}
+
+exit_status look_at(tools::job& work, const cut_settings& s) {
+    check_outputs(work, s);
     const usable_input input = tools::read_usable(work);
     tools::enter_blank_report(work, s, input);
     if (s.mode == cut_mode::section) return tools::make_section(work, input, s);
