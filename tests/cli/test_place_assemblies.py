@@ -55,6 +55,16 @@ class Assemblies(PlaceTest):
         self.assertEqual((pair["a"], pair["b"], pair["status"]), ("left", "right", "touching"))
         self.assertEqual(self.entry("clash", "two.obj", "--clearance", "0.1", status=1)["parts"], 2)
 
+    def test_clash_says_if_a_single_part_has_components(self):
+        self.mesh("two.obj", together(cube(), cube((3, 0, 0))))
+        self.run_tool("drop", "two.obj", "-o", "two.stl", status=0)
+        for name in ("two.obj", "two.stl"):
+            warning, = self.entry("clash", name, status=0)["warnings"]
+            self.assertEqual((warning["code"], warning["text"]),
+                             ("one-part", "there is only one part, and it has 2 components; split "
+                                          "them with tf-cut parts"))
+        self.assertEqual(self.entry("clash", "floor.obj", status=0)["warnings"], [])
+
     def test_clash_ignores_pairs_by_name(self):
         self.scene("bolts.obj", ("plate", box((0, 0, 0), (9, 9, 1))),
                    ("bolt_1", box((1, 1, -1), (2, 2, 2))), ("bolt_2", box((4, 4, -1), (5, 5, 2))))

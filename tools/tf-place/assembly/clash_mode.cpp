@@ -5,6 +5,7 @@
 #include "tools/tf-place/assembly/contact_entries.hpp"
 #include "tools/tf-place/assembly/measured.hpp"
 #include <treeform/mesh/attribute_sources.hpp>
+#include <treeform/mesh/properties.hpp>
 #include <treeform/mesh/write.hpp>
 
 #include <algorithm>
@@ -94,6 +95,16 @@ void say(job& work, const named_assembly& all, const tf::clash_result& r) {
         work.out.result(work.name + ": and " + counted(worst.size() - shown, "pair", "pairs") +
                         " more; -v lists all");
     work.out.result(work.name + ": " + totals(all, r));
+}
+
+/// What the file has as one part may be several.
+void warn_of_one(job& work, const tf::prepared_mesh& part) {
+    const auto [points, faces] = part.indexed_view();
+    if (part.is_cloud()) return;
+    const std::uint64_t components = tf::count_topology(points.size(), faces).components_by_point;
+    if (components > 1)
+        work.warn("one-part", "there is only one part, and it has " + grouped(components) +
+                                  " components; split them with tf-cut parts");
 }
 
 /// How each face of each part lies to others: as its gravest pair.
@@ -196,6 +207,7 @@ exit_status clash_all(job& work, const assembly_settings& settings) {
         if (all.set.shapes[i].indexes_built() > 0)
             warn_of_inside_out(work, all.set.shapes[i], all.names[i]);
     say(work, all, found);
+    if (all.names.size() == 1) warn_of_one(work, all.set.shapes[0]);
     write_parts(work, all, found);
     write_page(work, all, found, totals(all, found));
     return found.clashes > 0 ? tools::found : done;
