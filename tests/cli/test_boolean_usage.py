@@ -66,6 +66,13 @@ class Usage(BooleanTest):
                         ["--matrix", "1:m.txt", "--matrix", "1:n.txt"]):
             self.refused("union", *both, "-o", "out.obj", *options)
 
+    def test_an_input_that_the_formula_does_not_use_is_named(self):
+        for formula, unused in (("a", ["b.obj"]), ("b", ["a.obj"]), ("a-b", []), ("b*A", [])):
+            warnings = self.entry("--expr", formula, "a.obj", "b.obj", "-n", status=0)["warnings"]
+            self.assertEqual([(w["code"], w["text"]) for w in warnings],
+                             [("unused", f'{name}: ignored, since "{formula}" does not use it')
+                              for name in unused])
+
     def test_common_options_are_taken(self):
         run = self.run_tool("union", "a.obj", "b.obj", "-o", "out", "--output-format", "ply",
                             "--ascii", "--precision", "double", "--units", "mm", "--format", "obj",

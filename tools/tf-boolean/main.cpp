@@ -11,6 +11,7 @@
 #include <treeform/mesh/boolean.hpp>
 #include <treeform/tf.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -150,11 +151,25 @@ exit_status refuse_open(tools::job& work, const std::vector<tools::solid>& solid
     return tools::found;
 }
 
+/// Files of which the formula uses nothing.
+void warn_of_unused(tools::job& work, const boolean_settings& s,
+                    const std::vector<tools::solid>& solids) {
+    if (s.expression.empty()) return;
+    const tf::boolean_expression formula = tools::formula_of(s, solids.size());
+    for (const std::string& path : work.options.inputs)
+        if (std::ranges::none_of(formula.postfix(), [&](std::int32_t k) {
+                return k >= 0 && solids[static_cast<std::size_t>(k)].path == path;
+            }))
+            work.warn("unused", tools::name_of_input(path) + ": ignored, since \"" + s.expression +
+                                    "\" does not use it");
+}
+
 exit_status operate(tools::job& work, const boolean_settings& s) {
     tools::enter_blank_report(work, s);
     tools::check_outputs(work, {}, {s.curves});
     const std::vector<tools::solid> solids = tools::read_solids(work, s);
     if (s.check) return check_only(work, solids);
+    warn_of_unused(work, s, solids);
     const tf::precision precision = tools::written_precision(work, solids);
     std::optional<std::uint32_t> sheet;
     if (s.accept_open && !s.splits()) {
