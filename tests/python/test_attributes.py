@@ -1,6 +1,8 @@
 """What meshes have besides points and faces is carried over to what is made of them."""
 
 import copy
+import io
+import pickle
 import threading
 
 import numpy as np
@@ -170,6 +172,44 @@ def test_what_a_call_has_begun_with_is_not_changed_by_another_thread(tmp_path):
     assert np.array_equal(made.mesh.attributes.vertex["quality"], made.vertex_source)
     again = tf.read(tmp_path / "m.ply").attributes.vertex["quality"]
     assert np.array_equal(again, made.vertex_source)
+
+
+def textured(path, library):
+    """A cube whose OBJ file names a material of that library."""
+    path.parent.mkdir(exist_ok=True)
+    rows = ["mtllib " + library, *("v %r %r %r" % tuple(p) for p in CUBE.vertices.tolist()),
+            "vt 0 0", "vt 1 0", "vt 0 1", "usemtl paint",
+            *("f %d/1 %d/2 %d/3" % tuple(f + 1) for f in CUBE.faces)]
+    path.write_text("\n".join(rows) + "\n")
+    return tf.read(path)
+
+
+def libraries(text):
+    return [line[7:] for line in text.splitlines() if line.startswith("mtllib ")]
+
+
+def test_links_to_materials_lead_to_the_same_files_from_other_folders(tmp_path):
+    one = textured(tmp_path / "tex" / "a.obj", "a.mtl")
+    above = tf.cut(pickle.loads(pickle.dumps(one)), [0, 0, 0.5])[1]
+    (tmp_path / "res").mkdir()
+    for folder, name in ("res", "../tex/a.mtl"), (".", "tex/a.mtl"), ("tex", "a.mtl"):
+        assert not tf.write(tmp_path / folder / "above.obj", above).warnings
+        assert libraries((tmp_path / folder / "above.obj").read_text()) == [name]
+    memory = io.BytesIO()
+    tf.write(memory, above, "obj")
+    assert libraries(memory.getvalue().decode()) == ["a.mtl"]
+    whole = textured(tmp_path / "tex" / "b.obj", "/lib/b.mtl")
+    assert not tf.write(tmp_path / "res" / "b.obj", whole).warnings
+    assert libraries((tmp_path / "res" / "b.obj").read_text()) == ["/lib/b.mtl"]
+
+
+def test_materials_of_one_name_and_two_files_are_warned_of(tmp_path):
+    one, other = (textured(tmp_path / f"{name}.obj", f"{name}.mtl") for name in "ab")
+    whole = tf.union(one, other)
+    for made in whole, tf.transformed(tf.simplify(whole, 0.1), np.eye(4)), [one, other]:
+        text, = tf.write(tmp_path / "out.obj", made).warnings
+        assert "same name for material paint;" in text
+    assert not tf.write(tmp_path / "two.obj", tf.union(one, tf.read(tmp_path / "a.obj"))).warnings
 
 
 def test_copies_of_attributes_are_changed_alone():

@@ -384,6 +384,8 @@ FUNCTIONS = [
     Function("write(path: Path | IO[bytes], mesh: PartsLike, options: write_options(format))"
              " -> Written", body="written(path, mesh, format, how, progress)",
              words={"file": "mesh"},
+             also="Names of material and texture files are relative to the folder of `path`; in "
+                  "a file object, as in the input.",
              docs={"path": "the path of the file, or a binary file object, such as BytesIO, with "
                            "`format`.",
                    "mesh": "a mesh; or several meshes, which become parts of the file, named \"1\","

@@ -1,4 +1,5 @@
 #include "bindings.hpp"
+#include "tools/bindings/linked_files.hpp"
 
 namespace binding {
 namespace {
@@ -104,6 +105,7 @@ py::object carrying::carried(const tf::mesh& made, Carry&& carry) const {
     without_lock([&] {
         result.mesh = made;
         carry(result);
+        tools::warn_of_materials(result, sources_);
         result.mesh = {};
     });
     return py::cast(file_data(std::move(result)));

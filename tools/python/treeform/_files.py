@@ -64,7 +64,7 @@ def written(path: Path | IO[bytes], mesh: PartsLike, format: str, how: _core.Wri
     """Writes to a path or a file object."""
     put = partial(_write, mesh, how, progress)
     if isinstance(path, (str, os.PathLike)):
-        return put(path_of(path))
+        return put(path_of(path), path_of(path))
     if not hasattr(path, "write"):
         raise ValueError(f"path: expected a path or a file, not {path!r}")
     name = _name_of(path)
@@ -73,7 +73,7 @@ def written(path: Path | IO[bytes], mesh: PartsLike, format: str, how: _core.Wri
     with tempfile.TemporaryDirectory() as folder:
         beside = os.path.join(folder, os.path.basename(name))
         try:
-            written = put(beside)
+            written = put(beside, name)
         except FileError as error:
             raise file_error(str(error).replace(beside, name), error.errno or 0, name) from None
         with open(beside, "rb") as whole:
@@ -81,7 +81,8 @@ def written(path: Path | IO[bytes], mesh: PartsLike, format: str, how: _core.Wri
     return written
 
 
-def _write(mesh: PartsLike, how: _core.WriteOptions, progress: Progress, path: str) -> Written:
+def _write(mesh: PartsLike, how: _core.WriteOptions, progress: Progress, path: str,
+           name: str) -> Written:
     parts = mesh if isinstance(mesh, Mapping) else listed(mesh)
     if parts is None:
         made = as_mesh(mesh)
@@ -89,7 +90,8 @@ def _write(mesh: PartsLike, how: _core.WriteOptions, progress: Progress, path: s
     else:
         made, certified = _scene_of(parts if isinstance(parts, Mapping) else {
             str(number): part for number, part in enumerate(parts, 1)})
-    written = _core.write(path, made._held, certified, how, progress=progress)
+    written = _core.write(path, made._held, certified, how, path if name == path else "-",
+                          progress=progress)
     if parts is not None and not written.format.startswith(("3mf", "obj")):
         written.warnings.append(f"parts were merged: {written.format} cannot store parts")
     return written
@@ -276,6 +278,9 @@ def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: b
     `Written.warnings` lists what is scaled, rounded or omitted.
 
     An empty mesh can be written in every mesh format, and read again.
+
+    Names of material and texture files are relative to the folder of `path`; in a file object, as
+    in the input.
 
     path: the path of the file, or a binary file object, such as BytesIO, with `format`.
     mesh: a mesh; or several meshes, which become parts of the file, named "1", "2", ...; or a dict
