@@ -261,6 +261,21 @@ def test_what_is_certified_and_has_columns_is_not_rounded_either(tmp_path):
     assert tf.write(tmp_path / "m.stl", made, round=True).max_displacement > 0
 
 
+def test_what_is_left_out_is_warned_of(tmp_path):
+    extra = tf.Attributes()
+    extra.vertex["heat"] = np.arange(8, dtype=np.float32)
+    hot = tf.Mesh(CUBE.vertices, CUBE.faces, extra)
+    for path, name in ((tmp_path / "m.stl", "m.stl"), (io.BytesIO(), "bytes")):
+        with pytest.warns(UserWarning, match=f"{name}: not written to STL: heat of points") as w:
+            written = tf.write(path, hot, "stl")
+        assert [one.filename for one in w] == [__file__] and len(written.warnings) == 1
+    with pytest.warns(UserWarning, match="m.stl: parts were merged"):
+        tf.write(tmp_path / "m.stl", [CUBE, CUBE])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        tf.write(tmp_path / "m.ply", hot)
+
+
 def test_a_cloud_has_no_faces(tmp_path):
     points = np.random.default_rng(2).random((50, 3))
     tf.write(tmp_path / "c.xyz", (points, []))

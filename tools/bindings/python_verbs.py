@@ -385,7 +385,8 @@ FUNCTIONS = [
              " -> Written", body="written(path, mesh, format, how, progress)",
              words={"file": "mesh"},
              also="Names of material and texture files are relative to the folder of `path`; in "
-                  "a file object, as in the input.",
+                  "a file object, as in the input. Each of `Written.warnings` is also a warning "
+                  "of Python (`warnings.warn`).",
              docs={"path": "the path of the file, or a binary file object, such as BytesIO, with "
                            "`format`.",
                    "mesh": "a mesh; or several meshes, which become parts of the file, named \"1\","

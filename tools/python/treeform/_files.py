@@ -94,6 +94,8 @@ def _write(mesh: PartsLike, how: _core.WriteOptions, progress: Progress, path: s
                           progress=progress)
     if parts is not None and not written.format.startswith(("3mf", "obj")):
         written.warnings.append(f"parts were merged: {written.format} cannot store parts")
+    for text in written.warnings:
+        warn(f"{name}: {text}", stacklevel=4)
     return written
 
 
@@ -280,7 +282,7 @@ def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: b
     An empty mesh can be written in every mesh format, and read again.
 
     Names of material and texture files are relative to the folder of `path`; in a file object, as
-    in the input.
+    in the input. Each of `Written.warnings` is also a warning of Python (`warnings.warn`).
 
     path: the path of the file, or a binary file object, such as BytesIO, with `format`.
     mesh: a mesh; or several meshes, which become parts of the file, named "1", "2", ...; or a dict
