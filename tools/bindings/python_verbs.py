@@ -26,6 +26,10 @@ _VOLUMES = {"volumes": "compute the volumes of the two operands, of their union 
                        "intersection."}
 _FILL_RULE = {"fill_rule": "'nonzero', 'even_odd' or 'positive': the winding numbers that count "
                            "as inside."}
+_SOLIDS = _VOLUMES | _FILL_RULE | {
+    "merge_coplanar": "merge all coplanar faces of the result, also those not cut; but never faces "
+                      "with different materials or values, nor those whose corners differ in "
+                      "texture coordinates or normals."}
 _WELD = {
     "same": "vertex properties that must agree for points to be merged, each with the largest "
             "difference allowed.",
@@ -67,7 +71,7 @@ _BODIES = "`a` and `b` are each a mesh or a cloud (n, 3). Points of a cloud coun
 def _operation(name: str, what: str, leave: str = "gap",
                docs: dict[str, str] = {}) -> Function:  # noqa: B006
     return Function(f"{name}(*meshes: Operands, options: boolean_options) -> BooleanResult",
-                    doc=what, leave=leave, docs=_MESHES | _VOLUMES | _FILL_RULE | docs,
+                    doc=what, leave=leave, docs=_MESHES | _SOLIDS | docs,
                     cpp="boolean", check="solids",
                     body=f'combined("{name}", meshes, how, progress)')
 
@@ -128,7 +132,7 @@ FUNCTIONS = [
                   "faces are merged only if their values are equal; faces whose corners differ in "
                   "texture coordinates or normals are never merged, and if vertices have values, "
                   "faces are merged only with `merge_coplanar`.",
-             docs=_VOLUMES | _FILL_RULE | {
+             docs=_SOLIDS | {
                    "expression": "a formula of `operands`, named `a`, `b`, `c`, ..., and of "
                                  "`meshes` by their names: `+` or `|` for union, `*` or `&` for "
                                  "intersection, `-` for difference, `^` for exclusive or, and "
