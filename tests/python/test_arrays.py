@@ -233,6 +233,7 @@ V, F = CUBE.vertices, CUBE.faces
 @pytest.mark.parametrize("verb, message", [
     (lambda: tf.Mesh(V, F, {"q": 1}), "attributes: expected Attributes .*, not"),
     (lambda: tf.weld(V, "x"), "tolerance: expected a number, not 'x'"),
+    (lambda: tf.weld(V, 1, keep="max:q"), "keep: .*, highest .the last two with keep_by=., not"),
     (lambda: tf.weld_stream("a.ply", "b.ply", memory=-1),
      "memory: expected a non-negative integer"),
     (lambda: tf.weld_stream("a.ply", "b.ply", memory=0.5),
