@@ -241,6 +241,7 @@ V, F = CUBE.vertices, CUBE.faces
     (lambda: tf.threads(-1), "most: expected a non-negative integer, not -1"),
     (lambda: tf.write("a\0b.ply", CUBE), "path: expected a path without null characters"),
     (lambda: tf.read("a\0b.ply"), "path: expected a path without null characters"),
+    (lambda: tf.drop([CUBE, CUBE]), "mesh: expected one mesh or cloud, not .Mesh"),
     (lambda: tf.raycast(CUBE, V, V + 1, t_min="a"), "t_min: expected a number, not 'a'"),
     (lambda: tf.closest_point(CUBE, V, radius="a"), "radius: expected a number, not 'a'"),
     (lambda: tf.PointTree(V).query_pairs("a"), "r: expected a number, not 'a'"),

@@ -292,6 +292,8 @@ def cloud_of(body: Any) -> Floats | None:
     if isinstance(body, np.ndarray) or isinstance(body,
                                                   (list, tuple)) and not _arrays.is_pair(body):
         return _arrays.points(body, "points")
+        first = body[0] if isinstance(body, (list, tuple)) and body else None
+        _arrays.expect(not hasattr(first, "faces"), body, "mesh", "one mesh or cloud")
     if any(hasattr(body, name) for name in ("mesh", "faces", "triangles", "cells_dict", "triangle",
                                           "GetPolys")):
         return None
