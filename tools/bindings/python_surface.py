@@ -451,8 +451,8 @@ RESULTS = [
                       "std::array{one.a, one.b}"),
                      ("relation", "NDArray[np.uint8]", "(n,) uint8: their relation, an index into "
                       "`RELATIONS`.", "one.relation"),
-                     ("distance", "Floats", "(n,) for parts that are closer than the clearance; else "
-                      "0.", "one.distance"))]]}),
+                     ("distance", "Floats", "(n,) for parts that are closer than the clearance; 0 if "
+                      "they touch or penetrate.", "one.distance"))]]}),
     Result("clash_result", "ClashResult", "_assembly", leave="ignored parts_indexed",
            doc="The clashes of all parts of an assembly.",
            custom={"counts": [Attribute("counts", "dict[str, int]",

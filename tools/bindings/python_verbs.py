@@ -634,7 +634,8 @@ FUNCTIONS = [
              leave="volumes depths limit",
              doc="The clashes in each of many poses. All pairs are tested, also of parts that do "
                  "not move: if such a pair meets, every pose is in collision, unless `ignored` has "
-                 "it.",
+                 "it. `in_collision` includes pairs that are too close; `distance` is that of "
+                 "pairs closer than the clearance, 0 if they touch or penetrate.",
              also="Exact, like `clash` and `measure`, for the moved corners, rounded to double. "
                   "Two parts are only copied and indexed again for a pose if they touch, if a "
                   "corner of one is so near the surface of the other that rounding might change "
