@@ -280,9 +280,10 @@ def test_what_is_left_out_is_warned_of(tmp_path):
 
 def test_a_cloud_has_no_faces(tmp_path):
     points = np.random.default_rng(2).random((50, 3))
-    tf.write(tmp_path / "c.xyz", (points, []))
-    cloud = tf.read(tmp_path / "c.xyz")
-    assert np.array_equal(cloud.vertices, points) and cloud.faces.shape == (0, 3)
+    for given in (points, []), points:
+        tf.write(tmp_path / "c.xyz", given)
+        cloud = tf.read(tmp_path / "c.xyz")
+        assert np.array_equal(cloud.vertices, points) and cloud.faces.shape == (0, 3)
 
 
 @needs_models

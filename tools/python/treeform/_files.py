@@ -14,7 +14,7 @@ from warnings import warn
 from . import _arrays, _core
 from ._arrays import path_of
 from ._errors import FileError, file_error, options
-from ._mesh import Mesh, MeshLike, as_mesh, held, listed
+from ._mesh import Body, Mesh, MeshLike, as_mesh, held, listed
 from ._progress import Progress
 from ._results import Result
 
@@ -55,8 +55,8 @@ def _name_of(file: Any) -> str:
     return name if isinstance(name, str) and name else "bytes"
 
 
-#: What `write` takes: a mesh, several meshes as parts, or a dict of parts by name.
-PartsLike = Union[MeshLike, Iterable[MeshLike], Mapping[str, MeshLike]]
+#: What `write` takes: a mesh or cloud, several meshes as parts, or a dict of parts by name.
+PartsLike = Union[Body, Iterable[MeshLike], Mapping[str, MeshLike]]
 
 
 def written(path: Path | IO[bytes], mesh: PartsLike, format: str, how: _core.WriteOptions,
@@ -81,11 +81,10 @@ def written(path: Path | IO[bytes], mesh: PartsLike, format: str, how: _core.Wri
     return written
 
 
-def _write(mesh: PartsLike, how: _core.WriteOptions, progress: Progress, path: str,
-           name: str) -> Written:
+def _write(mesh: Any, how: _core.WriteOptions, progress: Progress, path: str, name: str) -> Written:
     parts = mesh if isinstance(mesh, Mapping) else listed(mesh)
     if parts is None:
-        made = as_mesh(mesh)
+        made = Mesh(mesh) if hasattr(mesh, "dtype") else as_mesh(mesh)
         certified = bool(made._certificate)
     else:
         made, certified = _scene_of(parts if isinstance(parts, Mapping) else {
@@ -285,9 +284,10 @@ def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: b
     in the input. Each of `Written.warnings` is also a warning of Python (`warnings.warn`).
 
     path: the path of the file, or a binary file object, such as BytesIO, with `format`.
-    mesh: a mesh; or several meshes, which become parts of the file, named "1", "2", ...; or a dict
-        of names and meshes. 3MF and OBJ can store parts; in other formats they become one mesh,
-        with a warning. With several meshes, columns of vertices and faces are not written.
+    mesh: a mesh, or a cloud (n, 3); or several meshes, which become parts of the file, named "1",
+        "2", ...; or a dict of names and meshes. 3MF and OBJ can store parts; in other formats they
+        become one mesh, with a warning. With several meshes, columns of vertices and faces are not
+        written.
     format: Extension without its dot: stl, obj, ply, off, xyz, csv, pcd, las, laz, glb, 3mf. Empty:
         the extension of the path.
     ascii: Write text if the format has text and binary. Binary PLY is little endian, unless the
