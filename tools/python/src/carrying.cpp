@@ -1,5 +1,4 @@
 #include "bindings.hpp"
-#include "tools/bindings/linked_files.hpp"
 
 namespace binding {
 namespace {

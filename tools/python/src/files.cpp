@@ -1,7 +1,6 @@
 #include "bindings.hpp"
 #include "carrying.hpp"
 #include "state.hpp"
-#include "tools/bindings/linked_files.hpp"
 
 namespace binding {
 
@@ -76,10 +75,9 @@ py::object write(const std::filesystem::path& path, const held_mesh& mesh, bool 
     };
     const tf::mesh_file file = file_of(mesh);
     return as_python(run([&](const tf::progress_callback&) {
-        return tools::write_linked(place, file, [&](const tf::mesh_file& linked) {
-            return certified && !options.round
-                       ? tf::detail::io::write_certified(path, linked, options)
-                       : tf::write(path, linked, options);
+        return tools::write_linked(place, file, [&](const tf::mesh_file& at) {
+            return certified && !options.round ? tf::detail::io::write_certified(path, at, options)
+                                               : tf::write(path, at, options);
         });
     }));
 }
