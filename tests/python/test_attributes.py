@@ -61,7 +61,7 @@ def test_an_operand_without_values_gives_none():
     assert (made.mesh.attributes.face["red"][lacks] == 0).all()
     taken = B.attributes.face["red"][made.face_source[~lacks, 1]]
     assert np.array_equal(made.mesh.attributes.face["red"][~lacks], taken)
-    assert tf.union(CUBE, moved(CUBE, 0.5, 0, 0)).mesh.attributes is None
+    assert not columns(tf.union(CUBE, moved(CUBE, 0.5, 0, 0)).mesh)
 
 
 @pytest.mark.parametrize("verb", [
@@ -110,7 +110,7 @@ def test_moved_meshes_keep_theirs_and_normals_turn():
     packed = tf.pack([mesh, CUBE], [4, 4], spacing=0.5)
     assert np.array_equal(columns(packed.parts[0].mesh)[("face", "red")],
                           mesh.attributes.face["red"])
-    assert packed.parts[1].mesh.attributes is None or not columns(packed.parts[1].mesh)
+    assert not columns(packed.parts[1].mesh)
 
 
 def test_textures_of_corners_are_carried(tmp_path):
@@ -190,7 +190,7 @@ def libraries(text):
 
 def test_links_to_materials_lead_to_the_same_files_from_other_folders(tmp_path):
     one = textured(tmp_path / "tex" / "a.obj", "a.mtl")
-    above = tf.cut(pickle.loads(pickle.dumps(one)), [0, 0, 0.5])[1]
+    above = tf.cut(pickle.loads(pickle.dumps(one)), at=[0, 0, 0.5])[1]
     (tmp_path / "res").mkdir()
     for folder, name in ("res", "../tex/a.mtl"), (".", "tex/a.mtl"), ("tex", "a.mtl"):
         assert not tf.write(tmp_path / folder / "above.obj", above).warnings
@@ -226,6 +226,13 @@ def test_meshes_do_not_share_the_attributes_that_they_are_made_from():
     one.attributes.vertex["q"] = np.arange(8)
     assert list(one.attributes.vertex) == ["q"]
     assert not list(other.attributes.vertex) and not list(given.vertex)
+
+
+def test_a_mesh_without_attributes_takes_columns():
+    one = moved(CUBE, 0, 0, 0)
+    one.attributes.vertex["q"] = np.arange(8)
+    for same in one, pickle.loads(pickle.dumps(one)), tf.lay_flat(one).mesh:
+        assert same.attributes.vertex["q"].tolist() == list(range(8))
 
 
 def test_welded_polygons_keep_theirs(tmp_path):

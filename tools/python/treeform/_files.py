@@ -34,7 +34,7 @@ def read_from(path: Path | IO[bytes], format: str, join: bool, how: _core.ReadOp
     else:
         made = _core.read_bytes(_content(path), name := _name_of(path), format, join, how,
                                 progress=progress)
-    for _, text in made.attributes.warnings if made.attributes else ():
+    for _, text in made.attributes.warnings:
         warn(f"{name}: {text}", stacklevel=3)
     return made
 
