@@ -114,7 +114,7 @@ def test_names_of_parts_and_polygons_travel(tmp_path):
 def test_certified_coordinates_are_not_rounded_unless_told(tmp_path):
     third = tf.Mesh(CUBE.vertices / 3 + 0.9, CUBE.faces)
     made = tf.union(CUBE, third)
-    told = 'compute the result with precision="float32", or write a format that.*; or set round=True$'
+    told = 'the result with precision="float32", or write a format that.*; or set round=True$'
     for mesh in made, tf.repair(made):
         with pytest.raises(tf.FileError, match=told):
             tf.write(tmp_path / "m.stl", mesh)

@@ -393,10 +393,11 @@ FUNCTIONS = [
                   "of Python (`warnings.warn`).",
              docs={"path": "the path of the file, or a binary file object, such as BytesIO, with "
                            "`format`.",
-                   "mesh": "a mesh, or a cloud (n, 3); or several meshes, which become parts of the file, named \"1\","
-                           " \"2\", ...; or a dict of names and meshes. 3MF and OBJ can store "
-                           "parts; in other formats they become one mesh, with a warning. With "
-                           "several meshes, columns of vertices and faces are not written.",
+                   "mesh": "a mesh, or a cloud (n, 3); or several meshes, which become parts of "
+                           "the file, named \"1\", \"2\", ...; or a dict of names and meshes. "
+                           "3MF and OBJ can store parts; in other formats they become one mesh, "
+                           "with a warning. With several meshes, columns of vertices and faces "
+                           "are not written.",
                    "rename": "new names for columns of points: {'old': 'new'}.",
                    "las_offset": "likewise.",
                    "round": "allow rounding certified coordinates (`Mesh.certificate`) to the "
