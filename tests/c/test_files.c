@@ -114,7 +114,9 @@ static void test_write(void) {
     ENDS(TREEFORM_FILE, "none", treeform_read(path_in_work("none.stl"), NULL, &back));
     options.progress = NULL;
     options.precision = 5;
-    INVALID("precision", treeform_write(path, file, &options, NULL));
+    INVALID("precision is 5, which is not from 0 to 1", treeform_write(path, file, &options, NULL));
+    ENDS(TREEFORM_FILE, "cube: the path has no extension, and no format is given",
+         treeform_write(path_in_work("cube"), file, NULL, NULL));
     ENDS(TREEFORM_FILE, "nowhere", treeform_write("/nowhere/at/all.ply", file, NULL, NULL));
     ENDS(TREEFORM_FILE, "no_such", treeform_read("no_such.stl", NULL, &back));
     ENDS(TREEFORM_FILE, "damaged", treeform_read_memory("ply\n", 4, "damaged", "ply", &back));

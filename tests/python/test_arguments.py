@@ -147,7 +147,7 @@ def test_what_is_confused_is_said_with_the_way_out():
             (lambda: tf.convex_hull(BROKEN), "drop_non_finite=True")):
         with pytest.raises(ValueError, match=text):
             call()
-    with pytest.raises(ValueError, match="the map is not finite$"):
+    with pytest.raises(ValueError, match="an entry of the transform is not finite$"):
         tf.mesh_intersections(CUBE, CUBE, transform_a=np.diag([np.inf, 1, 1, 1])[:3])
 
 
