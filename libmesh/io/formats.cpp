@@ -230,6 +230,8 @@ const known_format& find_format(const std::filesystem::path& path, const write_o
     if (wanted == "txt" || wanted == "asc" || wanted == "pts") wanted = "xyz";
     for (const known_format& f : formats)
         if (f.extension == wanted) return f;
+    if (wanted.empty())
+        throw io_error(path.string() + ": the path has no extension, and no format is given");
     throw io_error(path.string() + ": format '" + wanted + "' cannot be written");
 }
 

@@ -20,6 +20,8 @@ static treeform_file* colored_cube(const treeform_mesh* mesh, uint8_t color) {
     memset(red, color, sizeof red);
     OK(treeform_file_create(mesh, &file));
     OK(treeform_file_set_column(file, "face", "red", TREEFORM_UINT8, red, 12));
+    OK(treeform_file_add_part(file, NULL, NULL, "paint", 0));
+    OK(treeform_file_add_text(file, TREEFORM_MATERIAL_FILE, color == 10 ? "a.mtl" : "b.mtl"));
     return file;
 }
 
@@ -30,6 +32,7 @@ static void test_of_two(void) {
     treeform_file* made_file = NULL;
     treeform_mesh* made_mesh = NULL;
     treeform_file_view* view = NULL;
+    treeform_written* written = NULL;
     treeform_attribute_source sources[2];
     treeform_boolean_result* made = NULL;
     treeform_indices* groups = NULL;
@@ -47,6 +50,9 @@ static void test_of_two(void) {
     OK(treeform_file_create(made_mesh, &made_file));
     OK(treeform_transfer_attributes(made_file, sources, 2, made->face_source, made->vertex_source,
                                     NULL));
+    OK(treeform_write(path_in_work("of_two.obj"), made_file, NULL, &written));
+    CHECK(written->warning_count == 1 && strstr(written->warnings[0].text, "material paint;"));
+    treeform_free(written);
     OK(treeform_add_source_columns(made_file, "from", made->face_source, names, 2));
     OK(treeform_file_content(made_file, &view));
     red = column(view, "face", "red");

@@ -114,7 +114,9 @@ static void test_write(void) {
     ENDS(TREEFORM_FILE, "none", treeform_read(path_in_work("none.stl"), NULL, &back));
     options.progress = NULL;
     options.precision = 5;
-    INVALID("precision", treeform_write(path, file, &options, NULL));
+    INVALID("precision is 5, which is not from 0 to 1", treeform_write(path, file, &options, NULL));
+    ENDS(TREEFORM_FILE, "cube: the path has no extension, and no format is given",
+         treeform_write(path_in_work("cube"), file, NULL, NULL));
     ENDS(TREEFORM_FILE, "nowhere", treeform_write("/nowhere/at/all.ply", file, NULL, NULL));
     ENDS(TREEFORM_FILE, "no_such", treeform_read("no_such.stl", NULL, &back));
     ENDS(TREEFORM_FILE, "damaged", treeform_read_memory("ply\n", 4, "damaged", "ply", &back));
@@ -122,6 +124,40 @@ static void test_write(void) {
     INVALID("path is null", treeform_read(NULL, NULL, &back));
     treeform_free(file);
     treeform_free(mesh);
+}
+
+/* Whether the first line of a file is this one. */
+static int begins_with(const char* path, const char* text) {
+    char line[200] = "";
+    FILE* const in = fopen(path, "r");
+    CHECK(in != NULL && fgets(line, sizeof line, in) != NULL);
+    if (in) fclose(in);
+    return is(line, text);
+}
+
+static void test_links(void) {
+    const char* const path = path_in_work("linked.obj");
+    treeform_file* file = NULL;
+    treeform_file_view* view = NULL;
+    treeform_bytes* bytes = NULL;
+    treeform_write_options options;
+    FILE* const out = fopen(path, "w");
+    CHECK(out != NULL && fputs("mtllib no/a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", out) >= 0);
+    fclose(out);
+    OK(treeform_read(path, NULL, &file));
+    OK(treeform_file_content(file, &view));
+    CHECK(view->material_file_count == 1 && strstr(view->material_files[0], "/./no/a.mtl"));
+    treeform_free(view);
+    OK(treeform_write(path_in_work("again.obj"), file, NULL, NULL));
+    CHECK(begins_with(path_in_work("again.obj"), "mtllib no/a.mtl\n"));
+    OK(treeform_write(path_in_work("../beside.obj"), file, NULL, NULL));
+    CHECK(begins_with(path_in_work("../beside.obj"), "mtllib work/no/a.mtl\n"));
+    treeform_write_options_init(&options, sizeof options);
+    options.format = "obj";
+    OK(treeform_write_memory(file, &options, &bytes));
+    CHECK(bytes->count > 16 && memcmp(bytes->bytes, "mtllib no/a.mtl\n", 16) == 0);
+    treeform_free(bytes);
+    treeform_free(file);
 }
 
 static void test_columns(void) {
@@ -284,6 +320,7 @@ void test_files(void) {
     test_look();
     test_change();
     test_write();
+    test_links();
     test_columns();
     test_parts();
     test_robots();

@@ -234,6 +234,13 @@ static void test_repair(void) {
     ENDS(TREEFORM_NOT_CERTIFIED, "", treeform_repair(mesh, &options, &result));
     CHECK(result != NULL && result->certificate->status == TREEFORM_STATUS_OPEN_INPUT);
     treeform_free(result);
+    options.sheet = 1;
+    OK(treeform_repair(mesh, &options, &result));
+    CHECK(result->certificate->status == TREEFORM_STATUS_SHEET);
+    ENDS(TREEFORM_INVALID, "border",
+         treeform_write_result(path_in_work("sheet.ply"), &result->mesh, result->certificate, NULL,
+                               NULL));
+    treeform_free(result);
     treeform_free(file);
     treeform_free(mesh);
     mesh = two_cubes();

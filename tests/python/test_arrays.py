@@ -233,6 +233,7 @@ V, F = CUBE.vertices, CUBE.faces
 @pytest.mark.parametrize("verb, message", [
     (lambda: tf.Mesh(V, F, {"q": 1}), "attributes: expected Attributes .*, not"),
     (lambda: tf.weld(V, "x"), "tolerance: expected a number, not 'x'"),
+    (lambda: tf.weld(V, 1, keep="max:q"), "keep: .*, highest .the last two with keep_by=., not"),
     (lambda: tf.weld_stream("a.ply", "b.ply", memory=-1),
      "memory: expected a non-negative integer"),
     (lambda: tf.weld_stream("a.ply", "b.ply", memory=0.5),
@@ -240,6 +241,7 @@ V, F = CUBE.vertices, CUBE.faces
     (lambda: tf.threads(-1), "most: expected a non-negative integer, not -1"),
     (lambda: tf.write("a\0b.ply", CUBE), "path: expected a path without null characters"),
     (lambda: tf.read("a\0b.ply"), "path: expected a path without null characters"),
+    (lambda: tf.drop([CUBE, CUBE]), "mesh: expected one mesh or cloud, not .Mesh"),
     (lambda: tf.raycast(CUBE, V, V + 1, t_min="a"), "t_min: expected a number, not 'a'"),
     (lambda: tf.closest_point(CUBE, V, radius="a"), "radius: expected a number, not 'a'"),
     (lambda: tf.PointTree(V).query_pairs("a"), "r: expected a number, not 'a'"),

@@ -1,6 +1,8 @@
 """What meshes have besides points and faces is carried over to what is made of them."""
 
 import copy
+import io
+import pickle
 import threading
 
 import numpy as np
@@ -59,7 +61,7 @@ def test_an_operand_without_values_gives_none():
     assert (made.mesh.attributes.face["red"][lacks] == 0).all()
     taken = B.attributes.face["red"][made.face_source[~lacks, 1]]
     assert np.array_equal(made.mesh.attributes.face["red"][~lacks], taken)
-    assert tf.union(CUBE, moved(CUBE, 0.5, 0, 0)).mesh.attributes is None
+    assert not columns(tf.union(CUBE, moved(CUBE, 0.5, 0, 0)).mesh)
 
 
 @pytest.mark.parametrize("verb", [
@@ -108,7 +110,7 @@ def test_moved_meshes_keep_theirs_and_normals_turn():
     packed = tf.pack([mesh, CUBE], [4, 4], spacing=0.5)
     assert np.array_equal(columns(packed.parts[0].mesh)[("face", "red")],
                           mesh.attributes.face["red"])
-    assert packed.parts[1].mesh.attributes is None or not columns(packed.parts[1].mesh)
+    assert not columns(packed.parts[1].mesh)
 
 
 def test_textures_of_corners_are_carried(tmp_path):
@@ -172,6 +174,44 @@ def test_what_a_call_has_begun_with_is_not_changed_by_another_thread(tmp_path):
     assert np.array_equal(again, made.vertex_source)
 
 
+def textured(path, library):
+    """A cube whose OBJ file names a material of that library."""
+    path.parent.mkdir(exist_ok=True)
+    rows = ["mtllib " + library, *("v %r %r %r" % tuple(p) for p in CUBE.vertices.tolist()),
+            "vt 0 0", "vt 1 0", "vt 0 1", "usemtl paint",
+            *("f %d/1 %d/2 %d/3" % tuple(f + 1) for f in CUBE.faces)]
+    path.write_text("\n".join(rows) + "\n")
+    return tf.read(path)
+
+
+def libraries(text):
+    return [line[7:] for line in text.splitlines() if line.startswith("mtllib ")]
+
+
+def test_links_to_materials_lead_to_the_same_files_from_other_folders(tmp_path):
+    one = textured(tmp_path / "tex" / "a.obj", "a.mtl")
+    above = tf.cut(pickle.loads(pickle.dumps(one)), at=[0, 0, 0.5])[1]
+    (tmp_path / "res").mkdir()
+    for folder, name in ("res", "../tex/a.mtl"), (".", "tex/a.mtl"), ("tex", "a.mtl"):
+        assert not tf.write(tmp_path / folder / "above.obj", above).warnings
+        assert libraries((tmp_path / folder / "above.obj").read_text()) == [name]
+    memory = io.BytesIO()
+    tf.write(memory, above, "obj")
+    assert libraries(memory.getvalue().decode()) == ["a.mtl"]
+    whole = textured(tmp_path / "tex" / "b.obj", "/lib/b.mtl")
+    assert not tf.write(tmp_path / "res" / "b.obj", whole).warnings
+    assert libraries((tmp_path / "res" / "b.obj").read_text()) == ["/lib/b.mtl"]
+
+
+def test_materials_of_one_name_and_two_files_are_warned_of(tmp_path):
+    one, other = (textured(tmp_path / f"{name}.obj", f"{name}.mtl") for name in "ab")
+    whole = tf.union(one, other)
+    for made in whole, tf.transformed(tf.simplify(whole, 0.1), np.eye(4)), [one, other]:
+        with pytest.warns(UserWarning, match="same name for material paint;") as w:
+            assert len(tf.write(tmp_path / "out.obj", made).warnings) == len(w) == 1
+    assert not tf.write(tmp_path / "two.obj", tf.union(one, tf.read(tmp_path / "a.obj"))).warnings
+
+
 def test_copies_of_attributes_are_changed_alone():
     one = tf.Attributes()
     one.set_face("red", np.arange(12))
@@ -186,6 +226,13 @@ def test_meshes_do_not_share_the_attributes_that_they_are_made_from():
     one.attributes.vertex["q"] = np.arange(8)
     assert list(one.attributes.vertex) == ["q"]
     assert not list(other.attributes.vertex) and not list(given.vertex)
+
+
+def test_a_mesh_without_attributes_takes_columns():
+    one = moved(CUBE, 0, 0, 0)
+    one.attributes.vertex["q"] = np.arange(8)
+    for same in one, pickle.loads(pickle.dumps(one)), tf.lay_flat(one).mesh:
+        assert same.attributes.vertex["q"].tolist() == list(range(8))
 
 
 def test_welded_polygons_keep_theirs(tmp_path):

@@ -114,8 +114,10 @@ def test_names_of_parts_and_polygons_travel(tmp_path):
 def test_certified_coordinates_are_not_rounded_unless_told(tmp_path):
     third = tf.Mesh(CUBE.vertices / 3 + 0.9, CUBE.faces)
     made = tf.union(CUBE, third)
-    with pytest.raises(tf.FileError, match="precision float32, or write.*treeform.boolean"):
-        tf.write(tmp_path / "m.stl", made)
+    told = 'the result with precision="float32", or write a format that.*; or set round=True$'
+    for mesh in made, tf.repair(made):
+        with pytest.raises(tf.FileError, match=told):
+            tf.write(tmp_path / "m.stl", mesh)
     with pytest.raises(tf.FileError, match="round"):
         tf.write(tmp_path / "m.stl", CUBE | third)
     assert not (tmp_path / "m.stl").exists()
@@ -261,11 +263,27 @@ def test_what_is_certified_and_has_columns_is_not_rounded_either(tmp_path):
     assert tf.write(tmp_path / "m.stl", made, round=True).max_displacement > 0
 
 
+def test_what_is_left_out_is_warned_of(tmp_path):
+    extra = tf.Attributes()
+    extra.vertex["heat"] = np.arange(8, dtype=np.float32)
+    hot = tf.Mesh(CUBE.vertices, CUBE.faces, extra)
+    for path, name in ((tmp_path / "m.stl", "m.stl"), (io.BytesIO(), "bytes")):
+        with pytest.warns(UserWarning, match=f"{name}: not written to STL: heat of points") as w:
+            written = tf.write(path, hot, "stl")
+        assert [one.filename for one in w] == [__file__] and len(written.warnings) == 1
+    with pytest.warns(UserWarning, match="m.stl: parts were merged"):
+        tf.write(tmp_path / "m.stl", [CUBE, CUBE])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        tf.write(tmp_path / "m.ply", hot)
+
+
 def test_a_cloud_has_no_faces(tmp_path):
     points = np.random.default_rng(2).random((50, 3))
-    tf.write(tmp_path / "c.xyz", (points, []))
-    cloud = tf.read(tmp_path / "c.xyz")
-    assert np.array_equal(cloud.vertices, points) and cloud.faces.shape == (0, 3)
+    for given in (points, []), points:
+        tf.write(tmp_path / "c.xyz", given)
+        cloud = tf.read(tmp_path / "c.xyz")
+        assert np.array_equal(cloud.vertices, points) and cloud.faces.shape == (0, 3)
 
 
 @needs_models

@@ -339,7 +339,9 @@ RESULTS = [
                "tf::triangle_feature::interior; })")]}),
     # _placement
     Result("placement_contact", "Contacts", "_placement", "NamedTuple", rows="tf::{}",
-           doc="Pairs of faces that touch in the final position, or are at the clearance.",
+           doc="Pairs of faces that touch in the final position, or are at the clearance. On the "
+               "bed, only the lowest point is listed, once. A tuple of arrays: the number of "
+               "contacts is `len(contacts.point)`.",
            docs={"point": "(n, 3) a common point of each pair, rounded.",
                  "normal": "(n, 3) of length 1, from the fixed to the moving mesh; 0 if there "
                             "is none.",
@@ -449,8 +451,8 @@ RESULTS = [
                       "std::array{one.a, one.b}"),
                      ("relation", "NDArray[np.uint8]", "(n,) uint8: their relation, an index into "
                       "`RELATIONS`.", "one.relation"),
-                     ("distance", "Floats", "(n,) for parts that are closer than the clearance; else "
-                      "0.", "one.distance"))]]}),
+                     ("distance", "Floats", "(n,) for parts that are closer than the clearance; 0 if "
+                      "they touch or penetrate.", "one.distance"))]]}),
     Result("clash_result", "ClashResult", "_assembly", leave="ignored parts_indexed",
            doc="The clashes of all parts of an assembly.",
            custom={"counts": [Attribute("counts", "dict[str, int]",

@@ -26,6 +26,10 @@ _VOLUMES = {"volumes": "compute the volumes of the two operands, of their union 
                        "intersection."}
 _FILL_RULE = {"fill_rule": "'nonzero', 'even_odd' or 'positive': the winding numbers that count "
                            "as inside."}
+_SOLIDS = _VOLUMES | _FILL_RULE | {
+    "merge_coplanar": "merge all coplanar faces of the result, also those not cut; but never faces "
+                      "with different materials or values, nor those whose corners differ in "
+                      "texture coordinates or normals."}
 _WELD = {
     "same": "vertex properties that must agree for points to be merged, each with the largest "
             "difference allowed.",
@@ -67,7 +71,7 @@ _BODIES = "`a` and `b` are each a mesh or a cloud (n, 3). Points of a cloud coun
 def _operation(name: str, what: str, leave: str = "gap",
                docs: dict[str, str] = {}) -> Function:  # noqa: B006
     return Function(f"{name}(*meshes: Operands, options: boolean_options) -> BooleanResult",
-                    doc=what, leave=leave, docs=_MESHES | _VOLUMES | _FILL_RULE | docs,
+                    doc=what, leave=leave, docs=_MESHES | _SOLIDS | docs,
                     cpp="boolean", check="solids",
                     body=f'combined("{name}", meshes, how, progress)')
 
@@ -128,7 +132,7 @@ FUNCTIONS = [
                   "faces are merged only if their values are equal; faces whose corners differ in "
                   "texture coordinates or normals are never merged, and if vertices have values, "
                   "faces are merged only with `merge_coplanar`.",
-             docs=_VOLUMES | _FILL_RULE | {
+             docs=_SOLIDS | {
                    "expression": "a formula of `operands`, named `a`, `b`, `c`, ..., and of "
                                  "`meshes` by their names: `+` or `|` for union, `*` or `&` for "
                                  "intersection, `-` for difference, `^` for exclusive or, and "
@@ -384,12 +388,16 @@ FUNCTIONS = [
     Function("write(path: Path | IO[bytes], mesh: PartsLike, options: write_options(format))"
              " -> Written", body="written(path, mesh, format, how, progress)",
              words={"file": "mesh"},
+             also="Names of material and texture files are relative to the folder of `path`; in "
+                  "a file object, as in the input. Each of `Written.warnings` is also a warning "
+                  "of Python (`warnings.warn`).",
              docs={"path": "the path of the file, or a binary file object, such as BytesIO, with "
                            "`format`.",
-                   "mesh": "a mesh; or several meshes, which become parts of the file, named \"1\","
-                           " \"2\", ...; or a dict of names and meshes. 3MF and OBJ can store "
-                           "parts; in other formats they become one mesh, with a warning. With "
-                           "several meshes, columns of vertices and faces are not written.",
+                   "mesh": "a mesh, or a cloud (n, 3); or several meshes, which become parts of "
+                           "the file, named \"1\", \"2\", ...; or a dict of names and meshes. "
+                           "3MF and OBJ can store parts; in other formats they become one mesh, "
+                           "with a warning. With several meshes, columns of vertices and faces "
+                           "are not written.",
                    "rename": "new names for columns of points: {'old': 'new'}.",
                    "las_offset": "likewise.",
                    "round": "allow rounding certified coordinates (`Mesh.certificate`) to the "
@@ -627,7 +635,8 @@ FUNCTIONS = [
              leave="volumes depths limit",
              doc="The clashes in each of many poses. All pairs are tested, also of parts that do "
                  "not move: if such a pair meets, every pose is in collision, unless `ignored` has "
-                 "it.",
+                 "it. `in_collision` includes pairs that are too close; `distance` is that of "
+                 "pairs closer than the clearance, 0 if they touch or penetrate.",
              also="Exact, like `clash` and `measure`, for the moved corners, rounded to double. "
                   "Two parts are only copied and indexed again for a pose if they touch, if a "
                   "corner of one is so near the surface of the other that rounding might change "

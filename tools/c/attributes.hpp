@@ -5,6 +5,7 @@
 #include <treeform/mesh/deviation.hpp>
 #include <treeform/mesh/placement.hpp>
 
+#include <tools/bindings/linked_files.hpp>
 #include <tools/c/inputs.hpp>
 #include <tools/c/made/structs.hpp>
 
@@ -55,10 +56,10 @@ inline void transfer_attributes(tf::mesh_file& file, const treeform_attribute_so
     std::span<const tf::operand_element> cut;
     if (face_of_cut_vertex)
         cut = elements(face_of_cut_vertex, vertices, "face_of_cut_vertex", from, faces_of);
-    tf::attribute_sources({from.begin(), from.end()})
-        .transfer(file,
-                  elements(face_source, file.mesh.faces.size(), "face_source", from, faces_of),
-                  elements(vertex_source, vertices, "vertex_source", from, points), cut);
+    const tf::attribute_sources all({from.begin(), from.end()});
+    all.transfer(file, elements(face_source, file.mesh.faces.size(), "face_source", from, faces_of),
+                 elements(vertex_source, vertices, "vertex_source", from, points), cut);
+    tools::warn_of_materials(file, all);
 }
 
 /// The same for a result of one input: `face_source` [F] and `vertex_source` [V] are members

@@ -7,6 +7,7 @@
 #include <treeform/mesh/read.hpp>
 #include <treeform/mesh/write.hpp>
 
+#include <tools/bindings/linked_files.hpp>
 #include <tools/c/made/structs.hpp>
 #include <tools/c/mesh.hpp>
 
@@ -21,8 +22,10 @@ namespace glue {
 
 /// Reads the file at `path`, UTF-8; "-" is standard input. `format` is an extension without its dot
 /// ("stl", "ply", ...), or null: detected by content, then by extension. Coordinates are as stored.
+/// Names of material and texture files get the folder, "/models/./a.mtl". Writing makes them
+/// relative to the folder of the output.
 inline tf::mesh_file read(const std::filesystem::path& path, std::string_view format) {
-    return tf::read(path, format);
+    return tools::read_linked(path, format, {});
 }
 
 /// The mesh of the file at `path`: corners with equal coordinates are one vertex; triangles that
@@ -41,7 +44,7 @@ inline answer_of<treeform_mesh> read_mesh(const std::filesystem::path& path,
 inline tf::mesh_file read_as(const std::filesystem::path& path,
                              const treeform_read_options* options) {
     const auto o = chosen(options, treeform_read_options_init);
-    return tf::read(path, text(o.format), read(o));
+    return tools::read_linked(path, text(o.format), read(o));
 }
 
 /// The same for bytes in memory. Errors have `name` instead of the path.
@@ -174,7 +177,8 @@ inline void file_transform_normals(tf::mesh_file& file, const double* matrix) {
 /// cannot store is omitted; `written` lists it.
 inline tf::write_result write(const std::filesystem::path& path, const tf::mesh_file& file,
                               const tf::write_options& options) {
-    return tf::write(path, file, options);
+    return tools::write_linked(
+        path, file, [&](const tf::mesh_file& linked) { return tf::write(path, linked, options); });
 }
 
 /// The same for a mesh without attributes. `written` may be null.
@@ -207,7 +211,8 @@ inline tf::write_result write_result(const std::filesystem::path& path, const tr
 inline answer_of<treeform_bytes> write_memory(const tf::mesh_file& file,
                                               const tf::write_options& options) {
     auto made = make<treeform_bytes>();
-    const std::string& kept = made->keep(tf::write_to_memory(file, options));
+    const std::string& kept = made->keep(tools::write_linked(
+        "-", file, [&](const tf::mesh_file& at) { return tf::write_to_memory(at, options); }));
     made->value.bytes = reinterpret_cast<const unsigned char*>(kept.data());
     made->value.count = kept.size();
     return made;
@@ -258,7 +263,7 @@ inline tf::mesh_file scene_of(const treeform_file* const* files, const char* con
     const std::vector<std::string> labels = names_of(names, count);
     std::vector<const tf::mesh_file*> members;
     for (const treeform_file* one : all) members.push_back(&content(one, "files"));
-    return tf::scene_of(members, labels, labels);
+    return tools::scene_of(members, labels);
 }
 
 /// The parts of a file, by its objects, groups or nodes, each as a file of its own. With

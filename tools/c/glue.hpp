@@ -234,7 +234,7 @@ template <class E>
 [[nodiscard]] E choice(std::int32_t value, std::int32_t count, const char* name) {
     if (value < 0 || value >= count)
         throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) +
-                                    ", which is not one of its values");
+                                    ", which is not from 0 to " + std::to_string(count - 1));
     return static_cast<E>(value);
 }
 /// The name of an enumerator of E.

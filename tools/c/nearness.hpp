@@ -53,6 +53,7 @@ inline double distance(const tf::mesh_ref& a, const tf::mesh_ref& b,
 
 /// The same for many positions, in parallel: `transforms_a` and `transforms_b` are [count][12], or
 /// null if the mesh is not moved; `distances` [count] are infinite beyond `radius`.
+/// Surfaces count; for solids, `treeform_check_poses`.
 inline void distance_poses(const treeform_mesh* a, const treeform_mesh* b,
                            const double* transforms_a, const double* transforms_b,
                            std::size_t count, double radius, double* distances) {

@@ -51,7 +51,7 @@ inline tf::placement mate_features(const tf::mesh_ref& moving, const tf::mesh_re
                              feature_of(of_fixed, "of_fixed"), options);
 }
 
-/// The mesh that was placed, with the points of the placement.
+/// The mesh that was placed, with the points of the placement. A copy of points and faces.
 inline answer_of<treeform_mesh> moved(const treeform_placement* placement,
                                       const tf::mesh_ref& moving) {
     const auto& at = kept_in<tf::placement>(need(placement, "placement"), "placement");

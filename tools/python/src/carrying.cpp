@@ -104,6 +104,7 @@ py::object carrying::carried(const tf::mesh& made, Carry&& carry) const {
     without_lock([&] {
         result.mesh = made;
         carry(result);
+        tools::warn_of_materials(result, sources_);
         result.mesh = {};
     });
     return py::cast(file_data(std::move(result)));

@@ -4,6 +4,7 @@
 
 #include "file_data.hpp"
 #include "held_mesh.hpp"
+#include "tools/bindings/linked_files.hpp"
 
 namespace binding {
 

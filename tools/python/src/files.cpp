@@ -31,7 +31,7 @@ py::object read_by(bool join, const Take& take) {
 
 py::object read(const std::filesystem::path& path, const std::string& format, bool join,
                 const tf::read_options& options) {
-    return read_by(join, [&] { return tf::read(path, format, options); });
+    return read_by(join, [&] { return tools::read_linked(path, format, options); });
 }
 
 /// `name` is the file name in errors; its extension may tell the format.
@@ -47,7 +47,7 @@ py::object scene(const held_meshes& meshes, const std::vector<std::string>& name
     const auto files = list_of(meshes, [](const held_mesh* one) { return file_of(*one); });
     const auto members = list_of(files, [](const tf::mesh_file& one) { return &one; });
     return mesh_of(
-        run([&](const tf::progress_callback&) { return tf::scene_of(members, names, names); }));
+        run([&](const tf::progress_callback&) { return tools::scene_of(members, names); }));
 }
 
 /// The parts of a mesh by name. Those without a name are called "1", "2", ..., by their positions.
@@ -67,15 +67,18 @@ py::dict file_parts(const held_mesh& mesh, bool combine_patches) {
     return all;
 }
 
+/// `place` is the path, or "-" if its folder is not that of the output.
 py::object write(const std::filesystem::path& path, const held_mesh& mesh, bool certified,
-                 tf::write_options options) {
+                 tf::write_options options, const std::string& place) {
     options.progress = [report = report_of_job()](double done) {
         return done < 1.0 ? !report || report(done) : commit_job();
     };
     const tf::mesh_file file = file_of(mesh);
     return as_python(run([&](const tf::progress_callback&) {
-        return certified && !options.round ? tf::detail::io::write_certified(path, file, options)
-                                           : tf::write(path, file, options);
+        return tools::write_linked(place, file, [&](const tf::mesh_file& at) {
+            return certified && !options.round ? tf::detail::io::write_certified(path, at, options)
+                                               : tf::write(path, at, options);
+        });
     }));
 }
 

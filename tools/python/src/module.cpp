@@ -22,10 +22,8 @@ std::string in_python(std::string message) {
     const auto tells = [&](const char* of) { return message.find(of) != std::string::npos; };
     if (tells(" is not finite") && (tells("point ") || tells("corner ")))
         message += "; read(..., drop_non_finite=True) drops such points";
-    if (tells("precision float32, "))
-        message +=
-            "; or set round=True; for a - b: treeform.boolean(\"a-b\", a, b, "
-            "precision=\"float32\")";
+    if (const auto at = message.find("precision float32, "); at != std::string::npos)
+        message.replace(at, 17, "precision=\"float32\"") += "; or set round=True";
     return message;
 }
 

@@ -28,6 +28,7 @@ Enum choice(const char* argument, const words<N>& all, std::string_view word) {
         if (word == all[i]) return static_cast<Enum>(i);
         there += (i == 0 ? "" : ", ") + std::string(all[i]);
     }
+    if (there.ends_with("highest")) there += " (the last two with keep_by=)";
     throw std::invalid_argument(std::string(argument) + ": expected one of " + there + ", not '" +
                                 std::string(word) + "'");
 }

@@ -305,7 +305,7 @@ class PoseClashes(Result):
 
     pose: (n,) the number of the pose, ascending.
     parts: (n, 2) the two parts, the lower number first.
-    distance: (n,) for parts that are closer than the clearance; else 0.
+    distance: (n,) for parts that are closer than the clearance; 0 if they touch or penetrate.
     in_collision: (P,) whether, in each pose, a pair penetrates or is too close; with a clearance,
         also whether a pair touches.
     clashing: Number of poses in collision.
@@ -324,7 +324,9 @@ def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0,
                 first_only: bool = False, vertices: str = "by_coordinates", ignored: PartPairs = (),
                 progress: Progress = None) -> PoseClashes:
     """The clashes in each of many poses. All pairs are tested, also of parts that do not move: if
-    such a pair meets, every pose is in collision, unless `ignored` has it.
+    such a pair meets, every pose is in collision, unless `ignored` has it. `in_collision` includes
+    pairs that are too close; `distance` is that of pairs closer than the clearance, 0 if they touch
+    or penetrate.
 
     Exact, like `clash` and `measure`, for the moved corners, rounded to double. Two parts are only
     copied and indexed again for a pose if they touch, if a corner of one is so near the surface of

@@ -108,7 +108,9 @@ def union(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str = "flo
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
         between two regions. Uncut faces are not changed.
-    merge_coplanar: Merge all coplanar faces of the result, also those not cut.
+    merge_coplanar: merge all coplanar faces of the result, also those not cut; but never faces with
+        different materials or values, nor those whose corners differ in texture coordinates or
+        normals.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
         are dropped, and small voids are filled, with all that is in them. A part is connected by
@@ -155,7 +157,9 @@ def intersection(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
         between two regions. Uncut faces are not changed.
-    merge_coplanar: Merge all coplanar faces of the result, also those not cut.
+    merge_coplanar: merge all coplanar faces of the result, also those not cut; but never faces with
+        different materials or values, nor those whose corners differ in texture coordinates or
+        normals.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
         are dropped, and small voids are filled, with all that is in them. A part is connected by
@@ -199,7 +203,9 @@ def difference(*meshes: MeshesLike, fill_rule: str = "nonzero", precision: str =
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
         between two regions. Uncut faces are not changed.
-    merge_coplanar: Merge all coplanar faces of the result, also those not cut.
+    merge_coplanar: merge all coplanar faces of the result, also those not cut; but never faces with
+        different materials or values, nor those whose corners differ in texture coordinates or
+        normals.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
         are dropped, and small voids are filled, with all that is in them. A part is connected by
@@ -243,7 +249,9 @@ def symmetric_difference(*meshes: MeshesLike, fill_rule: str = "nonzero",
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
         between two regions. Uncut faces are not changed.
-    merge_coplanar: Merge all coplanar faces of the result, also those not cut.
+    merge_coplanar: merge all coplanar faces of the result, also those not cut; but never faces with
+        different materials or values, nor those whose corners differ in texture coordinates or
+        normals.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
         are dropped, and small voids are filled, with all that is in them. A part is connected by
@@ -302,7 +310,9 @@ def boolean(expression: str, *operands: MeshesLike, fill_rule: str = "nonzero",
     keep_cuts: Do not merge coplanar faces that were cut, or that overlap. By default they are
         merged before rounding, which removes vertices inside a flat region and on straight edges
         between two regions. Uncut faces are not changed.
-    merge_coplanar: Merge all coplanar faces of the result, also those not cut.
+    merge_coplanar: merge all coplanar faces of the result, also those not cut; but never faces with
+        different materials or values, nor those whose corners differ in texture coordinates or
+        normals.
     volumes: compute the volumes of the two operands, of their union and of their intersection.
     min_volume: Parts of the result with a smaller volume, in cubic units, are removed: small solids
         are dropped, and small voids are filled, with all that is in them. A part is connected by

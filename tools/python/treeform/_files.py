@@ -14,7 +14,7 @@ from warnings import warn
 from . import _arrays, _core
 from ._arrays import path_of
 from ._errors import FileError, file_error, options
-from ._mesh import Mesh, MeshLike, as_mesh, held, listed
+from ._mesh import Body, Mesh, MeshLike, as_mesh, held, listed
 from ._progress import Progress
 from ._results import Result
 
@@ -34,7 +34,7 @@ def read_from(path: Path | IO[bytes], format: str, join: bool, how: _core.ReadOp
     else:
         made = _core.read_bytes(_content(path), name := _name_of(path), format, join, how,
                                 progress=progress)
-    for _, text in made.attributes.warnings if made.attributes else ():
+    for _, text in made.attributes.warnings:
         warn(f"{name}: {text}", stacklevel=3)
     return made
 
@@ -55,8 +55,8 @@ def _name_of(file: Any) -> str:
     return name if isinstance(name, str) and name else "bytes"
 
 
-#: What `write` takes: a mesh, several meshes as parts, or a dict of parts by name.
-PartsLike = Union[MeshLike, Iterable[MeshLike], Mapping[str, MeshLike]]
+#: What `write` takes: a mesh or cloud, several meshes as parts, or a dict of parts by name.
+PartsLike = Union[Body, Iterable[MeshLike], Mapping[str, MeshLike]]
 
 
 def written(path: Path | IO[bytes], mesh: PartsLike, format: str, how: _core.WriteOptions,
@@ -64,7 +64,7 @@ def written(path: Path | IO[bytes], mesh: PartsLike, format: str, how: _core.Wri
     """Writes to a path or a file object."""
     put = partial(_write, mesh, how, progress)
     if isinstance(path, (str, os.PathLike)):
-        return put(path_of(path))
+        return put(path_of(path), path_of(path))
     if not hasattr(path, "write"):
         raise ValueError(f"path: expected a path or a file, not {path!r}")
     name = _name_of(path)
@@ -73,7 +73,7 @@ def written(path: Path | IO[bytes], mesh: PartsLike, format: str, how: _core.Wri
     with tempfile.TemporaryDirectory() as folder:
         beside = os.path.join(folder, os.path.basename(name))
         try:
-            written = put(beside)
+            written = put(beside, name)
         except FileError as error:
             raise file_error(str(error).replace(beside, name), error.errno or 0, name) from None
         with open(beside, "rb") as whole:
@@ -81,17 +81,20 @@ def written(path: Path | IO[bytes], mesh: PartsLike, format: str, how: _core.Wri
     return written
 
 
-def _write(mesh: PartsLike, how: _core.WriteOptions, progress: Progress, path: str) -> Written:
+def _write(mesh: Any, how: _core.WriteOptions, progress: Progress, path: str, name: str) -> Written:
     parts = mesh if isinstance(mesh, Mapping) else listed(mesh)
     if parts is None:
-        made = as_mesh(mesh)
+        made = Mesh(mesh) if hasattr(mesh, "dtype") else as_mesh(mesh)
         certified = bool(made._certificate)
     else:
         made, certified = _scene_of(parts if isinstance(parts, Mapping) else {
             str(number): part for number, part in enumerate(parts, 1)})
-    written = _core.write(path, made._held, certified, how, progress=progress)
+    written = _core.write(path, made._held, certified, how, path if name == path else "-",
+                          progress=progress)
     if parts is not None and not written.format.startswith(("3mf", "obj")):
         written.warnings.append(f"parts were merged: {written.format} cannot store parts")
+    for text in written.warnings:
+        warn(f"{name}: {text}", stacklevel=4)
     return written
 
 
@@ -277,10 +280,14 @@ def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: b
 
     An empty mesh can be written in every mesh format, and read again.
 
+    Names of material and texture files are relative to the folder of `path`; in a file object, as
+    in the input. Each of `Written.warnings` is also a warning of Python (`warnings.warn`).
+
     path: the path of the file, or a binary file object, such as BytesIO, with `format`.
-    mesh: a mesh; or several meshes, which become parts of the file, named "1", "2", ...; or a dict
-        of names and meshes. 3MF and OBJ can store parts; in other formats they become one mesh,
-        with a warning. With several meshes, columns of vertices and faces are not written.
+    mesh: a mesh, or a cloud (n, 3); or several meshes, which become parts of the file, named "1",
+        "2", ...; or a dict of names and meshes. 3MF and OBJ can store parts; in other formats they
+        become one mesh, with a warning. With several meshes, columns of vertices and faces are not
+        written.
     format: Extension without its dot: stl, obj, ply, off, xyz, csv, pcd, las, laz, glb, 3mf. Empty:
         the extension of the path.
     ascii: Write text if the format has text and binary. Binary PLY is little endian, unless the

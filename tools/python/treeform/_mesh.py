@@ -106,9 +106,8 @@ class Mesh:
     def __init__(self, vertices: ArrayLike, faces: ArrayLike = (),
                  attributes: Attributes | None = None) -> None:
         if attributes is not None:
-            attributes = copy(_arrays.expect(
-                isinstance(attributes, Attributes), attributes, "attributes",
-                "Attributes (a = treeform.Attributes(); a.vertex['q'] = values)"))
+            attributes = copy(_arrays.expect(isinstance(attributes, Attributes), attributes,
+                "attributes", "Attributes (mesh.attributes.vertex['q'] = values)"))
         self._formula: _Formula | None = None
         self._set(_arrays.points(vertices), _arrays.faces(faces), attributes, None)
 
@@ -151,9 +150,11 @@ class Mesh:
         return _read_only(self._ready()._faces)
 
     @property
-    def attributes(self) -> Attributes | None:
-        """The other data of the file that it was read from, or None."""
-        return self._ready()._attributes
+    def attributes(self) -> Attributes:
+        """The other data of the file that it was read from; without a file, empty columns."""
+        mesh = self._ready()
+        mesh._attributes = mesh._held.data = mesh._attributes or Attributes()
+        return mesh._attributes
 
     @property
     def certificate(self) -> Certificate | None:
@@ -291,6 +292,8 @@ def cloud_of(body: Any) -> Floats | None:
     mesh."""
     if isinstance(body, np.ndarray) or isinstance(body,
                                                   (list, tuple)) and not _arrays.is_pair(body):
+        first = body[0] if isinstance(body, (list, tuple)) and body else None
+        _arrays.expect(not hasattr(first, "faces"), body, "mesh", "one mesh or cloud")
         return _arrays.points(body, "points")
     if any(hasattr(body, name) for name in ("mesh", "faces", "triangles", "cells_dict", "triangle",
                                           "GetPolys")):

@@ -43,7 +43,9 @@ def extent_of(size: ArrayLike) -> Floats:
 #   lay_flat Alignment align PackedPart Packing pack measure Depth penetration_depth Impact
 #   time_of_impact
 class Contacts(NamedTuple):
-    """Pairs of faces that touch in the final position, or are at the clearance.
+    """Pairs of faces that touch in the final position, or are at the clearance. On the bed, only
+    the lowest point is listed, once. A tuple of arrays: the number of contacts is
+    `len(contacts.point)`.
 
     point: (n, 3) a common point of each pair, rounded.
     normal: (n, 3) of length 1, from the fixed to the moving mesh; 0 if there is none.

@@ -175,7 +175,8 @@ class transformed {
     /// \throws std::invalid_argument if an entry of `by` is NaN or infinite
     transformed(const Tree& tree, const transform<D>& by) : tree_(&tree), by_(by) {
         if (!by.finite())
-            throw std::invalid_argument("treeform::transformed: an entry of the map is not finite");
+            throw std::invalid_argument(
+                "treeform::transformed: an entry of the transform is not finite");
     }
     /// The tree without a transform.
     transformed(const Tree& tree) : tree_(&tree) {}  // NOLINT: meant to be implicit

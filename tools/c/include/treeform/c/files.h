@@ -19,7 +19,8 @@ typedef struct treeform_named_column {
 //   file_set_points() file_set_column() file_set_texture() file_add_part()
 /// Reads the file at `path`, UTF-8; "-" is standard input. `format` is an extension without its
 /// dot ("stl", "ply", ...), or null: detected by content, then by extension. Coordinates are as
-/// stored.
+/// stored. Names of material and texture files get the folder, "/models/./a.mtl". Writing makes
+/// them relative to the folder of the output.
 TREEFORM_C_API treeform_code treeform_read(const char* path, const char* format,
                                            treeform_file** file);
 

@@ -141,7 +141,8 @@ TREEFORM_C_API treeform_code treeform_intersects(const treeform_mesh* a, const t
                                                  const double* transform_b, int32_t* result);
 
 /// The same for many positions, in parallel: `transforms_a` and `transforms_b` are [count][12], or
-/// null if the mesh is not moved; `meet` is [count].
+/// null if the mesh is not moved; `meet` is [count]. Surfaces count; for solids,
+/// `treeform_check_poses`.
 TREEFORM_C_API treeform_code treeform_intersects_poses(const treeform_mesh* a,
                                                        const treeform_mesh* b,
                                                        const double* transforms_a,

@@ -44,7 +44,8 @@ TREEFORM_C_API treeform_code treeform_distance(const treeform_mesh* a, const tre
                                                double* result);
 
 /// The same for many positions, in parallel: `transforms_a` and `transforms_b` are [count][12], or
-/// null if the mesh is not moved; `distances` [count] are infinite beyond `radius`.
+/// null if the mesh is not moved; `distances` [count] are infinite beyond `radius`. Surfaces
+/// count; for solids, `treeform_check_poses`.
 TREEFORM_C_API treeform_code treeform_distance_poses(const treeform_mesh* a, const treeform_mesh* b,
                                                      const double* transforms_a,
                                                      const double* transforms_b, size_t count,

@@ -256,7 +256,7 @@ typedef struct treeform_face_relations {
 // made of the headers of C++:
 //   moved() write_placement() find_face_relations() face_contact impact impact_options
 //   time_of_impact() time_to_distance()
-/// The mesh that was placed, with the points of the placement.
+/// The mesh that was placed, with the points of the placement. A copy of points and faces.
 TREEFORM_C_API treeform_code treeform_moved(const treeform_placement* placement,
                                             const treeform_mesh* moving, treeform_mesh** mesh);
 

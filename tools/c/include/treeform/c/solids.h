@@ -2,7 +2,8 @@
 /// \file
 /// Solids: set operations, resolved self-intersections, repair.
 ///
-/// These functions return `TREEFORM_OK` if the certificate of the result is ok. Otherwise they
+/// These functions return `TREEFORM_OK` if the certificate of the result is ok; with
+/// `treeform_repair_options::sheet`, also if its status is `TREEFORM_STATUS_SHEET`. Otherwise they
 /// return `TREEFORM_NOT_CERTIFIED`, also with a result, which must be freed.
 
 #include <treeform/c/files.h>
