@@ -1,3 +1,4 @@
+#include "tools/bindings/linked_files.hpp"
 #include "tools/shell/run.hpp"
 #include "tools/shell/sha256.hpp"
 #include <treeform/mesh/read.hpp>
@@ -22,38 +23,6 @@ namespace tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Without links; none where it cannot be found out.
-std::optional<fs::path> known_folder_of(const fs::path& file) {
-    std::error_code error;
-    const fs::path whole = fs::absolute(file, error);
-    if (error) return std::nullopt;
-    fs::path folder = fs::weakly_canonical(whole.parent_path(), error);
-    return error ? std::nullopt : std::optional(std::move(folder));
-}
-
-/// Also of another system: a name with a drive or a host, as "C:/a.mtl".
-bool is_absolute(std::string_view name) {
-    const bool has_drive = name.size() > 2 && name[1] == ':' && (name[2] == '/' || name[2] == '\\');
-    return has_drive || name.starts_with("\\\\") || fs::path(name).is_absolute();
-}
-
-/// `names`, which `input` gives relative to its folder, relative to that of `output`. As given
-/// where both have one folder, where a name is absolute, or where one of them is a standard stream,
-/// "-".
-std::vector<std::string> seen_from_output(std::vector<std::string> names, const fs::path& input,
-                                          const fs::path& output) {
-    if (names.empty() || input == "-" || output == "-") return names;
-    const auto from = known_folder_of(input);
-    const auto to = known_folder_of(output);
-    if (!from || !to || *from == *to) return names;
-    for (std::string& name : names) {
-        if (is_absolute(name)) continue;
-        const fs::path there = (*from / name).lexically_normal().lexically_relative(*to);
-        if (!there.empty()) name = there.generic_string();
-    }
-    return names;
-}
 
 double now() {
     using clock = std::chrono::steady_clock;
@@ -163,9 +132,8 @@ tf::mesh_file job::read(const std::string& input, json& about) {
     has_faces_ = has_faces_ || file.stored_faces > 0;
     size_ += has_faces_ ? file.stored_faces : file.mesh.points.size();
     if (const auto output = mesh_output(options, input)) {
-        tf::attributes& all = file.attributes;
-        for (auto* names : {&all.material_files, &all.texture_files})
-            *names = seen_from_output(std::move(*names), input, *output);
+        keep_folder(file.attributes, input);
+        link_from(*output, file.attributes);
     }
     compare_units(input, file);
     about["format"] = file.format;
