@@ -177,7 +177,10 @@ RESULTS = [
                "is_kept", "NDArray[np.bool_]", "(faces of the input,) whether a part of each face "
                                                "is left, "
                "also if it was merged with others.",
-               'as_python(std::move(from.is_kept)).attr("view")("bool")')]}),
+               'as_python(std::move(from.is_kept)).attr("view")("bool")')],
+               "+": [Attribute("message", "str", "What was changed, such as '40 faces flipped, 2 "
+                               "holes filled (9 edges)'; empty if nothing was.",
+                               "py::cast(from.statistics.message())")]}),
     Result("convex_hull_result", "ConvexHull", "_repair", context="cloud",
            doc="The convex hull of points: triangles, grouped by flat sides.",
            docs={"faces": "(F, 3) triangles, by point numbers, outward."},

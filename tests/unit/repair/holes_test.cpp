@@ -220,6 +220,7 @@ TEST_CASE("repair: a shell within another that faces outward, too, is counted, a
     REQUIRE(made.certificate);
     CHECK(tf::signed_volume(made.mesh) == 8000.0);
     CHECK(made.statistics.dropped_shells == 1);
+    CHECK(made.statistics.message() == "1 shell within another dropped, 12 faces removed");
     CHECK(made.statistics.vanished_components == 0);
     const tf::repair_result hollow = tf::repair(nested, {.fill_rule = tf::fill_rule::even_odd});
     REQUIRE(hollow.certificate);
