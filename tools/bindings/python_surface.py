@@ -78,7 +78,7 @@ RESULTS = [
                              "edges.", "ends_of(from.open_edges)")],
                "open_faces": [
                    column("open_faces", "Ids", "(n, 2) the operand and its face at each of these "
-                                               "edges.",
+                                               "edges; 2**32 - 1 for the only operand.",
                           "open_faces", "std::array{one.operand, one.index}")],
                "+": [MESSAGE]},
            docs={"boundary_edges": "Number of open edges with an odd number of faces.",

@@ -211,6 +211,11 @@ TEST_CASE("repair: what ends in a plane and goes through it, or lies in it, stay
     const tf::repair_result made = tf::repair(wave);
     CHECK(made.certificate.status == tf::status::open_input);
     CHECK(made.statistics.unfilled_rims == 1);
+    for (const tf::certificate& known :
+         {made.certificate, tf::resolve_self_intersections(wave).certificate}) {
+        CHECK(known.open_faces.at(0).operand == tf::operand_element::none);
+        CHECK(known.message().ends_with(" at face " + std::to_string(known.open_faces[0].index)));
+    }
 }
 
 TEST_CASE("repair: a shell within another that faces outward, too, is counted, and odd keeps it") {

@@ -96,7 +96,9 @@ struct TREEFORM_API certificate {
     std::uint64_t open_count = 0;
     /// Ends of the open part of each edge; rounded if the edge is cut.
     std::vector<std::array<point3, 2>> open_edges{};
-    std::vector<operand_element> open_faces{};  ///< one face at each edge in `open_edges`
+    /// One face at each edge in `open_edges`. Functions of one mesh, such as `repair`, name no
+    /// operand.
+    std::vector<operand_element> open_faces{};
     /// The open edges counted in the operands, after joining equal coordinates: `boundary_edges`
     /// have an odd number of faces (the surface ends there), `misoriented_edges` an even number of
     /// inconsistently oriented faces. Both are 0 if a vertex lies inside such an edge, since edges
