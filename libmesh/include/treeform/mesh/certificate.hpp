@@ -124,10 +124,12 @@ struct TREEFORM_API certificate {
 };
 
 /// Thrown by `value()` of a result without a certificate of status ok. `what()` is the
-/// certificate's message.
+/// certificate's message; for a `placed_mesh`, that of the placement.
 class TREEFORM_API not_certified_error : public std::runtime_error {
   public:
     explicit not_certified_error(certificate why);
+    /// `what()` is `message`, unless that is empty.
+    not_certified_error(certificate why, const std::string& message);
     [[nodiscard]] const certificate& why() const { return why_; }
 
   private:
