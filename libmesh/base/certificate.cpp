@@ -107,4 +107,7 @@ std::string certificate::message() const {
 not_certified_error::not_certified_error(certificate why)
     : std::runtime_error(why.message()), why_(std::move(why)) {}
 
+not_certified_error::not_certified_error(certificate why, const std::string& message)
+    : std::runtime_error(message.empty() ? why.message() : message), why_(std::move(why)) {}
+
 }  // namespace treeform

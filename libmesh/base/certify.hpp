@@ -18,6 +18,11 @@ inline void describe(certificate& known, mesh_view mesh, precision of) {
             known.meeting_at.push_back(mesh.points[mesh.faces[f][0]]);
 }
 
+/// For functions of one mesh: open faces without an operand.
+inline void name_no_operand(certificate& known) {
+    for (operand_element& face : known.open_faces) face.operand = operand_element::none;
+}
+
 /// Sets the status `not_certified` for pairs of faces that meet, and lists the first 100.
 template <class Pairs>
 void refuse_meeting(certificate& known, const Pairs& pairs, mesh_view mesh) {

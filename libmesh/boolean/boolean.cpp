@@ -382,6 +382,7 @@ resolved_operand resolved(mesh_view mesh, const Make& make) {
     resolved_operand result;
     result.is_kept.assign(mesh.faces.size(), 0);
     result.made = make(&result.is_kept);
+    detail::base::name_no_operand(result.made.certificate);
     for (const operand_element& e : result.made.face_source) result.is_kept[e.index] = 1;
     return result;
 }
@@ -480,7 +481,7 @@ certificate detail::boolean::check_operand(const char* called, mesh_view mesh,
     const auto open = open_input(join_operands({&mesh, 1}));
     if (progress && !progress(1.0)) return {.status = status::cancelled};
     certificate found = open.value_or(certificate{});
-    for (operand_element& face : found.open_faces) face.operand = operand_element::none;
+    base::name_no_operand(found);
     return found;
 }
 

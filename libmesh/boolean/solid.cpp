@@ -49,11 +49,8 @@ solid::solid(treeform::mesh&& owned)
 solid::solid(usable_mesh&& owned) : solid(std::move(owned.mesh)) {}
 
 solid::solid(std::shared_ptr<const prepared_mesh> shared) {
-    if (certificate found = detail::boolean::check_operand("solid", shared->indexed_view());
-        !found) {
-        for (operand_element& face : found.open_faces) face.operand = operand_element::none;
+    if (certificate found = detail::boolean::check_operand("solid", shared->indexed_view()); !found)
         throw not_certified_error(std::move(found));
-    }
     auto made = std::make_shared<formula>();
     made->leaf = std::move(shared);
     formula_ = std::move(made);

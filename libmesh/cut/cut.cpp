@@ -1,3 +1,4 @@
+#include <libmesh/base/certify.hpp>
 #include <libmesh/base/work_progress.hpp>
 #include <libmesh/boolean/split_nonmanifold.hpp>
 #include <libmesh/cut/plane_levels.hpp>
@@ -96,6 +97,7 @@ cut_piece sound_whole(const mesh_ref& mesh, const cut_options& options, progress
     cut_piece whole;
     whole.mesh = std::move(made.mesh);
     whole.certificate = std::move(made.certificate);
+    detail::base::name_no_operand(whole.certificate);
     for (const operand_element& f : made.face_source) whole.face_source.push_back(f.index);
     for (const operand_element& v : made.vertex_source) whole.vertex_source.push_back(v.index);
     return whole;

@@ -29,17 +29,19 @@ std::string fault_of(mesh_view mesh, std::uint32_t f, bool need_area) {
 void check_pairs(const char* function, mesh_view mesh, std::span<const face_pair> pairs,
                  bool need_area) {
     constexpr std::size_t grain = std::size_t{1} << 7;
+    const auto fault = [&](const face_pair& pair, std::uint32_t f) {
+        return fault_of(mesh, f, need_area && pair.kind != pair_kind::degenerate);
+    };
     const auto is_bad = [&](std::size_t i) {
-        return !fault_of(mesh, pairs[i].a, need_area).empty() ||
-               !fault_of(mesh, pairs[i].b, need_area).empty();
+        return !fault(pairs[i], pairs[i].a).empty() || !fault(pairs[i], pairs[i].b).empty();
     };
     const std::size_t bad = base::first_bad(pairs.size(), is_bad, grain);
     for (std::size_t i = bad; i < std::min(bad + 1, pairs.size()); ++i)
         for (const std::uint32_t f : {pairs[i].a, pairs[i].b})
-            if (const std::string fault = fault_of(mesh, f, need_area); !fault.empty())
+            if (const std::string why = fault(pairs[i], f); !why.empty())
                 throw std::invalid_argument("treeform::" + std::string(function) + ": pair " +
                                             std::to_string(i) + " has face " + std::to_string(f) +
-                                            ", " + fault);
+                                            ", " + why);
 }
 
 }  // namespace treeform::detail::intersect

@@ -58,6 +58,10 @@ mesh_meetings meetings_of(mesh_view mesh, std::span<const face_pair> pairs) {
                [&](std::size_t begin, std::size_t end, std::size_t chunk) {
                    for (std::size_t i = begin; i < end; ++i) {
                        const auto [a, b, kind] = pairs[i];
+                       if (kind == pair_kind::degenerate) {
+                           result.meetings[i] = {a, b, false, 0, {}};
+                           continue;
+                       }
                        const triangle_contact common =
                            treeform::intersect(triangle_of(mesh, a), triangle_of(mesh, b));
                        meeting& m = result.meetings[i];

@@ -59,8 +59,9 @@ struct mesh_meetings {
     std::vector<implicit_point> points;  ///< point of each name
 };
 
-/// Computes the intersection of each pair, and names its points.
-/// \pre the faces of `pairs` are not degenerate
+/// Computes the intersection of each pair, and names its points. Pairs of kind `degenerate` get no
+/// points.
+/// \pre the faces of all other pairs are not degenerate
 [[nodiscard]] mesh_meetings meetings_of(mesh_view mesh, std::span<const face_pair> pairs);
 
 /// A box around the intersection of two faces. \pre they meet, and are not degenerate

@@ -1,3 +1,4 @@
+#include <libmesh/base/certify.hpp>
 #include <libmesh/base/check_faces.hpp>
 #include <libmesh/base/nearest_float.hpp>
 #include <libmesh/base/point_math.hpp>
@@ -163,8 +164,11 @@ offset_result surface_at(mesh_view given, double distance, wanted_side side, boo
 
 /// The solid that a mesh winds around, once.
 boolean_result solid_of(const mesh_ref& given, const request& asked) {
-    return boolean(given, "a",
-                   {.precision = asked.options.precision, .progress = asked.progress.part(0, 0.2)});
+    boolean_result made =
+        boolean(given, "a",
+                {.precision = asked.options.precision, .progress = asked.progress.part(0, 0.2)});
+    detail::base::name_no_operand(made.certificate);
+    return made;
 }
 
 }  // namespace

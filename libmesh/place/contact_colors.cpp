@@ -167,4 +167,9 @@ void deviation_result::color(mesh_file& file, std::span<const double> distances,
     rows.set(column::of<double>("distance", distances));
 }
 
+void deviation_result::color(mesh_file& file) const {
+    const double scale = p99 > 0.0 ? p99 : max;
+    color(file, distances, -scale, scale);
+}
+
 }  // namespace treeform

@@ -181,17 +181,17 @@ void mark_contacts(mesh_view placed, std::span<const prepared_mesh> fixed, const
 }  // namespace
 
 const mesh& placed_mesh::value() const& {
-    if (!certificate) throw not_certified_error(certificate);
+    if (!certificate) throw not_certified_error(certificate, reason);
     return mesh;
 }
 
 mesh placed_mesh::value() && {
-    if (!certificate) throw not_certified_error(std::move(certificate));
+    if (!certificate) throw not_certified_error(std::move(certificate), reason);
     return std::move(mesh);
 }
 
 placed_mesh placement::moved(const mesh_ref& placed) const {
-    placed_mesh made{.certificate = certificate};
+    placed_mesh made{.certificate = certificate, .reason = message()};
     if (!certificate) return made;
     if (placed.view().points.size() != points.size())
         throw std::invalid_argument(

@@ -248,7 +248,7 @@ class repairer {
         for (const auto& e : detail::repair::border_edges(mesh_.points.size(), mesh_.faces)) {
             if (known.open_edges.size() == listed_edges) break;
             known.open_edges.push_back({mesh_.points[e.from], mesh_.points[e.to]});
-            known.open_faces.push_back({0, mesh_.source[e.face]});
+            known.open_faces.push_back({operand_element::none, mesh_.source[e.face]});
         }
         result_.statistics = did_;
         return std::move(result_);

@@ -30,6 +30,8 @@ resolved_mesh from(detail::boolean::resolved_operand&& resolved) {
     for (const operand_element& e : made.face_source) result.face_source.push_back(e.index);
     for (const operand_element& e : made.vertex_source) result.vertex_source.push_back(e.index);
     result.certificate = std::move(made.certificate);
+    result.statistics.pairs = made.statistics.pairs;
+    result.statistics.resolved = made.statistics.pairs > 0;
     result.statistics.covered = made.statistics.covered;
     result.statistics.exact_faces = made.statistics.exact_faces;
     result.statistics.split_vertices = made.statistics.split_vertices;

@@ -27,7 +27,13 @@ static void test_of_one(void) {
     OK(treeform_write_curves(path_in_work("curves.obj"), mesh, pairs->pairs, pairs->count, NULL));
     ENDS(TREEFORM_FILE, "",
          treeform_write_curves(path_in_work("curves.xyz"), mesh, pairs->pairs, 1, NULL));
+    treeform_free(paths);
     memset(&wrong, 0, sizeof wrong);
+    wrong.b = 1;
+    wrong.kind = TREEFORM_DEGENERATE;
+    OK(treeform_intersection_paths(mesh, &wrong, 1, &paths));
+    CHECK(paths->path_count == 0);
+    wrong.kind = TREEFORM_CROSSING;
     wrong.b = 640;
     treeform_free(segments);
     INVALID("pair 0", treeform_intersection_curves(mesh, &wrong, 1, &segments));

@@ -214,6 +214,8 @@ static void test_repair(void) {
     OK(treeform_repair(mesh, NULL, &result));
     CHECK(result->mesh.face_count == 1280 && result->statistics->flipped == 40);
     CHECK(result->statistics->holes == 2 && result->file == NULL && result->vertex_source);
+    CHECK(is(result->statistics->message,
+             "40 faces flipped, 1 stray face dropped, 2 holes filled (9 edges)"));
     treeform_free(result);
     treeform_repair_options_init(&options, sizeof options);
     options.as_one = 1;

@@ -131,6 +131,7 @@ def test_pairs_of_another_mesh_are_refused():
     found = tf.FacePairs(np.array([[0, 1]], np.uint32), np.array([0], np.uint8), {})
     with pytest.raises(ValueError, match="face 0, which has no area"):
         tf.intersection_curves(flat, found)
+    assert tf.intersection_curves(flat, tf.self_intersections(flat)) == []
     with pytest.raises(ValueError, match="kinds: 9 at 0"):
         tf.intersection_curves(SPHERES, tf.FacePairs(found.pairs, found.kinds + 9, {}))
 

@@ -175,6 +175,8 @@ def test_what_is_not_finite_or_no_face_is_a_defect():
 
 def test_help_has_the_keys_of_steps_and_what_is_raised():
     made = tf.repair(tf.read("data/dirty.stl"))
+    assert made.message == "40 faces flipped, 1 stray face dropped, 2 holes filled (9 edges)"
+    assert tf.repair(made).message == ""
     for key in made.statistics:
         assert f"'{key}'" in tf.RepairResult.__doc__
     assert "Mesh.volume" in tf.RepairResult.__doc__

@@ -81,7 +81,8 @@ BOUND = [
     Bound("boolean_result", counts={"vanished_at": "vanished_listed"}),
     Bound("resolve_options"),
     Bound("repair_options"),
-    Bound("repair_statistics", kind="part"),
+    Bound("repair_statistics", kind="part", custom={"+": [Member(
+        MESSAGE.decl, "what was changed, in words; empty if nothing was", MESSAGE.fill)]}),
     Bound("repair_result", custom={"+": [FILE]}),
     Bound("repaired_file", "repair_result", leave="file parts"),
     Bound("solid_defects", custom={"+": [

@@ -78,7 +78,7 @@ RESULTS = [
                              "edges.", "ends_of(from.open_edges)")],
                "open_faces": [
                    column("open_faces", "Ids", "(n, 2) the operand and its face at each of these "
-                                               "edges.",
+                                               "edges; 2**32 - 1 for the only operand.",
                           "open_faces", "std::array{one.operand, one.index}")],
                "+": [MESSAGE]},
            docs={"boundary_edges": "Number of open edges with an odd number of faces.",
@@ -177,7 +177,10 @@ RESULTS = [
                "is_kept", "NDArray[np.bool_]", "(faces of the input,) whether a part of each face "
                                                "is left, "
                "also if it was merged with others.",
-               'as_python(std::move(from.is_kept)).attr("view")("bool")')]}),
+               'as_python(std::move(from.is_kept)).attr("view")("bool")')],
+               "+": [Attribute("message", "str", "What was changed, such as '40 faces flipped, 2 "
+                               "holes filled (9 edges)'; empty if nothing was.",
+                               "py::cast(from.statistics.message())")]}),
     Result("convex_hull_result", "ConvexHull", "_repair", context="cloud",
            doc="The convex hull of points: triangles, grouped by flat sides.",
            docs={"faces": "(F, 3) triangles, by point numbers, outward."},

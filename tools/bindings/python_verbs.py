@@ -337,8 +337,9 @@ FUNCTIONS = [
              cpp="intersection_paths",
              doc="The curves along which pairs of faces intersect, each (n, 3); a closed curve "
                  "repeats its first point at the end. Segments are found exactly; their points "
-                 "are rounded to nearest. A segment common to several pairs appears only once.",
-             docs={"found": "pairs of faces of `mesh`; the faces must not be degenerate."}),
+                 "are rounded to nearest. A segment common to several pairs appears only once. "
+                 "Degenerate pairs have no curve.",
+             docs={"found": "pairs of faces of `mesh`."}),
     Function("self_intersections_of_file(path: Path, options: file_search_options, "
              "communicator: Communicator = None) -> FilePairs",
              body="in_communicator(communicator, lambda all: _core.self_intersections_of_file(\n"

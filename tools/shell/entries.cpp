@@ -93,28 +93,7 @@ json steps_entry(const tf::repair_statistics& did, const tf::repair_options& ste
 }
 
 std::string repair_summary(const tf::repair_statistics& did) {
-    std::string text;
-    const auto add = [&](std::uint64_t n, const char* one, const char* several,
-                         const std::string& more = {}) {
-        if (n > 0) text += (text.empty() ? "" : ", ") + counted(n, one, several) + more;
-    };
-    if (did.tetrahedra > 0)
-        text += "boundary kept of " + counted(did.tetrahedra, "tetrahedron", "tetrahedra");
-    add(did.degenerate, "face without area dropped", "faces without area dropped");
-    add(did.repeated, "repeated face dropped", "repeated faces dropped");
-    add(did.closed_edges, "crack edge closed", "crack edges closed",
-        " (" + brief(did.widest_closed) + " wide at most)");
-    add(did.split_edges, "edge split at a vertex", "edges split at vertices");
-    add(did.flipped, "face flipped", "faces flipped");
-    add(did.turned_outward, "part turned outward", "parts turned outward");
-    add(did.strays, "stray face dropped", "stray faces dropped");
-    add(did.holes, "hole filled", "holes filled",
-        " (" + counted(did.hole_edges, "edge", "edges") + ")");
-    add(did.pairs, "pair cut", "pairs cut");
-    add(did.labeled_cells, "cell labeled inside or outside", "cells labeled inside or outside",
-        did.dropped_area > 0.0 ? " (area " + brief(did.dropped_area) + " dropped)" : "");
-    add(did.dropped_shells, "shell within another dropped", "shells within others dropped");
-    add(did.detached, "vertex moved apart", "vertices moved apart");
+    const std::string text = did.message();
     return text.empty() ? "nothing to repair" : text;
 }
 

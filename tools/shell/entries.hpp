@@ -43,7 +43,7 @@ using face_numbers = std::function<std::uint32_t(std::uint32_t)>;
 [[nodiscard]] json loss_entry(const tf::certificate& known);
 /// What each step has done; null of one that was left out.
 [[nodiscard]] json steps_entry(const tf::repair_statistics& did, const tf::repair_options& steps);
-/// "1 hole filled (3 edges), 2 pairs cut", or "nothing to mend".
+/// The message of the counts, or "nothing to repair".
 [[nodiscard]] std::string repair_summary(const tf::repair_statistics& did);
 /// Its message, with the face by its number in the file.
 [[nodiscard]] std::string message_of(tf::certificate known, const face_numbers& face_in_file);

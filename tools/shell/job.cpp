@@ -22,8 +22,6 @@
 namespace tools {
 namespace {
 
-namespace fs = std::filesystem;
-
 double now() {
     using clock = std::chrono::steady_clock;
     return std::chrono::duration<double>(clock::now().time_since_epoch()).count();

@@ -14,5 +14,7 @@ int main() {
     std::puts(made.certificate.message().c_str());
     const double volume = tf::signed_volume(made.value());  // throws unless it is certified
     std::printf("volume %.3f\n", volume);
+    const tf::operand_element source = made.face_source[0];  // operand 0 is a, 1 is b, ...
+    std::printf("face 0 is from face %u of operand %u\n", source.index, source.operand);
     return volume > 0 && volume < tf::signed_volume(c) && all > tf::signed_volume(b) ? 0 : 1;
 }

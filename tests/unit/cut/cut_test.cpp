@@ -213,6 +213,7 @@ TEST_CASE("what is open is refused, or cut without caps") {
     open.faces.pop_back();
     const tf::cut_result refused = tf::cut(open, {{0, 0, 0.5}, {0, 0, 1}});
     CHECK(refused.certificate.status == tf::status::open_input);
+    CHECK(refused.certificate.open_faces.at(0).operand == tf::operand_element::none);
     CHECK(refused.pieces.empty());
     for (const tf::mesh& mesh : {open, test::box(1, 1, 1)}) {
         const tf::cut_result made = tf::cut(mesh, {{0, 0, 0.5}, {0, 0, 1}}, {.caps = false});

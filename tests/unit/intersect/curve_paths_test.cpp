@@ -132,3 +132,19 @@ TEST_CASE("curve paths: no path ends where two segments meet, on any number of t
         CHECK(again.paths == network.paths);
     }
 }
+
+TEST_CASE("curve paths: faces without area have none, and change no others") {
+    tf::mesh mesh = test::together(test::box(2, 2, 2), test::moved(test::box(2, 2, 2), {1, 1, 1}));
+    const auto network = paths_of(mesh);
+    mesh.faces.insert(mesh.faces.end(), {{0, 0, 6}, {0, 14, 14}});
+    const auto found = tf::self_intersections(mesh);
+    REQUIRE(found.counts[tf::pair_kind::degenerate] > 0);
+    const auto again = tf::intersection_paths(mesh, found.pairs);
+    CHECK(again.points == network.points);
+    REQUIRE(again.paths.size() == network.paths.size());
+    for (std::size_t i = 0; i < again.paths.size(); ++i) {
+        CHECK(again.paths[i].points == network.paths[i].points);
+        for (const std::uint32_t pair : again.paths[i].pairs)
+            CHECK(found.pairs.at(pair).kind != tf::pair_kind::degenerate);
+    }
+}

@@ -86,6 +86,8 @@ TEST_CASE("curves: pairs that are none of the mesh are refused") {
     };
     CHECK(says(1, false).empty());
     CHECK(says(1, true) == "treeform::intersection_paths: pair 1 has face 1, which has no area");
+    const std::vector<tf::face_pair> flat{{0, 1, tf::pair_kind::degenerate}};
+    CHECK(tf::intersection_paths(mesh, flat).paths.empty());
     for (const bool paths : {false, true}) {
         CHECK(says(2, paths).ends_with("pair 1 has face 2, which has a corner that is not finite"));
         CHECK(

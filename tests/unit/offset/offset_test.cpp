@@ -206,8 +206,11 @@ TEST_CASE("what is nowhere so thick vanishes, and an open surface bounds no soli
     CHECK(tf::hollow(cube, 0.6).certificate.status == tf::status::vanished);
     tf::mesh open = cube;
     open.faces.pop_back();
-    for (const double d : {0.1, -0.1})
-        CHECK(tf::offset(open, d).certificate.status == tf::status::open_input);
+    for (const double d : {0.1, -0.1}) {
+        const tf::certificate known = tf::offset(open, d).certificate;
+        CHECK(known.status == tf::status::open_input);
+        CHECK(known.open_faces.at(0).operand == tf::operand_element::none);
+    }
     CHECK_THROWS_AS((void)tf::hollow(open, 0.1).value(), tf::not_certified_error);
 }
 

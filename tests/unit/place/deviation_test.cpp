@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -253,4 +254,24 @@ TEST_CASE("deviation: distances come back to the points of the file, with colors
     CHECK(red->number(back.size() - 1) == 128.0);
     CHECK_THROWS_AS(tf::deviation_result::color(file, distances, -1, 1), std::invalid_argument);
     CHECK_THROWS_AS(tf::deviation_result::color(file, back, 0.5, 1), std::invalid_argument);
+}
+
+TEST_CASE("deviation: a result colors its own distances, up to p99 both ways") {
+    const auto colors_of = [](const tf::deviation_result& found, double scale) {
+        tf::mesh_file own, given;
+        own.mesh = given.mesh = ball(3, 1);
+        found.color(own);
+        tf::deviation_result::color(given, found.distances, -scale, scale);
+        return std::pair{own.attributes, given.attributes};
+    };
+    tf::deviation_result found = found_for(ball(3, 1), box(1, 1, 1));
+    found.p99 = 0.5 * found.max;  // of a ball, nearly the same
+    const auto [own, given] = colors_of(found, found.p99);
+    CHECK(own == given);
+    found.p99 = 0.0;
+    const auto [flat, full] = colors_of(found, found.max);
+    CHECK(flat == full);
+    CHECK(flat != own);
+    tf::mesh_file other;
+    CHECK_THROWS_AS(found.color(other), std::invalid_argument);
 }

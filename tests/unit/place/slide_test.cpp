@@ -91,6 +91,9 @@ TEST_CASE("slide: what touches stays, what penetrates or is too near has no plac
     const auto in = tf::slide(moved(on, {0, 0, -0.5}), floor, down);
     CHECK(in.outcome == placement_outcome::starts_penetrating);
     CHECK(in.certificate.status == tf::status::no_placement);
+    CHECK(in.moved(on).mesh.points.empty());
+    CHECK_THROWS_WITH_AS((void)in.moved(on).value(), "penetrates a fixed mesh at the start",
+                         tf::not_certified_error);
     CHECK(tf::slide(moved(on, {0, 0, 0.25}), floor, down, {.clearance = 0.5}).outcome ==
           placement_outcome::starts_too_near);
     CHECK(tf::slide(on, tf::mesh{}, down).outcome == placement_outcome::nothing_met);

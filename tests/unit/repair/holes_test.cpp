@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <utility>
 
 namespace {
@@ -211,6 +212,11 @@ TEST_CASE("repair: what ends in a plane and goes through it, or lies in it, stay
     const tf::repair_result made = tf::repair(wave);
     CHECK(made.certificate.status == tf::status::open_input);
     CHECK(made.statistics.unfilled_rims == 1);
+    for (const tf::certificate& known :
+         {made.certificate, tf::resolve_self_intersections(wave).certificate}) {
+        CHECK(known.open_faces.at(0).operand == tf::operand_element::none);
+        CHECK(known.message().ends_with(" at face " + std::to_string(known.open_faces[0].index)));
+    }
 }
 
 TEST_CASE("repair: a shell within another that faces outward, too, is counted, and odd keeps it") {
@@ -220,6 +226,7 @@ TEST_CASE("repair: a shell within another that faces outward, too, is counted, a
     REQUIRE(made.certificate);
     CHECK(tf::signed_volume(made.mesh) == 8000.0);
     CHECK(made.statistics.dropped_shells == 1);
+    CHECK(made.statistics.message() == "1 shell within another dropped, 12 faces removed");
     CHECK(made.statistics.vanished_components == 0);
     const tf::repair_result hollow = tf::repair(nested, {.fill_rule = tf::fill_rule::even_odd});
     REQUIRE(hollow.certificate);

@@ -37,6 +37,7 @@ TEST_CASE("repair: a spike through the other side is removed and its holes are c
     CHECK(result.certificate);
     CHECK(result.statistics.removed > 0);
     CHECK(result.statistics.filled > 0);
+    CHECK(result.statistics.message() == "8 faces removed, 4 faces filled in");
     CHECK(tf::self_intersections(result.mesh).pairs.empty());
     const auto counts = tf::count_topology(result.mesh.points.size(), result.mesh.faces);
     CHECK(counts.closed_manifold);

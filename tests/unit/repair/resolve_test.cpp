@@ -119,6 +119,7 @@ TEST_CASE("repair: splitting keeps every face") {
         CHECK(area_of(result.mesh) == doctest::Approx(area_of(mesh)).epsilon(1e-12));
         CHECK(result.statistics.removed == 0);
         CHECK(result.statistics.filled == 0);
+        CHECK(result.statistics.message().ends_with(" pairs cut"));
     }
 }
 
@@ -212,7 +213,9 @@ TEST_CASE("repair: progress never goes back, and can stop it in any round") {
 TEST_CASE("repair: nothing to repair, nothing changed; on any number of threads") {
     const tf::mesh ball = test::ball(2, 1.0);
     for (const mode m : {mode::split, mode::outer, mode::remove}) {
-        CHECK(tf::resolve_self_intersections(ball, m).mesh == ball);
+        const auto same = tf::resolve_self_intersections(ball, m);
+        CHECK(same.mesh == ball);
+        CHECK(same.statistics.message().empty());
         CHECK(tf::resolve_self_intersections(tf::mesh{}, m).certificate);
         const auto all = tf::resolve_self_intersections(two_balls(), m);
         for (const unsigned threads : {1U, 2U, 8U}) {

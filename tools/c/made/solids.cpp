@@ -157,7 +157,7 @@ void treeform_repair_options_init(treeform_repair_options* options, size_t size)
     glue::init(options, size, to);
 }
 
-void glue::fill(keeper&, const tf::repair_statistics& from, treeform_repair_statistics& to) {
+void glue::fill(keeper& kept, const tf::repair_statistics& from, treeform_repair_statistics& to) {
     to.tetrahedra = from.tetrahedra;
     to.degenerate = from.degenerate;
     to.repeated = from.repeated;
@@ -192,6 +192,7 @@ void glue::fill(keeper&, const tf::repair_statistics& from, treeform_repair_stat
     to.area_before = from.area_before;
     to.area_after = from.area_after;
     to.area_lost = from.area_lost;
+    to.message = kept.keep(from.message()).c_str();
 }
 
 void glue::fill(keeper& kept, const tf::repair_result& from, treeform_repair_result& to) {

@@ -302,12 +302,12 @@ def intersection_curves(mesh: MeshLike, found: FacePairs, *,
                         progress: Progress = None) -> list[Floats]:
     """The curves along which pairs of faces intersect, each (n, 3); a closed curve repeats its
     first point at the end. Segments are found exactly; their points are rounded to nearest. A
-    segment common to several pairs appears only once.
+    segment common to several pairs appears only once. Degenerate pairs have no curve.
 
-    found: pairs of faces of `mesh`; the faces must not be degenerate.
+    found: pairs of faces of `mesh`.
 
     Raises ValueError naming the pair with a face or a corner that is out of range or not finite;
-    for a face without area.
+    for a face without area in a pair of another kind.
 
     Cost: O(P log P) for P pairs.
 

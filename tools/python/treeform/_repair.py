@@ -102,12 +102,15 @@ class RepairResult(MadeMesh):
         the solid, dropped; `even_odd` makes them cavities); 'volume_before' (After `join`, `orient`
         and `fill`; 0 if that is no solid); 'volume_after'; 'area_before'; 'area_after'; 'area_lost'
         (As in `max_loss`).
+    message: What was changed, such as '40 faces flipped, 2 holes filled (9 edges)'; empty if
+        nothing was.
     """
 
     face_source: Ids
     vertex_source: Ids
     is_kept: NDArray[np.bool_]
     statistics: dict[str, Any]
+    message: str
 
 
 def resolve_self_intersections(mesh: MeshLike, mode: str = "outer", *, fill_rule: str = "nonzero",

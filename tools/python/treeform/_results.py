@@ -49,7 +49,8 @@ class Certificate(Result):
     meeting: (n, 2) the first 100 pairs of faces that meet.
     open_count: Number of edges whose signed face count is not zero.
     open_edges: (n, 2, 3) the ends of the first 100 of these edges.
-    open_faces: (n, 2) the operand and its face at each of these edges.
+    open_faces: (n, 2) the operand and its face at each of these edges; 2**32 - 1 for the only
+        operand.
     boundary_edges: Number of open edges with an odd number of faces.
     misoriented_edges: Number of open edges whose faces are inconsistently oriented.
     max_displacement: The largest change of a coordinate by rounding, from the exact position of the

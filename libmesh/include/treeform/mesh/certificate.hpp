@@ -96,7 +96,9 @@ struct TREEFORM_API certificate {
     std::uint64_t open_count = 0;
     /// Ends of the open part of each edge; rounded if the edge is cut.
     std::vector<std::array<point3, 2>> open_edges{};
-    std::vector<operand_element> open_faces{};  ///< one face at each edge in `open_edges`
+    /// One face at each edge in `open_edges`. Functions of one mesh, such as `repair`, name no
+    /// operand.
+    std::vector<operand_element> open_faces{};
     /// The open edges counted in the operands, after joining equal coordinates: `boundary_edges`
     /// have an odd number of faces (the surface ends there), `misoriented_edges` an even number of
     /// inconsistently oriented faces. Both are 0 if a vertex lies inside such an edge, since edges
@@ -122,10 +124,12 @@ struct TREEFORM_API certificate {
 };
 
 /// Thrown by `value()` of a result without a certificate of status ok. `what()` is the
-/// certificate's message.
+/// certificate's message; for a `placed_mesh`, that of the placement.
 class TREEFORM_API not_certified_error : public std::runtime_error {
   public:
     explicit not_certified_error(certificate why);
+    /// `what()` is `message`, unless that is empty.
+    not_certified_error(certificate why, const std::string& message);
     [[nodiscard]] const certificate& why() const { return why_; }
 
   private:

@@ -78,6 +78,11 @@ struct deviation_result {
     ///         high
     TREEFORM_API static void color(mesh_file& file, std::span<const double> distances, double low,
                                    double high);
+    /// The same with `distances`, from -`p99` to `p99` (if that is 0, to `max`). `file` is the file
+    /// of `a`. For the colors of a band, pass its ends to the other function.
+    ///
+    /// \throws std::invalid_argument unless `file` has the points of `a`
+    TREEFORM_API void color(mesh_file& file) const;
 };
 
 /// The signed distances of all points of `a`, used by faces or not, from the surface of `b`.

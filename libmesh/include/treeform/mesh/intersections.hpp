@@ -111,10 +111,11 @@ struct curve_network {
 /// points.
 ///
 /// A segment common to several pairs is listed once. Points are in the order of the edges and faces
-/// that define them, paths by the number of their first point.
+/// that define them, paths by the number of their first point. Pairs of kind `degenerate` are
+/// skipped: a face without area defines no curve.
 ///
 /// \throws std::invalid_argument naming the pair with a face or a corner that is out of range or
-///         not finite; for a face without area
+///         not finite; for a face without area in a pair of another kind
 /// \cost O(P log P) for P pairs
 /// \same on any number of threads
 [[nodiscard]] TREEFORM_API curve_network intersection_paths(mesh_view mesh,

@@ -78,8 +78,9 @@ struct body_set;
 struct placed_mesh {
     treeform::mesh mesh{};  ///< empty if there is no place
     treeform::certificate certificate{};
+    std::string reason{};  ///< why there is no place: `placement::message`
 
-    /// \throws not_certified_error unless the certificate's status is ok
+    /// \throws not_certified_error unless the certificate's status is ok; it says the reason
     [[nodiscard]] TREEFORM_API const treeform::mesh& value() const&;
     [[nodiscard]] TREEFORM_API treeform::mesh value() &&;
 };

@@ -79,7 +79,7 @@ struct repair_options {
 };
 
 /// Counts of each step's changes. Closed gaps, chosen orientations and filled holes are heuristic.
-struct repair_statistics {
+struct TREEFORM_API repair_statistics {
     std::uint64_t tetrahedra = 0;    ///< tetrahedra formed by faces; only their boundary was kept
     std::uint64_t degenerate = 0;    ///< dropped faces without area, and slivers dropped with them
     std::uint64_t repeated = 0;      ///< faces that repeat another, dropped
@@ -121,6 +121,9 @@ struct repair_statistics {
     double area_before = 0.0;
     double area_after = 0.0;
     double area_lost = 0.0;  ///< as in `repair_options::max_loss`
+    /// What was changed: "40 faces flipped, 2 holes filled (9 edges)"; empty if nothing was.
+    /// Rounding is in the certificate: `max_displacement`.
+    [[nodiscard]] std::string message() const;
 };
 
 /// The repaired mesh, its sources, and its certificate.

@@ -57,8 +57,8 @@ struct simplify_result {
     double input_to_result_bound = 0.0;
     /// Bound of the distance from any point of the result to the input.
     double result_to_input_bound = 0.0;
-    /// Status ok: no count of `find_solid_defects` is larger than for the input. So a solid is
-    /// still a solid. Otherwise `not_certified` or `cancelled`.
+    /// Status ok means no worse than the input: no count of `find_solid_defects` is larger. A solid
+    /// is still a solid; faces that met may still meet. Otherwise `not_certified` or `cancelled`.
     treeform::certificate certificate{};
 
     /// The mesh.

@@ -184,6 +184,7 @@ py::object object(of_result, tf::repair_result&& from, const carrying& attribute
     made["is_kept"] = as_python(std::move(from.is_kept)).attr("view")("bool");
     made["certificate"] = certificate;
     made["statistics"] = counters(from.statistics);
+    made["message"] = py::cast(from.statistics.message());
     return object_of("treeform._repair", "RepairResult", made);
 }
 

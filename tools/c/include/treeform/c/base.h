@@ -260,7 +260,8 @@ typedef struct treeform_certificate {
     int32_t size_is_volume;  ///< `size_before` and `size_after` are volumes, not areas
     /// [open_listed][2][3] Ends of the open part of each edge; rounded if the edge is cut.
     const double* open_edges;
-    /// one face at each edge in `open_edges`
+    /// One face at each edge in `open_edges`. Functions of one mesh, such as `treeform_repair`,
+    /// name no operand.
     const treeform_operand_element* open_faces;
 } treeform_certificate;
 

@@ -187,7 +187,8 @@ typedef struct treeform_curve_network {
 /// exact points.
 ///
 /// A segment common to several pairs is listed once. Points are in the order of the edges and
-/// faces that define them, paths by the number of their first point.
+/// faces that define them, paths by the number of their first point. Pairs of kind `degenerate`
+/// are skipped: a face without area defines no curve.
 TREEFORM_C_API treeform_code treeform_intersection_paths(const treeform_mesh* mesh,
                                                          const treeform_face_pair* pairs,
                                                          size_t count,

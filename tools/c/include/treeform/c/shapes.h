@@ -150,9 +150,9 @@ typedef struct treeform_simplify_result {
     /// Edges whose collapse was not proven within the distance.
     uint64_t refused_by_distance;
     uint64_t refused_by_contact;  ///< edges whose collapse would make faces meet
-    /// Status ok: no count of `treeform_find_solid_defects` is larger than for the input. So a
-    /// solid is still a solid. Otherwise `TREEFORM_STATUS_NOT_CERTIFIED` or
-    /// `TREEFORM_STATUS_CANCELLED`.
+    /// Status ok means no worse than the input: no count of `treeform_find_solid_defects` is
+    /// larger. A solid is still a solid; faces that met may still meet. Otherwise
+    /// `TREEFORM_STATUS_NOT_CERTIFIED` or `TREEFORM_STATUS_CANCELLED`.
     const treeform_certificate* certificate;
     /// [V] input vertex equal to each vertex; `TREEFORM_NONE`: new
     const uint32_t* vertex_source;

@@ -274,6 +274,7 @@ typedef struct treeform_repair_statistics {
     double gap_limit;         ///< largest width of cracks searched for
     double widest_closed;     ///< widest crack that was closed
     uint64_t turned_outward;  ///< components flipped outward
+    const char* message;      ///< what was changed, in words; empty if nothing was
 } treeform_repair_statistics;
 
 /// The repaired mesh, its sources, and its certificate.
