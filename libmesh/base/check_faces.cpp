@@ -43,4 +43,8 @@ void check_finite_faces(const char* function, mesh_view mesh) {
         refuse(function, "face " + std::to_string(bad) + " has a corner that is not finite");
 }
 
+void refuse_cloud(const char* function, mesh_view mesh) {
+    if (mesh.faces.empty() && !mesh.points.empty()) refuse(function, "the mesh is a point cloud");
+}
+
 }  // namespace treeform::detail::base

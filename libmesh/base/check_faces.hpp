@@ -20,4 +20,7 @@ void check_faces(const char* function, std::size_t point_count, std::span<const 
 /// \cost   O(F), in parallel
 void check_finite_faces(const char* function, mesh_view mesh);
 
+/// \throws std::invalid_argument naming `function` if the mesh has points but no faces
+void refuse_cloud(const char* function, mesh_view mesh);
+
 }  // namespace treeform::detail::base

@@ -73,9 +73,7 @@ offset_result ended(status how, const offset_options& options) {
 mesh used_part(const char* verb, mesh_view given) {
     detail::base::check_faces(verb, given.points.size(), given.faces);
     detail::base::check_finite_faces(verb, given);
-    if (given.faces.empty() && !given.points.empty())
-        throw std::invalid_argument("treeform::" + std::string(verb) +
-                                    ": the mesh is a point cloud");
+    detail::base::refuse_cloud(verb, given);
     std::vector<std::uint32_t> all(given.faces.size());
     for (std::uint32_t f = 0; f < all.size(); ++f) all[f] = f;
     return submesh(given, all).mesh;

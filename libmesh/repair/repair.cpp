@@ -471,6 +471,7 @@ repair_result repair(const mesh_ref& given, const repair_options& options) {
     detail::base::require_limit("repair", options.max_displacement, "the largest displacement");
     detail::base::check_faces("repair", mesh.points.size(), mesh.faces);
     detail::base::check_finite_faces("repair", mesh);
+    detail::base::refuse_cloud("repair", mesh);
     repairer by_rule(mesh, options, inside_by::rule);
     repair_result best = by_rule.run();
     if (!by_rule.is_in_doubt(best)) return best;

@@ -89,6 +89,7 @@ resolved_mesh by_mode(mesh_view mesh, resolve_mode mode, const resolve_options& 
     if (mode == resolve_mode::remove) {
         detail::base::check_faces("resolve_self_intersections", mesh.points.size(), mesh.faces);
         detail::base::check_finite_faces("resolve_self_intersections", mesh);
+        detail::base::refuse_cloud("resolve_self_intersections", mesh);
         return from(mesh, detail::repair::remove_faces(mesh, options));
     }
     const boolean_options as_boolean{.fill_rule = options.fill_rule,

@@ -45,7 +45,7 @@ inline tf::boolean_result unite_all(const tf::mesh_refs& operands,
     return tf::unite(operands, options);
 }
 
-/// Points in `a` but in none of `others` [count].
+/// Points in `a` (operand 0) but in none of `others` [count] (operands 1, 2, ...).
 inline tf::boolean_result difference_all(const tf::mesh_ref& a, const tf::mesh_refs& others,
                                          const tf::boolean_options& options) {
     return tf::difference(a, others, options);

@@ -383,6 +383,7 @@ TEST_CASE("repair: what cannot be used is a defect, and no error") {
 
 TEST_CASE("repair: bad arguments") {
     const tf::mesh box = test::box(1, 1, 1);
+    CHECK_THROWS_AS((void)tf::repair(box.points), std::invalid_argument);  // a cloud
     CHECK_THROWS_AS((void)tf::repair(box, {.gap = -1.0}), std::invalid_argument);
     CHECK_THROWS_AS((void)tf::repair(box, {.stray_share = std::numeric_limits<double>::infinity()}),
                     std::invalid_argument);

@@ -214,7 +214,8 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
     check: if False, also return results that could not be certified; see their `certificate`.
 
     Raises NotClosedError if the mesh stays open, NotCertifiedError if the result could not be
-    certified; ValueError as `boolean`; if a gap or share is negative or not finite.
+    certified; ValueError as `boolean`; for a point cloud; if a gap or share is negative or not
+    finite.
 
     Cost: O(V log V + F log F), plus `resolve_self_intersections` if faces meet; for a hole of n
     edges O(n^3) if n <= 100, else O(n^2).

@@ -194,7 +194,8 @@ resolve_self_intersections(const mesh_ref& mesh, resolve_mode mode = resolve_mod
 /// faces, no hole is filled if more than F / 10 edges have three or more faces and a signed face
 /// count that is not zero.
 ///
-/// \throws std::invalid_argument as `boolean`; if a gap or share is negative or not finite
+/// \throws std::invalid_argument as `boolean`; for a point cloud; if a gap or share is negative or
+///         not finite
 /// \cost   O(V log V + F log F), plus `resolve_self_intersections` if faces meet; for a hole of n
 ///         edges O(n^3) if n <= 100, else O(n^2)
 /// \same   on any number of threads

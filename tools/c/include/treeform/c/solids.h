@@ -166,7 +166,7 @@ TREEFORM_C_API treeform_code treeform_unite_all(const treeform_mesh* const* oper
                                                 const treeform_boolean_options* options,
                                                 treeform_boolean_result** result);
 
-/// Points in `a` but in none of `others` [count].
+/// Points in `a` (operand 0) but in none of `others` [count] (operands 1, 2, ...).
 TREEFORM_C_API treeform_code treeform_difference_all(const treeform_mesh* a,
                                                      const treeform_mesh* const* others,
                                                      size_t count,
