@@ -218,8 +218,8 @@ class model_writer {
         say(looks_.rounds_colors, "colors", "colors are rounded to 8 bits");
         if (looks_.lacks_colors)
             say(true, "materials",
-                "materials are written in white, since " + job_.file.attributes.material_files[0] +
-                    ", which has their colors, was not read");
+                "materials are written in white, since the faces have no colors: those of " +
+                    job_.file.attributes.material_files[0] + " were not read or not kept");
     }
 
   private:

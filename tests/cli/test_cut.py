@@ -291,6 +291,14 @@ class Cut(ToolTest):
                                         faces))
         run = self.run_tool("info", "turned.obj", status=0)
         self.assertIn(" (turned 4 x 2 x 1), solid", run.text)
+        with open(self.path("nan.obj"), "w", encoding="utf-8") as file:
+            file.write("v nan 0 0\n")
+            for p in points:
+                file.write("v " + " ".join(map(repr, p)) + "\n")
+            for a, b, c in faces:
+                file.write(f"f {a + 2} {b + 2} {c + 2}\n")
+        self.assertIn("12 faces, 4 x 2 x 1, not a solid: 1 vertex that is not finite",
+                      self.run_tool("info", "nan.obj", status=0).text)
         report = self.report("parts", "open.obj", "-n", status=0)
         self.assertIsNone(report["files"][0]["pieces"][0]["volume"])
         write(self.path("huge.obj"), ([[1e200 * x for x in p] for p in points], faces))

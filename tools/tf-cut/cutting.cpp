@@ -32,7 +32,11 @@ std::string size_in_words(double x, double y, double z) {
 /// The least box, turned; in words where it is less than the one along the axes.
 std::string turned_box(job& work, const tf::mesh& mesh, const std::optional<tf::box3>& box) {
     constexpr double less = 0.99;
-    const auto turned = tf::find_oriented_box(mesh.points);
+    std::vector<tf::point3> points = mesh.points;
+    std::erase_if(points, [](const tf::point3& p) {
+        return !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+    });
+    const auto turned = tf::find_oriented_box(points);
     if (!turned) return {};
     const tf::point3& size = turned->size;
     work.entry["info"]["oriented_box"] = {

@@ -13,5 +13,7 @@ int main() {
     const tf::placed_mesh seated = place.moved(ball);  // as it was checked, for tf::write
     if (seated.value().faces.size() != ball.faces.size()) return 1;
     std::printf("moved by %g\n", place.travel);
+    for (const tf::placement_contact& c : place.contacts)
+        std::printf("face %u of the ball meets mesh %zu at z = %g\n", c.moving, c.fixed, c.point.z);
     return place.relation == tf::mesh_relation::clear ? 0 : 1;
 }
