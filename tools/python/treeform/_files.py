@@ -247,7 +247,7 @@ def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: b
     - OBJ: parts, material files, texture coordinates and normals of corners (else those of points),
       colors of vertices.
     - OFF: normals, colors and texture coordinates of points.
-    - STL: the header, without a leading "solid"; if it contains no NUL, its last byte becomes one;
+    - STL: the header, without a leading "solid"; if it has no NUL byte, its last byte becomes NUL;
       the names of solids; the column "stl_attribute".
     - XYZ and CSV: the other columns of points.
     - LAS and LAZ: the fields of their records; other columns as extra bytes. Columns red, green and

@@ -125,7 +125,7 @@ class SearchEffort(NamedTuple):
     pairs: Pairs of faces tested; a pair in motion counts as two.
     bound: The limit of `pairs`.
     skipped_candidates: Number of candidates skipped because testing one would take more than 1/32
-        of the bound, or more than is left of it. If not 0, a better result may exist.
+        of the bound, or more than the rest of it. If not 0, a better result may exist.
     """
 
     pairs: int

@@ -350,7 +350,8 @@ class Thickness(Result):
 def wall_thickness(mesh: MeshLike, by: str = "ray", *, progress: Progress = None) -> Thickness:
     """The wall thickness of a solid at each face. The face through which a ray leaves is exact, for
     the rounded center and normal; lengths are rounded. Balls are accurate to 2^-20 of their
-    diameter. Near a sharp edge, balls are small, and do not measure a wall.
+    diameter. Near a sharp edge, balls are small: there, their diameter is not the thickness of a
+    wall.
 
     by: 'ray': along the inward normal from the center of each face; 'sphere': the diameter of the
         largest inscribed sphere that touches the center of the face.

@@ -113,9 +113,9 @@ TREEFORM_API std::vector<std::uint32_t> drop_unusable_faces(mesh& mesh);
 
 /// One file with all `files` as parts of a scene, with texture coordinates, normals, materials and
 /// textures. Other properties are omitted. `warnings` lists textures that could not be kept.
-/// `format` and `stored_as` are copied from the first file. `names` has one name for each file. Its
-/// part gets this name if the file has only one; so do faces before the first part. `labels` has
-/// the name of each file in warnings.
+/// `format` and `stored_as` are copied from the first file. `names` has one name for each file. The
+/// only part of a file gets this name, and so do faces before the first part of any file. `labels`
+/// has the name of each file in warnings.
 ///
 /// \pre  there is at least one file, and one name and one label for each file
 /// \cost O(size of all files)

@@ -50,7 +50,7 @@ class TREEFORM_API boolean_expression {
     [[nodiscard]] bool operator()(std::span<const bool> in_operand) const;
 
     /// Whether the result is inside this operand, whatever the shapes: true for a in `a-b`, false
-    /// for a and b in `a+b`. For a long formula, it may be false although the result is inside.
+    /// for a and b in `a+b`. False may also mean not proven, for a long formula.
     [[nodiscard]] bool is_inside(std::size_t operand) const;
 
     /// The formula in postfix notation: operands as numbers from 0, and these operations.

@@ -68,7 +68,7 @@ struct search_effort {
     std::uint64_t pairs = 0;  ///< pairs of faces tested; a pair in motion counts as two
     std::uint64_t bound = 0;  ///< the limit of `pairs`
     /// Number of candidates skipped because testing one would take more than 1/32 of the bound, or
-    /// more than is left of it. If not 0, a better result may exist.
+    /// more than the rest of it. If not 0, a better result may exist.
     std::uint64_t skipped_candidates = 0;
     friend bool operator==(const search_effort&, const search_effort&) = default;
 };

@@ -78,7 +78,7 @@ struct deviation_result {
     ///         high
     TREEFORM_API static void color(mesh_file& file, std::span<const double> distances, double low,
                                    double high);
-    /// The same with `distances`, from -`p99` to `p99` (if that is 0, to `max`). `file` is the file
+    /// The same with `distances`, from -`p99` to `p99` (to `max` if `p99` is 0). `file` is the file
     /// of `a`. For the colors of a band, pass its ends to the other function.
     ///
     /// \throws std::invalid_argument unless `file` has the points of `a`

@@ -102,8 +102,8 @@ struct curve_path {
 /// All curves of a mesh.
 struct curve_network {
     std::vector<curve_point> points;  ///< no two are equal as exact points
-    /// First open paths; at each of their ends, one segment or more than two end. Then closed
-    /// paths. Last single points: contacts of faces that are on no segment.
+    /// Open paths come first. At each end of an open path, no other segment ends, or at least two
+    /// others do. Then closed paths. Last single points: contacts of faces that are on no segment.
     std::vector<curve_path> paths;
 };
 

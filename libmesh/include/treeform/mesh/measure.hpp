@@ -182,7 +182,8 @@ struct thickness_result {
 
 /// The wall thickness of a solid at each face. The face through which a ray leaves is exact, for
 /// the rounded center and normal; lengths are rounded. Balls are accurate to 2^-20 of their
-/// diameter. Near a sharp edge, balls are small, and do not measure a wall.
+/// diameter. Near a sharp edge, balls are small: there, their diameter is not the thickness of a
+/// wall.
 ///
 /// \throws std::invalid_argument naming a face with a corner out of range or not finite
 /// \cost   a `raycast_all` for each face, and about ten `closest_point` for each ball

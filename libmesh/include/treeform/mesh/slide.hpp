@@ -20,8 +20,8 @@ namespace treeform {
 struct placement_options {
     double clearance = 0.0;              ///< gap to leave, a distance; 0: contact
     std::optional<double> max_travel{};  ///< largest distance to move; obstacles beyond are ignored
-    /// `mate_features`: planes face the same way, not each other; of axes, that of `moving` is
-    /// reversed.
+    /// `mate_features`: let planes face the same way instead of each other; reverse the axis of
+    /// `moving`.
     bool flip = false;
     double max_angle = 360.0;  ///< `turn`: in degrees; greater than 0, up to 360
     /// `turn`: the gap, beyond the clearance, that counts as contact; greater than 0. Default:

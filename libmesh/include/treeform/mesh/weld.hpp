@@ -129,10 +129,11 @@ struct file_weld_result {
 /// that was cut open closes along its seams, while solids that meet in an edge or a corner stay
 /// apart. If merging a group would still make an edge or a point nonmanifold, because a point was
 /// nonmanifold before or faces collapse, the group is not merged. Points with equal coordinates are
-/// merged first, then the results are; so coincident corners stay merged, even if the rest of their
-/// group is not. In the result, an edge has more than two faces only if it had before, and a point
-/// has several fans only if one of the points merged into it had. Points of one group may stay
-/// within the tolerance of each other, and without `chain` a point may move by twice the tolerance.
+/// merged first, and then the merged points. So coincident corners stay merged, even if the rest of
+/// their group is not. In the result, an edge has more than two faces only if it had before, and a
+/// point has several fans only if one of the points merged into it had. Points of one group may
+/// stay within the tolerance of each other, and without `chain` a point may move by twice the
+/// tolerance.
 ///
 /// \throws std::invalid_argument for a tolerance that is negative or not finite; unless there is
 ///         one label for each point; for more than 2^32 - 2 points; for a corner out of range; for

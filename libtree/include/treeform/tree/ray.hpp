@@ -89,8 +89,8 @@ template <std::floating_point T, std::size_t D>
 /// enters later are skipped, and -inf ends the search.
 ///
 /// No box is missed because of rounding: not for zero, tiny or huge components, not for boxes that
-/// the ray only touches, not for an origin far away. This holds even if the t_max that `visit`
-/// returns is too small by a relative error of 2^-40.
+/// the ray only touches, not for an origin far away. The t_max that `visit` returns may be too
+/// small by a relative error of 2^-40: still no box is missed.
 ///
 /// \throws std::invalid_argument for an origin or direction that is not finite, or a NaN parameter
 /// \cost   O(log N + boxes met) for most rays; serial; no allocation

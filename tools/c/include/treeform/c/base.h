@@ -271,7 +271,7 @@ typedef struct treeform_search_effort {
     uint64_t pairs;  ///< pairs of faces tested; a pair in motion counts as two
     uint64_t bound;  ///< the limit of `pairs`
     /// Number of candidates skipped because testing one would take more than 1/32 of the bound, or
-    /// more than is left of it. If not 0, a better result may exist.
+    /// more than the rest of it. If not 0, a better result may exist.
     uint64_t skipped_candidates;
 } treeform_search_effort;
 // end

@@ -177,8 +177,9 @@ typedef struct treeform_curve_network {
     void* owner;
     const double* points;  ///< [point_count][3]
     size_t point_count;
-    /// [path_count] First open paths; at each of their ends, one segment or more than two end.
-    /// Then closed paths. Last single points: contacts of faces that are on no segment.
+    /// [path_count] Open paths come first. At each end of an open path, no other segment ends, or
+    /// at least two others do. Then closed paths. Last single points: contacts of faces that are
+    /// on no segment.
     const treeform_curve_path* paths;
     size_t path_count;
 } treeform_curve_network;

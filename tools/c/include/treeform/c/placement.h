@@ -116,8 +116,8 @@ typedef struct treeform_placement_options {
     double clearance;  ///< gap to leave, a distance; 0: contact
     /// largest distance to move; obstacles beyond are ignored; NaN: not given
     double max_travel;
-    /// `treeform_mate_features`: planes face the same way, not each other; of axes, that of
-    /// `moving` is reversed.
+    /// `treeform_mate_features`: let planes face the same way instead of each other; reverse the
+    /// axis of `moving`.
     int32_t flip;
     /// `treeform_turn`: in degrees; greater than 0, up to 360; default 360.0
     double max_angle;

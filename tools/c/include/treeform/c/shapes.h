@@ -208,7 +208,8 @@ typedef struct treeform_thickness_result {
 
 /// The wall thickness of a solid at each face. The face through which a ray leaves is exact, for
 /// the rounded center and normal; lengths are rounded. Balls are accurate to 2^-20 of their
-/// diameter. Near a sharp edge, balls are small, and do not measure a wall.
+/// diameter. Near a sharp edge, balls are small: there, their diameter is not the thickness of a
+/// wall.
 TREEFORM_C_API treeform_code treeform_wall_thickness(const treeform_mesh* mesh,
                                                      treeform_thickness_by by,
                                                      treeform_progress progress,
