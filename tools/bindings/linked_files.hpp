@@ -70,19 +70,25 @@ inline void link_from(const std::filesystem::path& output, treeform::attributes&
 
 inline constexpr std::string_view same_material = "same-material";
 
+/// Which materials of the inputs have the same name, in words; empty if none have.
+[[nodiscard]] inline std::string ambiguous_materials_in_words(
+    const treeform::attribute_sources& from) {
+    const std::vector<std::string> names = from.ambiguous_materials();
+    if (names.empty()) return {};
+    return "inputs with different material files use the same name for " +
+           (names.size() == 1
+                ? "material " + names.front()
+                : std::to_string(names.size()) + " materials, such as " + names.front()) +
+           "; an OBJ can have only one material of a name";
+}
+
 /// Adds a warning to the result of inputs that use the same name for different materials.
 inline void warn_of_materials(treeform::mesh_file& made, const treeform::attribute_sources& from) {
     for (const treeform::attribute_source& input : from.all())
         for (const treeform::io_warning& one : input.file->warnings)
             if (one.code == same_material) made.warnings.push_back(one);
-    const std::vector<std::string> names = from.ambiguous_materials();
-    if (names.empty()) return;
-    made.warnings.push_back({std::string(same_material),
-                             "inputs with different material files use the same name for " +
-                                 (names.size() == 1 ? "material " + names.front()
-                                                    : std::to_string(names.size()) +
-                                                          " materials, such as " + names.front()) +
-                                 "; an OBJ can have only one material of a name"});
+    std::string text = ambiguous_materials_in_words(from);
+    if (!text.empty()) made.warnings.push_back({std::string(same_material), std::move(text)});
 }
 
 /// `treeform::scene_of` with such warnings.

@@ -1,5 +1,6 @@
 #include "tools/shell/mesh_output.hpp"
 
+#include "tools/bindings/linked_files.hpp"
 #include "tools/shell/console.hpp"
 #include "tools/shell/output_file.hpp"
 #include <treeform/mesh/attribute_sources.hpp>
@@ -159,14 +160,9 @@ void enter_rounding(job& work, const tf::rounding_effects& lost, tf::precision p
 void warn_of_ambiguous_materials(job& work, std::span<const tf::mesh_file* const> inputs) {
     std::vector<tf::attribute_source> sources;
     for (const tf::mesh_file* input : inputs) sources.push_back({input});
-    const std::vector<std::string> names =
-        tf::attribute_sources(std::move(sources)).ambiguous_materials();
-    if (names.empty()) return;
-    work.warn("materials", "inputs with different material files use the same name for " +
-                               (names.size() == 1 ? "material " + names.front()
-                                                  : counted(names.size(), "material", "materials") +
-                                                        ", such as " + names.front()) +
-                               "; an OBJ can have only one material of a name");
+    const std::string text =
+        ambiguous_materials_in_words(tf::attribute_sources(std::move(sources)));
+    if (!text.empty()) work.warn("materials", text);
 }
 
 void enter_output(job& work, const std::filesystem::path& path, const tf::write_result& written,
