@@ -132,7 +132,7 @@ class pair_inspection {
         if (how.status == status::cancelled) return std::nullopt;
         found.a_inside_b = how.a_inside_b;
         found.b_inside_a = how.b_inside_a;
-        if (how.relation == mesh_relation::separate) {
+        if (how.relation == mesh_relation::disjoint) {
             enter_distance(a, b, found);
             return found;
         }
@@ -152,9 +152,9 @@ class pair_inspection {
     }
 
   private:
-    /// Of separate parts.
+    /// Of disjoint parts.
     void enter_distance(const shape& a, const shape& b, part_clash& found) const {
-        found.relation = mesh_relation::separate;
+        found.relation = mesh_relation::disjoint;
         if (options_.clearance == 0.0) return;
         found.relation = mesh_relation::clear;
         const auto near = detail::nearness::closest_pair(a.mesh(), a.faces(), b.mesh(), b.faces(),
@@ -247,7 +247,7 @@ clash_result clash(const mesh_refs& given_parts, const clash_options& options) {
     }
     for (auto& one : found) {
         count(result, *one, options.clearance);
-        if (one->relation != mesh_relation::separate && one->relation != mesh_relation::clear)
+        if (one->relation != mesh_relation::disjoint && one->relation != mesh_relation::clear)
             result.pairs.push_back(std::move(*one));
     }
     const std::uint64_t n = parts.size();

@@ -167,7 +167,7 @@ part_relation moved_part::as_moved(const moved_part& other) const {
         place::shape(of_b.prepared(), b, tree_b, of_b.vertices(), other.move_.mirrors()));
     return {how.relation == mesh_relation::penetrating ? mesh_relation::penetrating
             : how.relation == mesh_relation::touching  ? mesh_relation::touching
-                                                       : mesh_relation::separate};
+                                                       : mesh_relation::disjoint};
 }
 
 /// Whether `p` is inside the solid that is moved; none where rounding might have a say.
@@ -224,9 +224,9 @@ part_relation moved_part::relation_to(const moved_part& other, double clearance)
     if ((inside && *inside) || (around && *around)) return {mesh_relation::penetrating};
     if (!inside || !around) {
         const part_relation how = as_moved(other);
-        if (how.relation != mesh_relation::separate) return how;
+        if (how.relation != mesh_relation::disjoint) return how;
     }
-    if (clearance == 0.0) return {mesh_relation::separate};
+    if (clearance == 0.0) return {mesh_relation::disjoint};
     const double apart =
         treeform::distance(a.prepared(), b.prepared(), {move_, other.move_, clearance});
     return apart < clearance ? part_relation{mesh_relation::closer_than_clearance, apart}

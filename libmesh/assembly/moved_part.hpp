@@ -50,7 +50,7 @@ class resting_part {
 };
 
 struct part_relation {
-    mesh_relation relation = mesh_relation::separate;
+    mesh_relation relation = mesh_relation::disjoint;
     double distance = 0.0;
 };
 

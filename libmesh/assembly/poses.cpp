@@ -53,7 +53,7 @@ class pose_inspection {
                 }
                 if (std::binary_search(ignored_.begin(), ignored_.end(), part_pair{i, j})) continue;
                 const auto how = moved[i].relation_to(moved[j], options_.clearance);
-                if (how.relation == mesh_relation::separate || how.relation == mesh_relation::clear)
+                if (how.relation == mesh_relation::disjoint || how.relation == mesh_relation::clear)
                     continue;
                 const pose_clash one{i, j, how.relation, how.distance};
                 if (options_.first_only && !is_clash(one, options_.clearance)) continue;

@@ -101,7 +101,7 @@ std::optional<relation_result> detail::place::measure_of(const shape& of_a, cons
     if (boxes_meet(a, b)) result = relation_of(of_a, of_b, work.part(0.0, 0.5));
     if (!work.reach(0.5)) result = {.status = status::cancelled};
     if (work.cancelled()) return result;
-    if (result.relation != mesh_relation::separate) {
+    if (result.relation != mesh_relation::disjoint) {
         const std::uint32_t f = result.face_a, g = result.face_b;
         const auto common = closest_pair(triangle_of(a, f), triangle_of(b, g));
         if (common.squared_distance == 0.0) {
@@ -111,14 +111,14 @@ std::optional<relation_result> detail::place::measure_of(const shape& of_a, cons
             return result;
         }
     }
-    const bool separate = result.relation == mesh_relation::separate;
+    const bool disjoint = result.relation == mesh_relation::disjoint;
     const auto nearest =
         detail::nearness::closest_pair(a, of_a.faces(), b, of_b.faces(),
-                                       separate ? radius : std::numeric_limits<double>::infinity());
+                                       disjoint ? radius : std::numeric_limits<double>::infinity());
     work.reach(1.0);
     if (!nearest) return std::nullopt;
     result.surface_distance = nearest->distance;
-    if (separate) result.distance = nearest->distance;
+    if (disjoint) result.distance = nearest->distance;
     result.on_a = surface_point_of(a, nearest->face_a, nearest->on_a);
     result.on_b = surface_point_of(b, nearest->face_b, nearest->on_b);
     return result;

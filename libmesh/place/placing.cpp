@@ -107,7 +107,7 @@ placement placing::finished() {
 
 mesh_relation placing::relation_of(const std::optional<relation_result>& near) const {
     const double c = options_.clearance;
-    if (!near) return c > 0.0 ? mesh_relation::clear : mesh_relation::separate;
+    if (!near) return c > 0.0 ? mesh_relation::clear : mesh_relation::disjoint;
     switch (near->relation) {
         case mesh_relation::penetrating:
             return mesh_relation::penetrating;
@@ -116,7 +116,7 @@ mesh_relation placing::relation_of(const std::optional<relation_result>& near) c
         default:
             break;
     }
-    if (!(c > 0.0)) return mesh_relation::separate;
+    if (!(c > 0.0)) return mesh_relation::disjoint;
     return near->distance < c ? mesh_relation::closer_than_clearance : mesh_relation::clear;
 }
 
@@ -374,7 +374,7 @@ void placing::on_bed_at_place(mesh_view there) {
         result_.contacts.push_back(*contact);
         ++result_.contact_count;
     }
-    if (result_.relation == mesh_relation::separate) result_.relation = mesh_relation::touching;
+    if (result_.relation == mesh_relation::disjoint) result_.relation = mesh_relation::touching;
 }
 
 }  // namespace treeform::detail::place

@@ -166,7 +166,7 @@ bool plate::apart(const resident& a, const resident& b) {
     if (!strictly_within(a.box, b.box) && !strictly_within(b.box, a.box)) return true;
     return relation_of(shape(*a.whose, a.part.points, a.faces_tree),
                        shape(*b.whose, b.part.points, b.faces_tree))
-               .relation == mesh_relation::separate;
+               .relation == mesh_relation::disjoint;
 }
 
 bool plate::fits(const resident& one) {

@@ -110,7 +110,7 @@ class settling {
             }
             const mesh_relation how = judged.relation;
             const bool near =
-                how == mesh_relation::separate && options_.clearance > 0.0 && nearer(moved, part);
+                how == mesh_relation::disjoint && options_.clearance > 0.0 && nearer(moved, part);
             const bool too_near = how == mesh_relation::penetrating || near ||
                                   (options_.clearance > 0.0 && how == mesh_relation::touching);
             if (how > one.relation || (too_near && one.good && how == one.relation)) one.part = i;
@@ -159,7 +159,7 @@ snapped snap_to_representable(const prepared_mesh& a, std::span<const shape> par
     const auto closed_in = [&](snapped found) {
         const bool wanted = options.close_in && !options.forward && !(options.clearance > 0.0);
         for (int steps = 0; wanted && steps < 4 && found.good &&
-                            found.relation == mesh_relation::separate && !place.cancelled();
+                            found.relation == mesh_relation::disjoint && !place.cancelled();
              ++steps) {
             snapped next = place.at(found.time + unit, true);
             if (!next.good) break;

@@ -40,8 +40,8 @@ struct snapped {
     double time = 0.0;             ///< time of `points`
     unsigned backed_off = 0;       ///< number of steps back
     bool good = false;             ///< nothing is penetrated and the clearance is kept
-    /// The closest relation of `points` to a part: penetrating, else touching, else separate.
-    mesh_relation relation = mesh_relation::separate;
+    /// The closest relation of `points` to a part: penetrating, else touching, else disjoint.
+    mesh_relation relation = mesh_relation::disjoint;
     std::size_t part = 0;  ///< lowest part with that relation, or a part nearer than the clearance
     /// or `cancelled`: the other members are meaningless
     treeform::status status = treeform::status::ok;

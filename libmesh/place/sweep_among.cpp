@@ -103,7 +103,7 @@ point3 way_between(const relation_result& nearest) {
 mate_motion motion_to_mate(const relation_result& nearest, const shape& a,
                            std::span<const shape> parts, const sweep_options& options) {
     mate_motion result;
-    if (nearest.relation != mesh_relation::separate) return result;
+    if (nearest.relation != mesh_relation::disjoint) return result;
     result.motion = way_between(nearest);
     if (result.motion == point3{}) return result;
     // Nothing is nearer than the nearest point. Corners that are to meet there may miss each other

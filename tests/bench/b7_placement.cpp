@@ -210,7 +210,7 @@ std::size_t met_by_moved(const parts_scene& scene, const Parts& looked_at) {
     std::size_t met = 0;
     for (const std::uint32_t i : looked_at)
         met += relation(moved, prepared_mesh::borrow(scene.parts[i])).relation !=
-               mesh_relation::separate;
+               mesh_relation::disjoint;
     return met;
 }
 

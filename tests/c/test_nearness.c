@@ -109,7 +109,7 @@ static void test_relations(void) {
     treeform_search_effort effort;
     int calls = 0;
     OK(treeform_measure(a, apart, NULL, &relation));
-    CHECK(relation->relation == TREEFORM_RELATION_SEPARATE && relation->distance == 2.0);
+    CHECK(relation->relation == TREEFORM_RELATION_DISJOINT && relation->distance == 2.0);
     CHECK(relation->on_a[0] == 1.0 &&
           near(relation->barycentric_a[0] + relation->barycentric_a[1] + relation->barycentric_a[2],
                1.0));

@@ -57,7 +57,7 @@ static void test_moves(void) {
     CHECK(placement->point_count == 8 && isnan(placement->bed));
     OK(treeform_find_face_relations(moving, fixed, 2, placement, &faces));
     CHECK(faces->moving_count == 12 && faces->moving[0] == TREEFORM_RELATION_TOUCHING &&
-          faces->moving[2] == TREEFORM_RELATION_SEPARATE);
+          faces->moving[2] == TREEFORM_RELATION_DISJOINT);
     CHECK(faces->fixed_count == 2 && faces->fixed[1] == NULL &&
           faces->fixed[0][2] == TREEFORM_RELATION_TOUCHING);
     treeform_free(faces);

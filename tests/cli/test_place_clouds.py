@@ -19,13 +19,13 @@ class Clouds(PlaceTest):
 
     def test_measure_tells_how_a_cloud_lies_to_a_mesh(self):
         entry = self.entry("measure", "cloud.xyz", "--fixed", "floor.obj", status=0)
-        self.assertEqual((entry["status"], entry["distance"]), ("separate", 1.75))
+        self.assertEqual((entry["status"], entry["distance"]), ("disjoint", 1.75))
         nearest = entry["closest"]["moving"]
         self.assertEqual((nearest["vertex"], nearest["point"]), (2, [2, 3, 2.75]))
         for key in ("face", "triangle", "barycentric"):
             self.assertIsNone(nearest[key])
         self.assertIsNone(entry["closest"]["fixed"]["vertex"])
-        for z, status in ((1, "touching"), (0.5, "penetrating"), (1.25, "separate")):
+        for z, status in ((1, "touching"), (0.5, "penetrating"), (1.25, "disjoint")):
             self.cloud("one.xyz", (9, 9, 9), (2, 3, z))
             entry = self.entry("measure", "one.xyz", "--fixed", "floor.obj", status=0)
             self.assertEqual(entry["status"], status)
@@ -42,7 +42,7 @@ class Clouds(PlaceTest):
         self.assertEqual(two["closest"]["fixed"]["vertex"], 2)
         self.cloud("other.xyz", (1, 1, 5.5))
         entry = self.entry("measure", "cloud.xyz", "--fixed", "other.xyz", status=0)
-        self.assertEqual((entry["distance"], entry["status"]), (2, "separate"))
+        self.assertEqual((entry["distance"], entry["status"]), (2, "disjoint"))
 
     def test_a_cloud_drops_and_slides_onto_a_mesh_exactly(self):
         entry = self.entry("drop", "cloud.xyz", "--fixed", "floor.obj", "-o", "out.xyz", status=0)

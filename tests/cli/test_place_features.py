@@ -74,9 +74,9 @@ class PlaceFeatures(PlaceTest):
                                "--precision", precision, "--matrix", f"{precision}.txt", status=0)
             angle = math.degrees(math.asin(5 / math.sqrt(32)) - math.atan2(4, 4))
             self.assertAlmostEqual(entry["turn"]["angle"], angle, places=places)
-            self.assertIn(entry["status"], ("separate", "touching"))
+            self.assertIn(entry["status"], ("disjoint", "touching"))
             self.assertIn(self.relation(f"{precision}.ply", "wall.obj")["status"],
-                          ("separate", "touching"))
+                          ("disjoint", "touching"))
         entry = self.entry("turn", "a.obj", "--fixed", "wall.obj", "--clearance", "0.5", "-o",
                            "clear.obj", status=0)
         self.assertGreaterEqual(self.relation("clear.obj", "wall.obj")["distance"], 0.5)
@@ -114,7 +114,7 @@ class PlaceFeatures(PlaceTest):
         self.assertAlmostEqual(entry["features"]["turn_angle"], 90)
         self.assertTrue(entry["features"]["fixed"]["hollow"])
         self.assertAlmostEqual(entry["features"]["moving"]["radius"], 3)
-        self.assertEqual(entry["status"], "separate")
+        self.assertEqual(entry["status"], "disjoint")
         written = self.points("out.obj")
         self.assertAlmostEqual(max(math.hypot(p[0], p[1]) for p in written), 3)
         self.assertAlmostEqual(min(p[2] for p in written), -3)

@@ -209,7 +209,7 @@ class Moves(PlaceTest):
             self.assertEqual(entry["output"]["precision_out"], "float")
             self.assertEqual(entry["output"]["max_move"], entry["rounding"]["max_move"])
             again = self.entry("measure", "out.stl", "--fixed", "slope.obj")
-            self.assertIn(again["status"], ("separate", "touching"))
+            self.assertIn(again["status"], ("disjoint", "touching"))
             self.assertLess(again["distance"], 1e-6)
 
     def test_precision_is_that_asked_for(self):
@@ -246,7 +246,7 @@ class Moves(PlaceTest):
     def test_measure_tells_the_statuses_apart(self):
         at = lambda z: self.mesh("m.obj", box((1, 1, z), (2, 2, z + 1)))
         for z, clearance, status, distance in (
-                (1.25, [], "separate", 0.25), (1, [], "touching", 0), (0.5, [], "penetrating", 0),
+                (1.25, [], "disjoint", 0.25), (1, [], "touching", 0), (0.5, [], "penetrating", 0),
                 (1.25, ["--clearance", "0.5"], "closer-than-clearance", 0.25),
                 (1.5, ["--clearance", "0.5"], "clear", 0.5)):
             entry = self.entry("measure", at(z), "--fixed", "floor.obj", *clearance, status=0)

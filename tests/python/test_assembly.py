@@ -127,7 +127,7 @@ def test_rings_in_each_other_do_not_clash():
     other = tf.Mesh(thin.vertices[:, [2, 1, 0]] + [1.5, 1.5, -1.5], thin.faces[:, ::-1])
     assert tf.check_operand(thin) and tf.check_operand(other)
     found = tf.clash([thin, other])
-    assert found.pairs == [] and found.boxes_apart == 0 and found.counts["separate"] == 1
+    assert found.pairs == [] and found.boxes_apart == 0 and found.counts["disjoint"] == 1
     assert not tf.intersects(SHEET, moved(SPHERES, 50, 0, 0))
 
 

@@ -256,7 +256,7 @@ def test_welded_polygons_keep_theirs(tmp_path):
     assert np.array_equal(made.mesh.attributes.face["material"],
                           mesh.attributes.face["material"])
     assert np.array_equal(made.mesh.attributes.face_of_triangle, mesh.attributes.face_of_triangle)
-    assert np.array_equal(made.index[mesh.faces[made.face_source]], made.faces)
+    assert np.array_equal(made.group_of_point[mesh.faces[made.face_source]], made.faces)
     with pytest.raises(ValueError, match="face_of_triangle is for 24 faces; there are 12"):
         tf.weld(tf.Mesh(CUBE.vertices, CUBE.faces, mesh.attributes), 0.1)
     with pytest.raises((ValueError, tf.FileError), match="faces"):

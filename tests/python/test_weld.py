@@ -44,7 +44,7 @@ def test_a_cloud_is_welded_as_defined(seed, count, tolerance):
     made = tf.weld(points, tolerance)
     kept, index = first_rule(points, tolerance)
     assert np.array_equal(made.points, points[kept].reshape(-1, 3))
-    assert np.array_equal(made.index, index)
+    assert np.array_equal(made.group_of_point, index)
     assert np.array_equal(made.vertex_source, kept)
     assert len(tf.weld(made.points, tolerance).points) == len(kept)
 
@@ -88,7 +88,7 @@ def test_labels_and_other_options():
     ball = sphere(2)
     thin = tf.weld(ball, 0.3)
     assert thin.statistics["collapsed"] + len(thin.faces) == len(ball.faces)
-    assert np.array_equal(thin.index[ball.faces[thin.face_source]], thin.faces)
+    assert np.array_equal(thin.group_of_point[ball.faces[thin.face_source]], thin.faces)
 
 
 def test_how_many_are_nearly_equal():

@@ -125,10 +125,10 @@ class Function:
 #: Types of arguments: in C++, in the stub, in the call; in the package, and the conversion there.
 ARGUMENTS = {
     "Mesh": ("const held_mesh&", "HeldMesh", "{}.ref()", "MeshLike", "held({})"),
-    "Body": ("const held_mesh&", "HeldMesh", "{}.ref()", "Body", "held_body({})"),
+    "MeshOrCloud": ("const held_mesh&", "HeldMesh", "{}.ref()", "MeshOrCloud", "held_body({})"),
     "Meshes": ("const held_meshes&", "Sequence[HeldMesh]", "refs_of({})", "Iterable[MeshLike]",
                'each({0}, "{0}", held)'),
-    "Parts": ("const held_meshes&", "Sequence[HeldMesh]", "refs_of({})", "Iterable[Body]",
+    "Parts": ("const held_meshes&", "Sequence[HeldMesh]", "refs_of({})", "Iterable[MeshOrCloud]",
               'each({0}, "{0}")'),
     "Operands": ("const held_meshes&", "Sequence[HeldMesh]", "refs_of({})", "MeshesLike",
                  "operands_of({})"),
@@ -139,7 +139,7 @@ ARGUMENTS = {
                '_arrays.matrix({0}, "{0}")'),
     "Points": ("const points_array&", "Floats", "points_of({})", "ArrayLike",
                '_arrays.points({0}, "{0}")'),
-    "Cloud": ("const points_array&", "Floats", "points_of({})", "Body", "points_of({})"),
+    "Cloud": ("const points_array&", "Floats", "points_of({})", "MeshOrCloud", "points_of({})"),
     "Numbers": ("const array_of<double>&", "Floats", "rows_of<double>({})", "ArrayLike",
                 '_arrays.floats({0}, "{0}")'),
     "Levels": ("const array_of<double>&", "Floats", "rows_of<double>({})", "ArrayLike",

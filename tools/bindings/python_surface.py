@@ -285,7 +285,8 @@ RESULTS = [
            docs={"vertex_source": "(m,) the input point whose properties each new point has.",
                  "face_source": "(F,) the input face of each face; empty for a cloud.",
                  "statistics": "Counts of what welding changed."},
-           custom={"groups": [Attribute("index", "Ids", "(n,) the new number of each point.",
+           custom={"groups": [Attribute("group_of_point", "Ids",
+                                        "(n,) the new number of each point.",
                                         "as_python(std::move(from.groups.group_of_point))")],
                    "mesh": [Attribute("mesh", "Mesh", "The welded mesh; without faces for a "
                                       "cloud.", "mesh_object(std::move(from.mesh), py::none(), "
@@ -360,7 +361,7 @@ RESULTS = [
                       "common point if they meet.", f"as_python(from.on_{x}.point)"),
             Attribute(f"face_{x}", "int", f"The face of `{x}` that contains `on_{x}`.",
                       f"py::cast(from.on_{x}.face)")] for x in "ab"},
-           docs={"relation": "'separate', 'touching' or 'penetrating'. Exact."}),
+           docs={"relation": "'disjoint', 'touching' or 'penetrating'. Exact."}),
     Result("placement", "Placement", "_placement", "MeshResult", context="moving",
            true="bool(self.certificate)",
            doc="The result of a placement. True if the mesh has a place; else `message` has the "

@@ -431,7 +431,7 @@ FUNCTIONS = [
     # _weld
     Function("count_nearly_equal(points: Points, distance: float) -> int",
              "tf::count_nearly_equal($points, distance)"),
-    Function("weld(mesh_or_points: Body, options: weld_options(tolerance), "
+    Function("weld(mesh_or_points: MeshOrCloud, options: weld_options(tolerance), "
              "label: Groups = None) -> WeldResult",
              docs=_WELD | {
                  "mesh_or_points": "a mesh, points (n, 3), or an object with `points` or "
@@ -472,7 +472,7 @@ FUNCTIONS = [
                  "folder": "the folder for the tiles; empty: the name of the first input with "
                            "\".tiles\"."}),
     # _nearness
-    Function("closest_point(mesh: Body, points: Points, *, radius: float = np.inf)"
+    Function("closest_point(mesh: MeshOrCloud, points: Points, *, radius: float = np.inf)"
              " -> ClosestPoints", "tf::closest_point(mesh.prepared(), $points.subspan(begin, end - "
              "begin), radius)", pieces="$points.size()",
              doc="The point on the surface nearest to each of `points` (n, 3). The error of a "
@@ -488,7 +488,8 @@ FUNCTIONS = [
              "t_max: float = np.inf) -> Bytes", f"tf::raycast_any({_PIECE})",
              pieces=f"{_ALL_RAYS}.size()", made="NDArray[np.bool_]", value="{}.view(np.bool_)",
              doc="(n,) bool: whether each ray hits any face. Exact.", docs=_RAYS),
-    Function("deviation(a: Body, b: Body, options: deviation_options) -> Optional[Deviation]",
+    Function("deviation(a: MeshOrCloud, b: MeshOrCloud, options: deviation_options) "
+             "-> Optional[Deviation]",
              "tf::deviation(a.prepared(), b.prepared(), options)",
              missing="a has no points, or b no faces",
              also="`a` and `b` are each a mesh or a cloud (n, 3).",
@@ -522,7 +523,7 @@ FUNCTIONS = [
              "t_max: float = np.inf) -> AllRayHits",
              body="all_hits(mesh, origins, directions, t_min, t_max, progress)", docs=_RAYS),
     # _placement
-    _placed("slide(moving: Body, fixed: Bodies, direction: Vector, options: "
+    _placed("slide(moving: MeshOrCloud, fixed: Bodies, direction: Vector, options: "
             "placement_options(clearance))", "tf::slide($moving, $fixed, $direction, options)",
             "bed", docs={"fixed": _FIXED,
                          "direction": "(3,) the direction of motion, of any length.",
@@ -530,7 +531,7 @@ FUNCTIONS = [
                          "z of a bed, which also stops the mesh: points resting on the bed have "
                          "exactly this z (for float32, the smallest value not below it), and no "
                          "point is below it."}),
-    _placed("drop(moving: Body, fixed: Bodies = None, *, direction: Vector = (0, 0, -1), "
+    _placed("drop(moving: MeshOrCloud, fixed: Bodies = None, *, direction: Vector = (0, 0, -1), "
             "options: placement_options)",
             "fixed.empty() ? tf::drop($moving, options, $direction) : "
             "tf::drop($moving, $fixed, options, $direction)", "bed",
@@ -542,15 +543,15 @@ FUNCTIONS = [
                          "at 0.",
                   "clearance": "as for `slide`.", "max_travel": "as for `slide`.",
                   "precision": "as for `slide`."}),
-    _placed("mate(moving: Body, fixed: Bodies, options: placement_options)",
+    _placed("mate(moving: MeshOrCloud, fixed: Bodies, options: placement_options)",
             "tf::mate($moving, $fixed, options)", docs={"fixed": _FIXED}),
-    _placed("separate(moving: Body, fixed: Bodies, options: placement_options(clearance))",
+    _placed("separate(moving: MeshOrCloud, fixed: Bodies, options: placement_options(clearance))",
             "tf::separate($moving, $fixed, options)", "effort", docs={
                 "fixed": _FIXED,
                 "effort": "limit for the number of pairs of faces that the search examines, where"
                           " a pair in motion counts as two; 0: 20 million, plus 200 for each "
                           "face. Distance computations for a clearance are not counted."}),
-    _placed("turn(moving: Body, fixed: Bodies, axis: Vector, "
+    _placed("turn(moving: MeshOrCloud, fixed: Bodies, axis: Vector, "
             "origin: Vector = (0.0, 0.0, 0.0), options: placement_options)",
             "tf::turn($moving, $fixed, $origin, $axis, options)", "max_angle tolerance",
             docs={"fixed": _FIXED, "axis": "(3,) the direction of the axis, of any length.",
@@ -559,9 +560,10 @@ FUNCTIONS = [
                   "tolerance": "the largest gap, beyond the clearance, that counts as contact; "
                                "greater than 0. None: 2^-32 of the largest distance of a point "
                                "from the axis."}),
-    Function("measure(a: Body, b: Body, options: measure_options) -> Optional[Measure]",
+    Function("measure(a: MeshOrCloud, b: MeshOrCloud, options: measure_options) "
+             "-> Optional[Measure]",
              "tf::measure(a.prepared(), b.prepared(), options)",
-             doc="The relation of two bodies (separate, touching or penetrating), their distance,"
+             doc="The relation of two bodies (disjoint, touching or penetrating), their distance,"
                  " and the nearest points. Each body is a mesh or a cloud (n, 3). Returns None if"
                  " a mesh has no faces, or if the bodies are farther apart than `radius`. The "
                  "relation is exact, and so is whether the distance is 0. Other distances are "
@@ -570,7 +572,8 @@ FUNCTIONS = [
              docs={"radius": "ignore bodies farther apart than this; inclusive.",
                    "vertices": "'by_coordinates': vertices with equal coordinates are the same "
                                "vertex; 'by_index': only those with the same number."}),
-    Function("penetration_depth(a: Body, b: Body, options: measure_options) -> Optional[Depth]",
+    Function("penetration_depth(a: MeshOrCloud, b: MeshOrCloud, options: measure_options) "
+             "-> Optional[Depth]",
              "tf::penetration_depth(a.prepared(), b.prepared(), options)",
              leave="radius vertices",
              docs={"directions": "the number of directions, spread over the sphere, to try in "
@@ -578,21 +581,22 @@ FUNCTIONS = [
                    "effort": "limit for the number of pairs of faces that the search examines, "
                              "where a pair in motion counts as two; 0: 20 million, plus 200 for "
                              "each face."}),
-    Function("time_of_impact(a: Body, b: Body, motion: Vector, options: impact_options) -> Impact",
+    Function("time_of_impact(a: MeshOrCloud, b: MeshOrCloud, motion: Vector, options: "
+             "impact_options) -> Impact",
              "tf::time_of_impact(a.prepared(), b.prepared(), $motion, options)",
              also=_BODIES,
              docs=_MOVES | {"motion": "(3,) the translation of `a` in one unit of time."}),
     Function("lay_flat(mesh: Mesh, options: lay_flat_options) -> Optional[LaidFlat]",
              "tf::lay_flat(mesh.prepared(), options)", "mesh",
              missing="no flat side: fewer than three points, or all on a line"),
-    Function("align(moving: Body, fixed: Body, *, scale: bool | tuple[float, float] = False, "
-             "options: align_options) -> Alignment",
+    Function("align(moving: MeshOrCloud, fixed: MeshOrCloud, *, scale: bool | "
+             "tuple[float, float] = False, options: align_options) -> Alignment",
              "tf::align(moving.prepared(), fixed.prepared(), options)", "moving",
              given="**scale_of(scale)", leave="scale least_scale most_scale",
              docs={"scale": "also find a uniform scale; a pair gives its lower and upper bound, "
                             "relative to the scale of `start`."}),
-    Function("mate_features(moving: Body, fixed: Bodies, of_moving: Feature, of_fixed: Feature, "
-             "options: placement_options) -> Placement",
+    Function("mate_features(moving: MeshOrCloud, fixed: Bodies, of_moving: Feature, of_fixed: "
+             "Feature, options: placement_options) -> Placement",
              "tf::mate_features($moving, $fixed, of_moving, of_fixed, options)", "moving",
              leave=_of_others("flip"),
              docs={"fixed": _FIXED, "of_moving": "a plane or an axis found by `find_features`.",
@@ -604,15 +608,16 @@ FUNCTIONS = [
              given="size=extent_of(size)", leave="size",
              docs={"size": "(2,) or (3,) the width, depth and height of a plate."}),
     # _assembly
-    Function("intersects(a: Body, b: Body, *, transform_a: Poses = None, transform_b: Poses = "
-             "None) -> Bytes",
+    Function("intersects(a: MeshOrCloud, b: MeshOrCloud, *, transform_a: Poses = None, "
+             "transform_b: Poses = None) -> Bytes",
              cpp="intersects in intersections", also=_BODIES, docs=_POSES, made="Any",
              value="one_or_all({}.view(np.bool_), transform_a, transform_b)"),
-    Function("distance(a: Body, b: Body, *, transform_a: Poses = None, transform_b: Poses = None, "
-             "radius: float = np.inf) -> Floats", cpp="distance in distance", made="Any",
-             also=_BODIES, docs=_POSES | {"radius": "larger distances are returned as infinite."},
+    Function("distance(a: MeshOrCloud, b: MeshOrCloud, *, transform_a: Poses = None, "
+             "transform_b: Poses = None, radius: float = np.inf) -> Floats",
+             cpp="distance in distance", made="Any", also=_BODIES,
+             docs=_POSES | {"radius": "larger distances are returned as infinite."},
              value="one_or_all({}, transform_a, transform_b)"),
-    Function("closest_pair(a: Body, b: Body, *, transform_a: Matrix = None, "
+    Function("closest_pair(a: MeshOrCloud, b: MeshOrCloud, *, transform_a: Matrix = None, "
              "transform_b: Matrix = None, radius: float = np.inf) -> Optional[ClosestPair]",
              "tf::closest_pair(a.prepared(), b.prepared(), {$transform_a, $transform_b, radius})",
              also=_BODIES,

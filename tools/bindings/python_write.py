@@ -28,7 +28,7 @@ USES = {"html": "", "os": "", "re": "", "shutil": "", "tempfile": "",
         "._arrays": "NONE Floats Ids path_of",
         "._errors": "FileError NotClosedError checked file_error need options require",
         "._files": "Columns Path",
-        "._mesh": "Body HasCells HasFaces HasPolys HasTensors HasTriangles Mesh MeshLike "
+        "._mesh": "MeshOrCloud HasCells HasFaces HasPolys HasTensors HasTriangles Mesh MeshLike "
                   "MeshResult as_mesh bodies each held held_body listed points_of",
         "._placement": "SearchEffort", "._progress": "Progress part", "._properties": "Feature",
         "._repair": "MadeMesh", "._results": "Certificate Result tuple_repr",

@@ -120,8 +120,8 @@ inline void color_distances(tf::mesh_file& file, std::span<const double> distanc
 }
 
 /// Gives the triangles of a file (for a cloud, its points) the property tf_class and its color;
-/// `relations` [count] is from `treeform_find_face_relations`. Small separate triangles, with
-/// edges of at most twice `halo`, get a tint if they are near a triangle that is not separate.
+/// `relations` [count] is from `treeform_find_face_relations`. Small disjoint triangles, with
+/// edges of at most twice `halo`, get a tint if they are near a triangle that is not disjoint.
 inline void color_contacts(tf::mesh_file& file, std::span<const std::uint8_t> relations,
                            double halo) {
     std::vector<tf::mesh_relation> all;

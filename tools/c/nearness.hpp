@@ -176,7 +176,7 @@ inline answer_of<treeform_hits> raycast_all(const treeform_mesh* mesh, const tre
 
 // ---- two meshes ----
 
-/// Only the relation, exactly: separate, touching or penetrating.
+/// Only the relation, exactly: disjoint, touching or penetrating.
 inline tf::mesh_relation relation(const tf::mesh_ref& a, const tf::mesh_ref& b,
                                   tf::vertex_identity vertices) {
     return tf::relation(a, b, {.vertices = vertices}).relation;

@@ -65,7 +65,7 @@ void add_body(scene& shown, const tf::body_set& set, std::size_t body, tf::point
     std::vector<std::uint8_t> kinds;
     for (std::uint32_t f = 0; f < shape.indexed_view().faces.size(); ++f) {
         numbers.push_back(set.face_in_file(body, f));
-        const auto how = relations.empty() ? tf::mesh_relation::separate : relations[f];
+        const auto how = relations.empty() ? tf::mesh_relation::disjoint : relations[f];
         const int worse = place_of_relation[static_cast<std::size_t>(how)];
         kinds.push_back(
             static_cast<std::uint8_t>(worse < 0 ? int{plain} : mark::penetrates + worse));

@@ -117,7 +117,7 @@ TEST_CASE("clash: a clearance is kept by what is exactly as far") {
 TEST_CASE("clash: rings, L shapes and chains whose boxes overlap are clear when they do not meet") {
     const auto chain = clash_of(test::chain(30));
     CHECK(chain.pairs.empty());
-    CHECK(chain.counts[tf::mesh_relation::separate] == 29);  // neighbors, by their boxes
+    CHECK(chain.counts[tf::mesh_relation::disjoint] == 29);  // neighbors, by their boxes
     const tf::mesh hook = moved(test::turned(test::l_bracket(3, 3), {0, 0, 1}, 3.1), {5, 4.9, 0});
     CHECK(clash_of({test::l_bracket(4, 4), hook}).pairs.empty());
     CHECK(clash_of({test::ring(3, 0.5, 32, 8), test::ring(1.5, 0.5, 32, 8)}).pairs.empty());
@@ -153,13 +153,13 @@ TEST_CASE("clash: what it says of random parts is what relation and distance say
             for (std::uint32_t j = i + 1; j < parts.size(); ++j) {
                 const auto how = tf::relation(parts[i], parts[j]).relation;
                 const double apart = tf::distance(parts[i], parts[j]);
-                if (how == tf::mesh_relation::separate && apart >= 0.3) continue;
+                if (how == tf::mesh_relation::disjoint && apart >= 0.3) continue;
                 REQUIRE(next < found.pairs.size());
                 const tf::part_clash& one = found.pairs[next++];
                 REQUIRE(one.a == i);
                 REQUIRE(one.b == j);
                 CHECK(one.relation ==
-                      (how == tf::mesh_relation::separate   ? mesh_relation::closer_than_clearance
+                      (how == tf::mesh_relation::disjoint   ? mesh_relation::closer_than_clearance
                        : how == tf::mesh_relation::touching ? mesh_relation::touching
                                                             : mesh_relation::penetrating));
                 CHECK(one.distance == apart);

@@ -130,12 +130,12 @@ TEST_CASE("bodies: how they lie to each other, in words, with the numbers of the
     const std::string text = words(0, 2, 0);
     CHECK(text.starts_with("touching on.obj ("));
     CHECK(text.find("pairs of faces, the first 5") != std::string::npos);
-    CHECK(words(0, 0, 0) == "separate");
+    CHECK(words(0, 0, 0) == "disjoint");
     CHECK(words(0, 0, 1) == "clear");
     tf::body_set cloud;
     std::swap(fixed, cloud);
     fixed.add(cloud.files[1].content, "cloud.ply");
-    CHECK(words(0, 1, 0) == "separate, 2 from cloud.ply");
+    CHECK(words(0, 1, 0) == "disjoint, 2 from cloud.ply");
     CHECK(words(0, 1, 2.5) == "closer-than-clearance, 2 from cloud.ply");
     fixed = {};
     fixed.add(file_of({{{0.5, 0.5, 1}}, {}}), "cloud.ply");

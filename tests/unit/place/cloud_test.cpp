@@ -61,7 +61,7 @@ tf::mesh random_cloud(test::random& source, std::size_t count, double size,
 mesh_relation relation_by_points(const tf::mesh& points, const tf::mesh& solid) {
     const tf::tree<3> tree = tf::build_face_tree(solid);
     const tf::detail::intersect::point_locator locator(solid, tree);
-    auto how = mesh_relation::separate;
+    auto how = mesh_relation::disjoint;
     for (const tf::point3& p : points.points) {
         const auto where = locator.locate(p).where;
         if (where == tf::location::inside) return mesh_relation::penetrating;
@@ -84,7 +84,7 @@ TEST_CASE("clouds: a point outside, on a face, and inside of a box") {
         return *found;
     };
     const auto outside = at({{9, 9, 9}, {1, 1, 7}});
-    CHECK(outside.relation == mesh_relation::separate);
+    CHECK(outside.relation == mesh_relation::disjoint);
     CHECK(outside.distance == 3.0);
     CHECK(outside.on_a.face == 1);
     CHECK(at({{1, 1, 4}}).relation == mesh_relation::touching);
@@ -119,9 +119,9 @@ TEST_CASE("clouds: the relation is that of the points one by one") {
 TEST_CASE("clouds: an open mesh has no inside to be in, clouds have none either") {
     tf::mesh sheet = box(4, 4, 4);
     sheet.faces.resize(4);
-    CHECK(tf::relation(cloud({{1, 1, 1}, {3, 2, 2}}), sheet).relation == mesh_relation::separate);
+    CHECK(tf::relation(cloud({{1, 1, 1}, {3, 2, 2}}), sheet).relation == mesh_relation::disjoint);
     const tf::mesh one = cloud({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 5, 5}});
-    CHECK(tf::relation(one, cloud({{0.1, 0.1, 0.1}})).relation == mesh_relation::separate);
+    CHECK(tf::relation(one, cloud({{0.1, 0.1, 0.1}})).relation == mesh_relation::disjoint);
     CHECK(tf::relation(one, cloud({{0, 1, 0}})).relation == mesh_relation::touching);
 }
 
@@ -200,7 +200,7 @@ TEST_CASE("clouds: points without faces are a cloud in every query, prepared or 
         CHECK(tf::closest_point(given, {4, 5, 5})->face == 1);
         CHECK_FALSE(tf::intersects(given, solid));
         CHECK(tf::mesh_intersections(given, solid).pairs.empty());
-        CHECK(tf::relation(given, solid).relation == mesh_relation::separate);
+        CHECK(tf::relation(given, solid).relation == mesh_relation::disjoint);
         CHECK(tf::slide(given, solid, {0, 0, -1}).travel == 1.0);
         CHECK(tf::deviation(given, solid)->distances[0] == 1.0);
     }

@@ -232,7 +232,7 @@ TEST_CASE("mate features: a shaft that goes through its bore stays in the middle
     check_features(shaft, bore, found);
     CHECK(found.outcome == tf::placement_outcome::unchanged);
     CHECK(std::abs(found.offset) < 1e-12);
-    CHECK(found.relation == tf::mesh_relation::separate);
+    CHECK(found.relation == tf::mesh_relation::disjoint);
     // One that is too thick stops outside.
     const tf::mesh thick = test::moved(tube(10.2, 4, 30, 64), {50, 3, 2});
     const auto stopped =

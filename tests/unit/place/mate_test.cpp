@@ -34,7 +34,7 @@ TEST_CASE("mate: a corner comes to a corner, or to the clearance from it") {
     const auto found = tf::mate(a, among.prepared);
     REQUIRE(found);
     CHECK(found.outcome == placement_outcome::contact);
-    CHECK(found.relation_at_start == tf::mesh_relation::separate);
+    CHECK(found.relation_at_start == tf::mesh_relation::disjoint);
     CHECK(found.relation == tf::mesh_relation::touching);
     REQUIRE(found.nearest);
     CHECK(found.nearest_fixed == 1);

@@ -58,7 +58,7 @@ TEST_CASE("measure: boxes apart, touching, through each other, inside") {
         return *found;
     };
     const auto apart = at(7, 1, 1);
-    CHECK(apart.relation == mesh_relation::separate);
+    CHECK(apart.relation == mesh_relation::disjoint);
     CHECK(apart.distance == 3.0);
     CHECK(apart.surface_distance == 3.0);
     const auto touching = at(4, 1, 1);

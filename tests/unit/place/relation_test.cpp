@@ -36,7 +36,7 @@ mesh_relation between(const tf::mesh& a, const tf::mesh& b) {
 TEST_CASE("relation: boxes that are apart, touch in every way, or penetrate by an ulp") {
     const tf::mesh b = box(1, 1, 1);
     const double ulp = 0x1p-52;
-    CHECK(between(moved(b, {1 + ulp, 0, 0}), b) == mesh_relation::separate);
+    CHECK(between(moved(b, {1 + ulp, 0, 0}), b) == mesh_relation::disjoint);
     CHECK(between(moved(b, {1, 0, 0}), b) == mesh_relation::touching);       // faces
     CHECK(between(moved(b, {1, 0.5, 0.25}), b) == mesh_relation::touching);  // parts of faces
     CHECK(between(moved(b, {1, 1, 0}), b) == mesh_relation::touching);       // edges
@@ -56,7 +56,7 @@ TEST_CASE("relation: a body in a solid is inside it, in a cavity it is not") {
     CHECK(inside.a_inside_b);
     CHECK_FALSE(inside.b_inside_a);
     const tf::mesh hollow = together(big, inside_out(moved(box(4, 4, 4), {4, 4, 4})));
-    CHECK(between(small, hollow) == mesh_relation::separate);
+    CHECK(between(small, hollow) == mesh_relation::disjoint);
     CHECK(between(moved(box(1, 1, 1), {4, 5, 5}), hollow) == mesh_relation::touching);
     CHECK(between(moved(box(1, 1, 1), {3.5, 5, 5}), hollow) == mesh_relation::penetrating);
     CHECK(between(moved(box(1, 1, 1), {2, 5, 5}), hollow) == mesh_relation::penetrating);
@@ -120,10 +120,10 @@ TEST_CASE("count_inside_out: components that are, and are in no other one") {
 TEST_CASE("relation: an open sheet has no inside") {
     tf::mesh open = box(10, 10, 10);
     open.faces.pop_back();
-    CHECK(between(moved(box(1, 1, 1), {5, 5, 5}), open) == mesh_relation::separate);
+    CHECK(between(moved(box(1, 1, 1), {5, 5, 5}), open) == mesh_relation::disjoint);
     CHECK(between(moved(box(1, 1, 1), {-1, 5, 5}), open) == mesh_relation::touching);
     CHECK(between(moved(box(1, 1, 1), {-0.5, 5, 5}), open) == mesh_relation::penetrating);
-    CHECK(between({}, open) == mesh_relation::separate);
+    CHECK(between({}, open) == mesh_relation::disjoint);
 }
 
 TEST_CASE("relation: corners that a file repeats are one vertex, unless told otherwise") {
@@ -132,7 +132,7 @@ TEST_CASE("relation: corners that a file repeats are one vertex, unless told oth
     CHECK(between(small, big) == mesh_relation::penetrating);
     CHECK(tf::relation(small, big).a_inside_b);
     CHECK(tf::relation(small, big, {.vertices = tf::vertex_identity::by_index}).relation ==
-          mesh_relation::separate);
+          mesh_relation::disjoint);
     const auto same = test::unjoined(box(1, 1, 1));
     CHECK(between(same, box(1, 1, 1)) == mesh_relation::penetrating);  // faces look the same way
     CHECK(tf::relation(same, same, {.vertices = tf::vertex_identity::by_index}).relation ==

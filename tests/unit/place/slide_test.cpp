@@ -58,7 +58,7 @@ TEST_CASE("slide: the first of several ends it, what is beside the way is not in
         CHECK(found.direction == down);
         CHECK(found.points == moved(box(6, 1, 1), {0, 0, 3.0 + clearance}).points);
         CHECK(found.relation_at_start ==
-              (clearance > 0.0 ? mesh_relation::clear : mesh_relation::separate));
+              (clearance > 0.0 ? mesh_relation::clear : mesh_relation::disjoint));
         CHECK(found.relation == (clearance > 0.0 ? mesh_relation::clear : mesh_relation::touching));
         for (const auto& c : found.contacts) {
             CHECK((c.fixed == 1 || c.fixed == 2));
@@ -179,7 +179,7 @@ TEST_CASE("slide: what fell on something is close to it in the coordinates writt
                 p[k] += time * motion[k];
                 if (single) p[k] = double{static_cast<float>(p[k])};
             }
-        CHECK(tf::relation(further, b).relation != tf::mesh_relation::separate);
+        CHECK(tf::relation(further, b).relation != tf::mesh_relation::disjoint);
     }
 }
 
@@ -304,7 +304,7 @@ TEST_CASE("contacts are classified as the faces lie at the place") {
         std::array<std::set<tf::mesh_relation>, 2> others;
         for (std::size_t i = 0; i < 2; ++i)
             for (const tf::mesh_relation how : found[i])
-                if (how != tf::mesh_relation::separate) others[i].insert(how);
+                if (how != tf::mesh_relation::disjoint) others[i].insert(how);
         CHECK(others[0] == others[1]);
         return others[0];
     };

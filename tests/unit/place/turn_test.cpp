@@ -127,7 +127,7 @@ TEST_CASE("turn: on the way nothing is met, and a little further something is") 
             {source.in(2, 5), source.in(-1, 1), source.in(-1, 1)});
         tf::mesh b = test::moved(test::box(source.in(1, 3), source.in(1, 3), source.in(1, 3)),
                                  {source.in(-7, -2), source.in(-4, 4), source.in(-2, 1)});
-        if (tf::relation(a, b).relation != tf::mesh_relation::separate) continue;
+        if (tf::relation(a, b).relation != tf::mesh_relation::disjoint) continue;
         const tf::placement_options options{.clearance = round % 3 == 0 ? 0.1 : 0.0};
         if (tf::distance(a, b) <= options.clearance) continue;
         const auto found = tf::turn(a, b, {}, up, options);
@@ -137,12 +137,12 @@ TEST_CASE("turn: on the way nothing is met, and a little further something is") 
         for (int i = 0; i < 60; ++i) {
             const tf::mesh there = turned_by(a, about_z(last * i / 60));
             CHECK(tf::distance(there, b) >= options.clearance);
-            CHECK(tf::relation(there, b).relation == tf::mesh_relation::separate);
+            CHECK(tf::relation(there, b).relation == tf::mesh_relation::disjoint);
         }
         if (!found) continue;
         const tf::mesh there = turned_by(a, about_z(last + 1e-4));
         beyond += tf::distance(there, b) <= options.clearance ||
-                  tf::relation(there, b).relation != tf::mesh_relation::separate;
+                  tf::relation(there, b).relation != tf::mesh_relation::disjoint;
     }
     CHECK(met > 10);
     CHECK(free > 3);

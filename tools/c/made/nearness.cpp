@@ -17,7 +17,7 @@ static_assert(TREEFORM_AT_E0 == static_cast<int>(tf::triangle_feature::e0));
 static_assert(TREEFORM_AT_E1 == static_cast<int>(tf::triangle_feature::e1));
 static_assert(TREEFORM_AT_E2 == static_cast<int>(tf::triangle_feature::e2));
 static_assert(TREEFORM_AT_INTERIOR == static_cast<int>(tf::triangle_feature::interior));
-static_assert(TREEFORM_RELATION_SEPARATE == static_cast<int>(tf::mesh_relation::separate));
+static_assert(TREEFORM_RELATION_DISJOINT == static_cast<int>(tf::mesh_relation::disjoint));
 static_assert(TREEFORM_RELATION_TOUCHING == static_cast<int>(tf::mesh_relation::touching));
 static_assert(TREEFORM_RELATION_PENETRATING == static_cast<int>(tf::mesh_relation::penetrating));
 static_assert(TREEFORM_RELATION_CLOSER_THAN_CLEARANCE ==

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._errors import options
-from ._mesh import Body, each, held, held_body
+from ._mesh import MeshOrCloud, each, held, held_body
 from ._placement import SearchEffort
 from ._progress import Progress
 from ._results import Result, tuple_repr
@@ -63,7 +63,7 @@ def _at(body: _core.HeldMesh, pose: Floats) -> _core.HeldMesh:
     return held(_core.transformed(body, pose))
 
 
-def clashes(parts: Iterable[Body], poses: ArrayLike | None, how: _core.ClashOptions,
+def clashes(parts: Iterable[MeshOrCloud], poses: ArrayLike | None, how: _core.ClashOptions,
             ignored: PartPairs, progress: Progress) -> ClashResult:
     """Implements `clash`."""
     bodies = each(parts, "parts")
@@ -75,7 +75,7 @@ def clashes(parts: Iterable[Body], poses: ArrayLike | None, how: _core.ClashOpti
     return _core.clash_parts(bodies, how, _pairs(ignored), progress=progress)
 
 
-def clashes_in_poses(parts: Iterable[Body], poses: ArrayLike, how: _core.ClashOptions,
+def clashes_in_poses(parts: Iterable[MeshOrCloud], poses: ArrayLike, how: _core.ClashOptions,
                      ignored: PartPairs, progress: Progress) -> PoseClashes:
     """Implements `check_poses`."""
     bodies = each(parts, "parts")
@@ -93,7 +93,7 @@ def clashes_in_poses(parts: Iterable[Body], poses: ArrayLike, how: _core.ClashOp
 # made of headers:
 #   intersects distance ClosestPair closest_pair PartClash ClashResult clash
 #   PoseClashes check_poses
-def intersects(a: Body, b: Body, *, transform_a: ArrayLike | None = None,
+def intersects(a: MeshOrCloud, b: MeshOrCloud, *, transform_a: ArrayLike | None = None,
                transform_b: ArrayLike | None = None, progress: Progress = None) -> Any:
     """Whether a face of `a` and a face of `b` have a common point; touching counts. Exact. Returns
     as soon as one pair is found. For meshes that are not a `Mesh`, only the faces that reach into
@@ -121,7 +121,7 @@ def intersects(a: Body, b: Body, *, transform_a: ArrayLike | None = None,
                                        progress=progress).view(np.bool_), transform_a, transform_b)
 
 
-def distance(a: Body, b: Body, *, transform_a: ArrayLike | None = None,
+def distance(a: MeshOrCloud, b: MeshOrCloud, *, transform_a: ArrayLike | None = None,
              transform_b: ArrayLike | None = None, radius: float = np.inf,
              progress: Progress = None) -> Any:
     """The distance between the surfaces `a` and `b`; infinite if `closest_pair` returns None.
@@ -166,7 +166,7 @@ class ClosestPair(NamedTuple):
         return tuple_repr(self)
 
 
-def closest_pair(a: Body, b: Body, *, transform_a: ArrayLike | None = None,
+def closest_pair(a: MeshOrCloud, b: MeshOrCloud, *, transform_a: ArrayLike | None = None,
                  transform_b: ArrayLike | None = None, radius: float = np.inf,
                  progress: Progress = None) -> ClosestPair | None:
     """The nearest points of the surfaces `a` and `b`; none if one is empty, or if they are further
@@ -255,14 +255,14 @@ class ClashResult(Result):
     boxes_apart: int
 
 
-def clash(parts: Iterable[Body], clearance: float = 0.0, *, volumes: bool = True,
+def clash(parts: Iterable[MeshOrCloud], clearance: float = 0.0, *, volumes: bool = True,
           depths: bool = True, limit: int = 1000, vertices: str = "by_coordinates",
           poses: ArrayLike | None = None, ignored: PartPairs = (),
           progress: Progress = None) -> ClashResult:
     """The relations of all pairs of parts of an assembly.
 
-    Exact, like `measure`: parts penetrate, touch, or are separate. Boxes only exclude pairs: linked
-    rings that do not meet are separate, although their boxes overlap. Empty parts are separate from
+    Exact, like `measure`: parts penetrate, touch, or are disjoint. Boxes only exclude pairs: linked
+    rings that do not meet are disjoint, although their boxes overlap. Empty parts are disjoint from
     all. Distances are those of `distance`, and only computed with a clearance. A part is only
     indexed if its box is near that of another.
 
@@ -320,7 +320,7 @@ class PoseClashes(Result):
     relation: NDArray[np.uint8]
 
 
-def check_poses(parts: Iterable[Body], poses: ArrayLike, clearance: float = 0.0, *,
+def check_poses(parts: Iterable[MeshOrCloud], poses: ArrayLike, clearance: float = 0.0, *,
                 first_only: bool = False, vertices: str = "by_coordinates", ignored: PartPairs = (),
                 progress: Progress = None) -> PoseClashes:
     """The clashes in each of many poses. All pairs are tested, also of parts that do not move: if

@@ -14,7 +14,7 @@ from warnings import warn
 from . import _arrays, _core
 from ._arrays import path_of
 from ._errors import FileError, file_error, options
-from ._mesh import Body, Mesh, MeshLike, as_mesh, held, listed
+from ._mesh import MeshOrCloud, Mesh, MeshLike, as_mesh, held, listed
 from ._progress import Progress
 from ._results import Result
 
@@ -56,7 +56,7 @@ def _name_of(file: Any) -> str:
 
 
 #: What `write` takes: a mesh or cloud, several meshes as parts, or a dict of parts by name.
-PartsLike = Union[Body, Iterable[MeshLike], Mapping[str, MeshLike]]
+PartsLike = Union[MeshOrCloud, Iterable[MeshLike], Mapping[str, MeshLike]]
 
 
 def written(path: Path | IO[bytes], mesh: PartsLike, format: str, how: _core.WriteOptions,

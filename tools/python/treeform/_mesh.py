@@ -245,7 +245,7 @@ class Mesh:
 MeshLike = Union[Mesh, HasMesh, HasFaces, HasTriangles, HasCells, HasTensors, HasPolys,
                  Tuple[ArrayLike, ArrayLike]]
 #: A mesh, or a cloud (n, 3).
-Body = Union[MeshLike, ArrayLike]
+MeshOrCloud = Union[MeshLike, ArrayLike]
 
 
 _Array = TypeVar("_Array", Floats, Ids)
@@ -344,7 +344,7 @@ def bodies(fixed: Any) -> list[_core.HeldMesh]:
     return [held_body(fixed)]
 
 
-def points_of(body: Body) -> Floats:
+def points_of(body: MeshOrCloud) -> Floats:
     """The points of a cloud, or the vertices of a mesh."""
     points = cloud_of(body)
     return as_mesh(body).vertices if points is None else points

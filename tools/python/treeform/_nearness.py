@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._errors import NotClosedError, options, require
-from ._mesh import Body, MeshLike, as_mesh, held, held_body
+from ._mesh import MeshOrCloud, MeshLike, as_mesh, held, held_body
 from ._progress import Progress
 from ._results import Result, tuple_repr
 
@@ -97,7 +97,7 @@ class ClosestPoints(NamedTuple):
         return tuple_repr(self)
 
 
-def closest_point(mesh: Body, points: ArrayLike, *, radius: float = np.inf,
+def closest_point(mesh: MeshOrCloud, points: ArrayLike, *, radius: float = np.inf,
                   progress: Progress = None) -> ClosestPoints:
     """The point on the surface nearest to each of `points` (n, 3). The error of a distance is at
     most 16 u L, where u = 2^-53 and L is the larger of the distance and the diagonal of the
@@ -322,8 +322,8 @@ class Deviation(Result):
     reverse_max_bound: float | None
 
 
-def deviation(a: Body, b: Body, *, band: tuple[float, float] | None = None, bins: int = 40,
-              both_ways: bool = True, progress: Progress = None) -> Deviation:
+def deviation(a: MeshOrCloud, b: MeshOrCloud, *, band: tuple[float, float] | None = None,
+              bins: int = 40, both_ways: bool = True, progress: Progress = None) -> Deviation:
     """The signed distances of all points of `a`, used by faces or not, from the surface of `b`.
 
     The sign is exact: that of the winding number of `b` around the point (`locate`). Corners of `b`

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._errors import need, options
-from ._mesh import Body, Mesh, MeshLike, MeshResult, bodies, each, held, held_body
+from ._mesh import MeshOrCloud, Mesh, MeshLike, MeshResult, bodies, each, held, held_body
 from ._progress import Progress
 from ._properties import Feature
 from ._results import Certificate, Result, tuple_repr
@@ -74,9 +74,9 @@ class Placement(MeshResult):
     message: Why there is no place, as a clause; empty if there is a place.
     direction: (3,) unit direction of the travel; 0 if there is none.
     travel: Distance moved; for `too_far` the distance needed.
-    relation_at_start: Exact: 'separate', 'touching', 'penetrating', 'closer_than_clearance' or
+    relation_at_start: Exact: 'disjoint', 'touching', 'penetrating', 'closer_than_clearance' or
         'clear'.
-    relation: Relation at the place: 'separate', 'touching', 'penetrating', 'closer_than_clearance'
+    relation: Relation at the place: 'disjoint', 'touching', 'penetrating', 'closer_than_clearance'
         or 'clear'.
     contacts: Pairs of faces that touch in the final position, or are at the clearance.
     contact_count: Number of all contacts, listed or not.
@@ -140,7 +140,7 @@ class SearchEffort(NamedTuple):
 class Measure(Result):
     """The relation and distance of two meshes.
 
-    relation: 'separate', 'touching' or 'penetrating'. Exact.
+    relation: 'disjoint', 'touching' or 'penetrating'. Exact.
     distance: Not squared. 0 if and only if the meshes touch or penetrate each other.
     surface_distance: Exactly 0 if and only if a face of one meets a face of the other. So it is
         positive for a mesh inside a solid whose surface it does not touch.
@@ -163,7 +163,7 @@ class Measure(Result):
     b_inside_a: bool
 
 
-def slide(moving: Body, fixed: Any, direction: ArrayLike, clearance: float = 0.0, *,
+def slide(moving: MeshOrCloud, fixed: Any, direction: ArrayLike, clearance: float = 0.0, *,
           max_travel: float | None = None, precision: str = "float64", bed: float | None = None,
           progress: Progress = None) -> Placement:
     """Moves `moving` along `direction` (of any length) until it first meets one of `fixed`, or is
@@ -202,7 +202,7 @@ def slide(moving: Body, fixed: Any, direction: ArrayLike, clearance: float = 0.0
                        how, progress=progress)
 
 
-def drop(moving: Body, fixed: Any = None, *, direction: ArrayLike = (0, 0, -1),
+def drop(moving: MeshOrCloud, fixed: Any = None, *, direction: ArrayLike = (0, 0, -1),
          clearance: float = 0.0, max_travel: float | None = None, precision: str = "float64",
          bed: float | None = None, progress: Progress = None) -> Placement:
     """Moves `moving` down until it rests on the bed or on one of `fixed`. A mesh below the bed
@@ -230,8 +230,9 @@ def drop(moving: Body, fixed: Any = None, *, direction: ArrayLike = (0, 0, -1),
                       progress=progress)
 
 
-def mate(moving: Body, fixed: Any, *, clearance: float = 0.0, max_travel: float | None = None,
-         precision: str = "float64", progress: Progress = None) -> Placement:
+def mate(moving: MeshOrCloud, fixed: Any, *, clearance: float = 0.0,
+         max_travel: float | None = None, precision: str = "float64",
+         progress: Progress = None) -> Placement:
     """Translates `moving` so that the nearest points of `moving` and `fixed` meet, or are at the
     clearance. Coordinates are checked as in `slide`. A mesh that touches stays; a mesh that
     penetrates has no place.
@@ -254,8 +255,9 @@ def mate(moving: Body, fixed: Any, *, clearance: float = 0.0, max_travel: float 
     return _core.mate(held_body(moving), bodies(fixed), how, progress=progress)
 
 
-def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: float | None = None,
-             precision: str = "float64", effort: int = 0, progress: Progress = None) -> Placement:
+def separate(moving: MeshOrCloud, fixed: Any, clearance: float = 0.0, *,
+             max_travel: float | None = None, precision: str = "float64", effort: int = 0,
+             progress: Progress = None) -> Placement:
     """Translates `moving` to a place where it penetrates none of `fixed` and keeps the clearance.
     If it already does, in coordinates of the precision, it stays.
 
@@ -289,7 +291,7 @@ def separate(moving: Body, fixed: Any, clearance: float = 0.0, *, max_travel: fl
     return _core.separate(held_body(moving), bodies(fixed), how, progress=progress)
 
 
-def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.0, 0.0), *,
+def turn(moving: MeshOrCloud, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.0, 0.0), *,
          clearance: float = 0.0, max_angle: float = 360.0, tolerance: float | None = None,
          precision: str = "float64", progress: Progress = None) -> Placement:
     """Turns `moving` until its distance from one of `fixed` is at most the clearance plus the
@@ -306,7 +308,7 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
 
     `travel` is 0, and vertices differ from `matrix` by a few units in the last place of the largest
     coordinate. `contacts` are the pairs of faces within the tolerance, beyond the clearance.
-    `Placement.relation` is exact: in general separate, by at most the tolerance beyond the
+    `Placement.relation` is exact: in general disjoint, by at most the tolerance beyond the
     clearance.
 
     Points that no face uses turn along and are otherwise ignored; points without any face are a
@@ -338,7 +340,7 @@ def turn(moving: Body, fixed: Any, axis: ArrayLike, origin: ArrayLike = (0.0, 0.
                       _arrays.vector(origin, "origin"), how, progress=progress)
 
 
-def mate_features(moving: Body, fixed: Any, of_moving: Feature, of_fixed: Feature, *,
+def mate_features(moving: MeshOrCloud, fixed: Any, of_moving: Feature, of_fixed: Feature, *,
                   clearance: float = 0.0, max_travel: float | None = None, flip: bool = False,
                   precision: str = "float64", progress: Progress = None) -> Placement:
     """Rotates `moving` by the least angle that makes the features' directions opposite (planes) or
@@ -512,7 +514,7 @@ class Alignment(MeshResult):
         return self.converged
 
 
-def align(moving: Body, fixed: Body, *, scale: bool | tuple[float, float] = False,
+def align(moving: MeshOrCloud, fixed: MeshOrCloud, *, scale: bool | tuple[float, float] = False,
           method: str = "automatic", overlap: float = 1.0, robust: bool = True,
           max_distance: float = np.inf, max_iterations: int = 100, tolerance: float = 1e-6,
           starts: int = 1, max_samples: int = 100_000, start: ArrayLike | None = None,
@@ -629,7 +631,7 @@ class Packing(Result):
         return len(self.not_placed) == 0
 
 
-def pack(parts: Iterable[Body], size: ArrayLike, *, corner: ArrayLike = (0.0, 0.0, 0.0),
+def pack(parts: Iterable[MeshOrCloud], size: ArrayLike, *, corner: ArrayLike = (0.0, 0.0, 0.0),
          spacing: float = 2.0, turns: int = 4, stack: bool = False, plates: int = 1,
          plate_step: ArrayLike = (0.0, 0.0, 0.0), seed: int = 0, tries: int = 32,
          seconds: float = np.inf, precision: str = "float64", progress: Progress = None) -> Packing:
@@ -690,9 +692,9 @@ def pack(parts: Iterable[Body], size: ArrayLike, *, corner: ArrayLike = (0.0, 0.
     return _core.pack(each(parts, "parts"), how, progress=progress)
 
 
-def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coordinates",
-            progress: Progress = None) -> Measure | None:
-    """The relation of two bodies (separate, touching or penetrating), their distance, and the
+def measure(a: MeshOrCloud, b: MeshOrCloud, *, radius: float = np.inf,
+            vertices: str = "by_coordinates", progress: Progress = None) -> Measure | None:
+    """The relation of two bodies (disjoint, touching or penetrating), their distance, and the
     nearest points. Each body is a mesh or a cloud (n, 3). Returns None if a mesh has no faces, or
     if the bodies are farther apart than `radius`. The relation is exact, and so is whether the
     distance is 0. Other distances are rounded as in `distance`.
@@ -710,7 +712,7 @@ def measure(a: Body, b: Body, *, radius: float = np.inf, vertices: str = "by_coo
     >>> cube = treeform.read("data/cube.stl")
     >>> how = treeform.measure(cube, (cube.vertices + [0, 0, 3], cube.faces))
     >>> how.relation, how.distance, how.on_a[2], how.on_b[2]
-    ('separate', 2.0, 1.0, 3.0)
+    ('disjoint', 2.0, 1.0, 3.0)
     """
     how = options(_core.MeasureOptions, locals())
     return _core.measure(held_body(a), held_body(b), how, progress=progress)
@@ -734,7 +736,7 @@ class Depth(NamedTuple):
         return tuple_repr(self)
 
 
-def penetration_depth(a: Body, b: Body, *, directions: int = 256, effort: int = 0,
+def penetration_depth(a: MeshOrCloud, b: MeshOrCloud, *, directions: int = 256, effort: int = 0,
                       progress: Progress = None) -> Depth | None:
     """The length of a short translation that separates `a` from `b`: an upper bound of the
     penetration depth, which is the length of the shortest one. None if they do not penetrate each
@@ -786,9 +788,9 @@ class Impact(NamedTuple):
         return tuple_repr(self)
 
 
-def time_of_impact(a: Body, b: Body, motion: ArrayLike, *, transform_a: ArrayLike | None = None,
-                   transform_b: ArrayLike | None = None, latest: float = np.inf,
-                   progress: Progress = None) -> Impact:
+def time_of_impact(a: MeshOrCloud, b: MeshOrCloud, motion: ArrayLike, *,
+                   transform_a: ArrayLike | None = None, transform_b: ArrayLike | None = None,
+                   latest: float = np.inf, progress: Progress = None) -> Impact:
     """The least t >= 0 at which `a`, moved by t times `motion`, has a common point with `b`.
 
     Exact on the coordinates as given, or as moved by the options. Times of pairs of faces are

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._errors import checked, options
-from ._mesh import Body, Mesh, MeshLike, MeshResult, held, points_of
+from ._mesh import MeshOrCloud, Mesh, MeshLike, MeshResult, held, points_of
 from ._progress import Progress
 from ._results import Certificate, Result
 
@@ -229,7 +229,7 @@ def repair(mesh: MeshLike, *, steps: Iterable[str] = STEPS, gap: float | None = 
     return checked(_core.repair(held(mesh), how, progress=progress), check, of="")
 
 
-def convex_hull(points: Body, *, progress: Progress = None) -> ConvexHull:
+def convex_hull(points: MeshOrCloud, *, progress: Progress = None) -> ConvexHull:
     """The convex hull of `points`, exact on the coordinates as given: no point is outside the plane
     of a face, and faces belong to one side if and only if they are exactly coplanar. Of equal
     points, the lowest number is used. Corners of triangles may lie on an edge or inside a side of

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from . import _arrays, _core
 from ._arrays import Floats, Ids
 from ._errors import checked, options
-from ._mesh import Body, MeshLike, held, points_of
+from ._mesh import MeshOrCloud, MeshLike, held, points_of
 from ._progress import Progress
 from ._repair import MadeMesh
 from ._results import Result
@@ -381,7 +381,7 @@ class OrientedBox(Result):
     size: Floats
 
 
-def oriented_box(points: Body, *, progress: Progress = None) -> OrientedBox | None:
+def oriented_box(points: MeshOrCloud, *, progress: Progress = None) -> OrientedBox | None:
     """A box of small volume around points. It is the smallest of these: the axis-aligned box, and
     all boxes with a side in a side of the convex hull and another along an edge of that side. For
     coplanar points, the one of least area. None without points. For a hull of more than a few

@@ -12,7 +12,7 @@ from . import _arrays, _core
 from ._arrays import Floats, Ids, path_of
 from ._errors import options
 from ._files import Columns, Path
-from ._mesh import Body, Mesh, MeshResult, held_body
+from ._mesh import MeshOrCloud, Mesh, MeshResult, held_body
 from ._progress import Progress
 from ._results import Result
 from ._steps import Communicator, InSteps, in_communicator
@@ -29,7 +29,6 @@ class WeldResult(MeshResult):
     """A welded mesh or cloud.
 
     mesh: The welded mesh; without faces for a cloud.
-    index: (n,) the new number of each point.
     face_source: (F,) the input face of each face; empty for a cloud.
     statistics: Counts of what welding changed. Keys: 'groups' (Groups of two points or more);
         'non_finite' (Points with a NaN or infinite coordinate, left as they are); 'collapsed'
@@ -39,13 +38,14 @@ class WeldResult(MeshResult):
         (Kept faces whose normal turned by more than a right angle); 'kept_apart' (Groups that
         `keep_manifold` did not merge completely).
     vertex_source: (m,) the input point whose properties each new point has.
+    group_of_point: (n,) the new number of each point.
     """
 
     mesh: Mesh
-    index: Ids
     face_source: Ids
     statistics: dict[str, Any]
     vertex_source: Ids
+    group_of_point: Ids
 # end
 
     @property
@@ -159,7 +159,7 @@ class SharedWeld(InSteps[_core.WeldInSteps]):
 
 # made of headers:
 #   weld count_nearly_equal WeldStreamResult weld_stream
-def weld(mesh_or_points: Body, tolerance: float = 0.0, *, chain: bool = False,
+def weld(mesh_or_points: MeshOrCloud, tolerance: float = 0.0, *, chain: bool = False,
          same: Mapping[str, float] | None = None, keep_seams: bool = False,
          ignored_seams: Iterable[str] = (), keep: str = "first", keep_by: str = "",
          order_by: str = "", highest_first: bool = False, only_borders: bool = False,
@@ -232,7 +232,7 @@ def weld(mesh_or_points: Body, tolerance: float = 0.0, *, chain: bool = False,
 
     >>> import treeform
     >>> thin = treeform.weld([[0, 0, 0], [0, 0, 0.5], [3, 0, 0]], 1.0)
-    >>> thin.points.tolist(), thin.index.tolist()
+    >>> thin.points.tolist(), thin.group_of_point.tolist()
     ([[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]], [0, 0, 1])
     """
     how = options(_core.WeldOptions, locals())

@@ -89,9 +89,9 @@ struct clash_result {
 
 /// The relations of all pairs of parts of an assembly.
 ///
-/// Exact, like `relation`: parts penetrate, touch, or are separate. Boxes only exclude pairs:
-/// linked rings that do not meet are separate, although their boxes overlap. Empty parts are
-/// separate from all. Distances are those of `distance`, and only computed with a clearance. A part
+/// Exact, like `relation`: parts penetrate, touch, or are disjoint. Boxes only exclude pairs:
+/// linked rings that do not meet are disjoint, although their boxes overlap. Empty parts are
+/// disjoint from all. Distances are those of `distance`, and only computed with a clearance. A part
 /// is only indexed if its box is near that of another.
 ///
 /// \throws std::invalid_argument naming the part and its lowest face with a corner out of range or

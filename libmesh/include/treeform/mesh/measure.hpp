@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The relation of two bodies (separate, touching or penetrating), their distance and nearest
+/// The relation of two bodies (disjoint, touching or penetrating), their distance and nearest
 /// points, penetration depth, points of a cloud inside, and wall thickness.
 
 #include <treeform/mesh/certificate.hpp>
@@ -20,15 +20,15 @@ namespace treeform {
 
 /// The relation of two meshes; see `relation`. The last two occur only with a clearance.
 enum class mesh_relation : std::uint8_t {
-    separate,
+    disjoint,
     touching,
     penetrating,
     closer_than_clearance,
-    clear  ///< separate, by at least the clearance
+    clear  ///< disjoint, by at least the clearance
 };
 template <>
 inline constexpr auto detail::names_of<mesh_relation> =
-    std::array{"separate", "touching", "penetrating", "closer-than-clearance", "clear"};
+    std::array{"disjoint", "touching", "penetrating", "closer-than-clearance", "clear"};
 
 /// Options of `relation`, `measure` and `penetration_depth`. Each ignores those that do not concern
 /// it.
@@ -58,10 +58,10 @@ struct surface_point {
 
 /// The relation and distance of two meshes.
 struct relation_result {
-    mesh_relation relation = mesh_relation::separate;
+    mesh_relation relation = mesh_relation::disjoint;
     /// Faces that prove the relation: two that cross, overlap with the inside on the same side, or
     /// touch. For a mesh that is entirely or partly inside the other, its lowest face there. Both
-    /// are 0 if the meshes are separate.
+    /// are 0 if the meshes are disjoint.
     std::uint32_t face_a = 0;
     std::uint32_t face_b = 0;
     bool a_inside_b = false;  ///< a component of `a` is inside the solid `b` without touching it
@@ -89,11 +89,11 @@ struct relation_result {
 /// Inside is where the winding number is not 0, as in `boolean`; so a mesh that is inside out
 /// (`count_inside_out`) is the same solid.
 ///
-/// Otherwise they touch if they have a common point, and are separate if not.
+/// Otherwise they touch if they have a common point, and are disjoint if not.
 ///
 /// By default corners with equal coordinates are one vertex, so a mesh that repeats its corners, as
 /// from STL, is closed if its surface is. With `by_index` such a mesh is open, and a mesh inside it
-/// is separate.
+/// is disjoint.
 ///
 /// For closed meshes, penetrating means that their interiors have a common point. One exception
 /// counts as touching: a body that passes through the other only along edges and corners of both,
@@ -119,7 +119,7 @@ struct relation_result {
 [[nodiscard]] TREEFORM_API std::uint64_t count_inside_out(const mesh_ref& mesh);
 
 /// The relation of `a` and `b`, their distance and their nearest points. None if one is empty,
-/// or if they are separate and further apart than `options.radius`.
+/// or if they are disjoint and further apart than `options.radius`.
 ///
 /// The relation is exact (see `relation`), and so is whether a distance is 0. Other distances are
 /// rounded as in `distance`. If the two faces named by `relation` meet, the points are on them.

@@ -101,8 +101,8 @@ struct placement {
     double clearance = 0.0;       ///< the given clearance
     std::optional<double> bed{};  ///< least z allowed, rounded: the bed plus the clearance
     double below_bed = 0.0;       ///< how far the mesh was below `bed` at the start
-    mesh_relation relation_at_start = mesh_relation::separate;  ///< exact
-    mesh_relation relation = mesh_relation::separate;           ///< relation at the place
+    mesh_relation relation_at_start = mesh_relation::disjoint;  ///< exact
+    mesh_relation relation = mesh_relation::disjoint;           ///< relation at the place
     /// The relation, at the place, of the moving mesh (`a`) to the fixed mesh that it penetrates,
     /// else to one that it touches, else to the nearest. None if all are too far away.
     std::optional<relation_result> nearest{};
@@ -128,13 +128,13 @@ struct placement {
     /// if there is a place. `names` has the names of the fixed meshes.
     [[nodiscard]] TREEFORM_API std::string message(std::span<const std::string> names = {}) const;
     /// The relation of the only body of `moving` to `fixed` at the place, in words: "touching
-    /// bed.stl (1 pair of faces, the first 3 and 7)", "separate, 0.5 from bed.stl". Face numbers
+    /// bed.stl (1 pair of faces, the first 3 and 7)", "disjoint, 0.5 from bed.stl". Face numbers
     /// are numbers in the files.
     [[nodiscard]] TREEFORM_API std::string relation_in_words(const body_set& moving,
                                                              const body_set& fixed) const;
 
     /// The relation of each face to the other meshes at the place: [0][F] for `moving`, then [1 +
-    /// i][F] for each of `fixed`; such a list may be empty if all its faces are separate. Faces of
+    /// i][F] for each of `fixed`; such a list may be empty if all its faces are disjoint. Faces of
     /// `contacts`, and those on the bed, count as closer than the clearance or, without one, as
     /// touching, even if rounding left a gap.
     ///
@@ -145,13 +145,13 @@ struct placement {
         const mesh_ref& moving, const mesh_refs& fixed) const;
 
     /// Gives the rows of the element "face" of `file` (for a cloud, "vertex") the property
-    /// tf_class, and the colors red, green and blue: 0 and gray for separate, 1 and red for
+    /// tf_class, and the colors red, green and blue: 0 and gray for disjoint, 1 and red for
     /// penetrating, 2 and yellow for touching, 3 and cyan for closer than the clearance. With
     /// `keep_colors`, colors that the file has are not changed.
     ///
-    /// Small separate faces near the others get a tint of their color, so that contacts of a few
+    /// Small disjoint faces near the others get a tint of their color, so that contacts of a few
     /// small faces can be seen. These are faces with edges of at most twice `halo`, a length, and
-    /// all corners within `halo` of a face that is not separate. Their tf_class stays 0.
+    /// all corners within `halo` of a face that is not disjoint. Their tf_class stays 0.
     ///
     /// `relations` has one entry for each triangle of `file.mesh`; for a cloud, for each point. A
     /// polygon gets the worst relation of its triangles; see `mesh_file::split_polygons`.

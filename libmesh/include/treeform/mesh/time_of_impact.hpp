@@ -114,7 +114,7 @@ struct impact {
 ///
 /// `travel` is 0, and `points` differ from `matrix` by a few units in the last place of the largest
 /// coordinate. `contacts` are the pairs of faces within the tolerance, beyond the clearance.
-/// `placement::relation` is exact: in general separate, by at most the tolerance beyond the
+/// `placement::relation` is exact: in general disjoint, by at most the tolerance beyond the
 /// clearance.
 ///
 /// Points that no face uses turn along and are otherwise ignored; points without any face are a

@@ -325,7 +325,7 @@ py::object object(of_result, tf::weld_result&& from, const file_data* data) {
     py::dict made;
     made["mesh"] = mesh_object(std::move(from.mesh), py::none(),
                                with_attributes(data, std::move(from.attributes)));
-    made["index"] = as_python(std::move(from.groups.group_of_point));
+    made["group_of_point"] = as_python(std::move(from.groups.group_of_point));
     made["vertex_source"] = as_python(std::move(from.vertex_source));
     made["face_source"] = as_python(std::move(from.face_source));
     made["statistics"] = counters(from.statistics);

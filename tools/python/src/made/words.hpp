@@ -32,7 +32,7 @@ struct words_of<tf::location> {
 };
 template <>
 struct words_of<tf::mesh_relation> {
-    static constexpr words<5> all{"separate", "touching", "penetrating", "closer_than_clearance",
+    static constexpr words<5> all{"disjoint", "touching", "penetrating", "closer_than_clearance",
                                   "clear"};
 };
 template <>

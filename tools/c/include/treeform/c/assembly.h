@@ -123,9 +123,9 @@ typedef struct treeform_clash_result {
 
 /// The relations of all pairs of parts of an assembly.
 ///
-/// Exact, like `treeform_relation`: parts penetrate, touch, or are separate. Boxes only exclude
-/// pairs: linked rings that do not meet are separate, although their boxes overlap. Empty parts
-/// are separate from all. Distances are those of `treeform_distance`, and only computed with a
+/// Exact, like `treeform_relation`: parts penetrate, touch, or are disjoint. Boxes only exclude
+/// pairs: linked rings that do not meet are disjoint, although their boxes overlap. Empty parts
+/// are disjoint from all. Distances are those of `treeform_distance`, and only computed with a
 /// clearance. A part is only indexed if its box is near that of another.
 TREEFORM_C_API treeform_code treeform_clash(const treeform_mesh* const* parts, size_t count,
                                             const treeform_clash_options* options,

@@ -58,8 +58,8 @@ TREEFORM_C_API treeform_code treeform_color_distances(treeform_file* file, const
                                                       size_t count, double low, double high);
 
 /// Gives the triangles of a file (for a cloud, its points) the property tf_class and its color;
-/// `relations` [count] is from `treeform_find_face_relations`. Small separate triangles, with
-/// edges of at most twice `halo`, get a tint if they are near a triangle that is not separate.
+/// `relations` [count] is from `treeform_find_face_relations`. Small disjoint triangles, with
+/// edges of at most twice `halo`, get a tint if they are near a triangle that is not disjoint.
 TREEFORM_C_API treeform_code treeform_color_contacts(treeform_file* file, const uint8_t* relations,
                                                      size_t count, double halo);
 // end

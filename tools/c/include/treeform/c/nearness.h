@@ -147,14 +147,14 @@ TREEFORM_C_API treeform_code treeform_raycast_all(const treeform_mesh* mesh,
 /// The relation of two meshes; see `treeform_relation`. The last two occur only with a clearance.
 typedef int32_t treeform_mesh_relation;
 enum {
-    TREEFORM_RELATION_SEPARATE = 0,
+    TREEFORM_RELATION_DISJOINT = 0,
     TREEFORM_RELATION_TOUCHING = 1,
     TREEFORM_RELATION_PENETRATING = 2,
     TREEFORM_RELATION_CLOSER_THAN_CLEARANCE = 3,
-    /// separate, by at least the clearance
+    /// disjoint, by at least the clearance
     TREEFORM_RELATION_CLEAR = 4
 };
-/// The name of a value, as in reports: "separate"; "unknown" for others.
+/// The name of a value, as in reports: "disjoint"; "unknown" for others.
 TREEFORM_C_API const char* treeform_mesh_relation_name(treeform_mesh_relation value);
 
 /// The relation and distance of two meshes.
@@ -163,7 +163,7 @@ typedef struct treeform_relation_result {
     treeform_mesh_relation relation;
     /// Faces that prove the relation: two that cross, overlap with the inside on the same side, or
     /// touch. For a mesh that is entirely or partly inside the other, its lowest face there. Both
-    /// are 0 if the meshes are separate.
+    /// are 0 if the meshes are disjoint.
     uint32_t face_a;
     uint32_t face_b;
     /// a component of `a` is inside the solid `b` without touching it
@@ -204,7 +204,7 @@ typedef struct treeform_measure_options {
 TREEFORM_C_API void treeform_measure_options_init(treeform_measure_options* options, size_t size);
 
 /// The relation of `a` and `b`, their distance and their nearest points. Null, with `TREEFORM_OK`,
-/// if one is empty, or if they are separate and further apart than `options->radius`.
+/// if one is empty, or if they are disjoint and further apart than `options->radius`.
 ///
 /// The relation is exact (see `treeform_relation`), and so is whether a distance is 0. Other
 /// distances are rounded as in `treeform_distance`. If the two faces named by `treeform_relation`
@@ -213,7 +213,7 @@ TREEFORM_C_API treeform_code treeform_measure(const treeform_mesh* a, const tree
                                               const treeform_measure_options* options,
                                               treeform_relation_result** result);
 
-/// Only the relation, exactly: separate, touching or penetrating.
+/// Only the relation, exactly: disjoint, touching or penetrating.
 TREEFORM_C_API treeform_code treeform_relation(const treeform_mesh* a, const treeform_mesh* b,
                                                treeform_vertex_identity vertices,
                                                treeform_mesh_relation* result);

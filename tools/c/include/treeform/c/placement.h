@@ -214,7 +214,7 @@ TREEFORM_C_API treeform_code treeform_separate(const treeform_mesh* moving,
 ///
 /// `travel` is 0, and `points` differ from `matrix` by a few units in the last place of the
 /// largest coordinate. `contacts` are the pairs of faces within the tolerance, beyond the
-/// clearance. `treeform_placement::relation` is exact: in general separate, by at most the
+/// clearance. `treeform_placement::relation` is exact: in general disjoint, by at most the
 /// tolerance beyond the clearance.
 ///
 /// Points that no face uses turn along and are otherwise ignored; points without any face are a
@@ -248,7 +248,7 @@ typedef struct treeform_face_relations {
     void* owner;
     const uint8_t* moving;  ///< [F] of the moving mesh
     size_t moving_count;
-    /// [fixed_count] arrays [F], or null if all faces of the mesh are separate
+    /// [fixed_count] arrays [F], or null if all faces of the mesh are disjoint
     const uint8_t* const* fixed;
     size_t fixed_count;
 } treeform_face_relations;
