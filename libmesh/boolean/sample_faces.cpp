@@ -51,7 +51,10 @@ std::array<point3, 8> places_beside(mesh_view mesh, std::uint32_t f) {
 bool are_decided(const surface_components& components, std::uint32_t own,
                  std::span<const point3> places, partial_expression& state) {
     aabb<double, 3> box;
-    for (const point3& q : places) box.include(q);
+    for (const point3& q : places) {
+        if (!base::is_finite(q)) return false;  // of a normal that overflows
+        box.include(q);
+    }
     std::vector<std::pair<std::uint32_t, winding_range>> around;
     components.visit_overlapping(box, [&](std::uint32_t c) {
         if (c == own) return;

@@ -74,3 +74,13 @@ TEST_CASE("face samples: hidden faces count for what it costs to cut them") {
     // Each face of a side has two large ones of the plate near it, and its fellows have none.
     CHECK(samples.neighbors > 0.9);
 }
+
+TEST_CASE("face samples: nothing is known of a face whose normal overflows") {
+    std::vector<tf::mesh> huge{box(1, 1, 1), moved(box(2, 0.5, 0.5), {-0.25, 0, 0})};
+    for (tf::mesh& one : huge)
+        for (tf::point3& p : one.points) p = {p.x * 1e300, p.y * 1e300, p.z * 1e300};
+    CHECK(samples_of(huge, tf::boolean_expression::union_of(2)).hidden == 0.0);
+    const auto made = tf::unite(huge);
+    CHECK(made.certificate.status == tf::status::ok);
+    CHECK(!made.mesh.faces.empty());
+}
