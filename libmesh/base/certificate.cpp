@@ -28,7 +28,7 @@ std::string open_message(const certificate& c) {
     if (c.misoriented_edges > 0)
         text += "is inconsistently oriented at " + counted(c.misoriented_edges, "edge", "edges");
     if (c.boundary_edges == 0 && c.misoriented_edges == 0)
-        text += "is open at " + counted(c.open_count, "piece of an edge", "pieces of edges");
+        text += "is open at " + counted(c.open_count, "edge", "edges");
     if (c.open_edges.empty()) return text;
     const auto& [from, to] = c.open_edges.front();
     const operand_element& face = c.open_faces.front();

@@ -107,10 +107,12 @@ void check_faces(const mesh_file& file) {
 void check_attributes(const mesh_file& file) {
     for (const element& e : file.attributes.elements) {
         if (e.name == "vertex" && e.rows != file.mesh.points.size())
-            refuse_file("the number of rows of element vertex differs from the number of points");
+            refuse_file("element vertex has " + std::to_string(e.rows) + " rows for " +
+                        std::to_string(file.mesh.points.size()) + " points");
         if (e.name == "face" && e.rows != stored_face_count(file))
-            refuse_file(
-                "the number of rows of element face differs from the number of stored faces");
+            refuse_file("element face has " + std::to_string(e.rows) + " rows for " +
+                        std::to_string(stored_face_count(file)) +
+                        " stored faces (a polygon is one, not one for each triangle)");
         check_columns(e);
     }
 }

@@ -34,8 +34,8 @@ struct level {
         base::brief(1.1 * step * std::sqrt(std::max(expected / most_cells, 1.0)));
     throw std::invalid_argument(
         "treeform::" + std::string(function) + ": the resolution " + base::brief(step) +
-        " is too fine: the surface would pass through more than 2^22 cells; " + enough +
-        " is coarse enough, for distances of at least twice as much");
+        " is too fine: the surface would pass through more than 2^22 cells; use " + enough +
+        " or more, for distances of at least twice that");
 }
 
 level split(const level& from) {

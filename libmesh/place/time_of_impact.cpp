@@ -175,6 +175,7 @@ impact detail::place::approach_of(mesh_view a, const tree<3>& tree_a, mesh_view 
     detail::base::work_progress work(options.progress);
     if (near && near->distance < distance) {
         result.outcome = placement_outcome::starts_touching;
+        result.time = 0.0;
         work.reach(1.0);
         return result;
     }
@@ -267,6 +268,7 @@ impact detail::place::impact_of(mesh_view a, const tree<3>& tree_a, mesh_view b,
     if (!meets) return {.status = status::cancelled};
     if (*meets) {
         result.outcome = placement_outcome::starts_touching;
+        result.time = 0.0;
         work.reach(1.0);
         return result;
     }

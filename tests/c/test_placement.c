@@ -171,7 +171,7 @@ static void test_motion(void) {
     CHECK(near(impact->time, 0.5));
     treeform_free(impact);
     OK(treeform_time_of_impact(a, b, away, NULL, &impact));
-    CHECK(impact->outcome == TREEFORM_OUTCOME_NOTHING_MET);
+    CHECK(impact->outcome == TREEFORM_OUTCOME_NOTHING_MET && isinf(impact->time));
     treeform_free(impact);
     OK(treeform_time_to_distance(a, b, along, 1.0, NULL, &impact));
     CHECK(near(impact->time, 1.5));

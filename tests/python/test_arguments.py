@@ -56,7 +56,7 @@ TAKES = {
 ELSEWHERE = {"BoxTree", "PointTree", "Attributes", "Mesh", "SharedSearch", "SharedWeld", "plot",
              "show", "thread_count", "threads", "difference", "intersection", "union", "split",
              "symmetric_difference", "from_meshio", "from_open3d", "from_pyvista", "from_trimesh",
-             "from_vtk", "read_urdf", "write", "weld_stream"}
+             "from_vtk", "read_urdf", "write", "write_curves", "weld_stream"}
 
 BROKEN = CUBE.vertices.copy()
 BROKEN[3] = np.nan

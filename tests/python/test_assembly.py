@@ -37,7 +37,8 @@ def test_two_bodies():
 def test_the_first_contact_is_exact():
     met = tf.time_of_impact(CUBE, moved(CUBE, 3, 0, 0), [2, 0, 0])
     assert met.outcome == "contact" and met.time == 1 and len(met.faces) == len(met.points) > 0
-    assert tf.time_of_impact(CUBE, moved(CUBE, 3, 0, 0), [-1, 0, 0]).outcome == "nothing_met"
+    never = tf.time_of_impact(CUBE, moved(CUBE, 3, 0, 0), [-1, 0, 0])
+    assert never.outcome == "nothing_met" and never.time == np.inf
     assert tf.time_of_impact(CUBE, moved(CUBE, 1, 0, 0), [1, 0, 0]).outcome == "starts_touching"
 
 

@@ -92,6 +92,20 @@ def test_regions_and_curves():
     assert len(curves) == 1 and np.array_equal(curves[0][0], curves[0][-1])
 
 
+def test_curves_can_be_written(tmp_path):
+    found = tf.self_intersections(SPHERES)
+    tf.write_curves(tmp_path / "curves.obj", SPHERES, found)
+    lines = (tmp_path / "curves.obj").read_text().splitlines()
+    assert [line.split()[0] for line in lines] == ["v"] * 78 + ["l"]
+    [curve] = tf.intersection_curves(SPHERES, found)
+    points = np.array([line.split()[1:] for line in lines[:78]], float)
+    assert np.array_equal(points[np.array(lines[78].split()[1:], int) - 1], curve)
+    tf.write_curves(tmp_path / "curves.txt", SPHERES, found, "ply")
+    assert (tmp_path / "curves.txt").read_text().startswith("ply")
+    with pytest.raises(tf.FileError, match="obj or ply"):
+        tf.write_curves(tmp_path / "curves.dxf", SPHERES, found)
+
+
 def test_faces_in_box():
     assert np.array_equal(tf.faces_in_box(CUBE, [-1, -1, -1], [2, 2, 2]), np.arange(12))
     assert len(tf.faces_in_box(CUBE, [0.4, 0.4, 0.4], [0.6, 0.6, 0.6])) == 0

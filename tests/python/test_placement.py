@@ -152,6 +152,9 @@ def test_pack():
     full = tf.pack([box([0, 0, 0], [3, 3, 1])] * 3, [7, 3.5, 5])
     assert not full and len(full.not_placed) == 2
     assert full.message.startswith("1 of 3 parts placed")
+    assert not tf.clash(packed.parts).pairs and tf.drop(packed.parts[0])    # parts as meshes
+    held = tf.slide(packed.parts[0], packed.parts[1], [0, 0, 1])
+    assert "contacts=Contacts(" in repr(held)
     again = tf.pack(parts, [8, 8], spacing=0.25)
     assert all(np.array_equal(a.matrix, b.matrix) for a, b in zip(packed.parts, again.parts))
 

@@ -23,7 +23,7 @@ IN_C = {"operand_element::none": "TREEFORM_NONE", "attribute_sources": "treeform
         "boolean_statistics": "treeform_boolean_result", "round_to_las": "treeform_file_round_to_las",
         "penetration_depth_result": "treeform_penetration_depth"}
 #: Enumerators in docstrings that mean functions or members there.
-_OTHERS = ("disjoint", "relation", "degenerate")
+_OTHERS = ("relation", "degenerate")
 _BLOCK = re.compile(r"^// made of [^\n]+:\n((?://   [^\n]+\n)+).*?^// end\n", re.M | re.S)
 _STRUCT = re.compile(r"^typedef struct (treeform_\w+) \{\n(.*?)^\} \1;", re.M | re.S)
 

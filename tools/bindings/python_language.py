@@ -381,6 +381,9 @@ class Language:
         if pieces:
             return text + (f"return as_python(in_pieces({pieces}, [&](std::size_t begin, "
                            f"std::size_t end) {{\nreturn {call};\n}}){context});\n}}\n")
+        if one.returns == "None":
+            text = text.replace("py::object", "void", 1)
+            return text + f"without_lock([&] {{ {call}; }});\n}}\n"
         report = bool(how) and any("progress" in f.type for f in self.structs[dict(
             one.parameters)[how]].fields)
         text += f"return as_python(run([&](const tf::progress_callback&" \

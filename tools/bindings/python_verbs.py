@@ -340,6 +340,22 @@ FUNCTIONS = [
                  "are rounded to nearest. A segment common to several pairs appears only once. "
                  "Degenerate pairs have no curve.",
              docs={"found": "pairs of faces of `mesh`."}),
+    Function("write_curve_file(path: File, mesh: Mesh, pairs: PairIds, kinds: Kinds, format: str)"
+             " -> None",
+             "tf::write_curves(path, mesh.view(), pairs_of(pairs, kinds), {}, format)",
+             kind="writes"),
+    Function("write_curves(path: Path, mesh: MeshLike, found: FacePairs, format: str = \"\")"
+             " -> None",
+             body="_core.write_curve_file(path_of(path), held(mesh), *pairs_of(found),\n"
+                  "                           "
+                  "_arrays.word(format, \"format\"), progress=progress)",
+             cpp="write_curves", words={"pairs": "found"},
+             doc="Writes the curves along which pairs of faces intersect as polylines, joined as "
+                 "in `intersection_curves`. Degenerate pairs have single segments.",
+             docs={"path": "the path of the file; \"-\" is standard output.",
+                   "found": "pairs of faces of `mesh`.",
+                   "format": "'obj' (`v` and `l`) or 'ply' (text, with an element `edge`); empty: "
+                             "the extension of `path`."}),
     Function("self_intersections_of_file(path: Path, options: file_search_options, "
              "communicator: Communicator = None) -> FilePairs",
              body="in_communicator(communicator, lambda all: _core.self_intersections_of_file(\n"

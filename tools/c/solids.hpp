@@ -70,7 +70,7 @@ inline tf::repaired_file repair_file(const tf::mesh_file& file, const tf::repair
     return tf::repair_file(usable_input(file).source(), options);
 }
 
-/// The same for all parts of a file together.
+/// The total defects of the parts of a file. Pairs of faces of different parts do not count.
 inline tf::solid_defects find_solid_defects_of_file(const tf::mesh_file& file,
                                                     const tf::progress_callback& progress) {
     const usable_input input(file);

@@ -45,8 +45,11 @@ usable_input read_usable(job& work) {
     input.non_finite = triangles - mesh.faces.size();
     work.warn_of_non_finite(input.non_finite, "face", "faces");
     if (mesh.faces.empty())
-        throw failure(bad_input, "no-triangles",
-                      work.name + ": no triangle with finite coordinates");
+        throw failure(
+            bad_input, "no-triangles",
+            work.name + (triangles > 0 ? ": no triangle with finite coordinates"
+                                       : ": no triangles (" +
+                                             counted(mesh.points.size(), "point", "points") + ")"));
     check_arrangeable(work.name, mesh);
     return input;
 }

@@ -292,7 +292,10 @@ void write_page(job& work, const placing& p, const tf::deviation_result* known) 
                          band_in_words(*known, p.settings.deviation);
         if (known->band_counts) shown.good = out_of_band(*known) == 0;
     }
-    std::vector<std::vector<tf::mesh_relation>> relations = face_relations(p);
+    // With a band, distances are what one looks for, not the faces that meet.
+    const bool of_band = known != nullptr && known->band_counts && measures(p);
+    std::vector<std::vector<tf::mesh_relation>> relations;
+    if (!of_band) relations = face_relations(p);
     relations.resize(1 + p.fixed.shapes.size());
     add_body(shown, p.moving, 0, points, mark::moving, relations[0], std::move(values));
     const tf::box3 from = tf::bounding_box(before).value_or(tf::box3{});
@@ -301,16 +304,17 @@ void write_page(job& work, const placing& p, const tf::deviation_result* known) 
     for (std::size_t i = 0; i < p.fixed.shapes.size(); ++i)
         add_body(shown, p.fixed, i, p.fixed.shapes[i].indexed_view().points, mark::fixed,
                  relations[1 + i]);
-    // Points of a measured cloud are what one looks for, and half of them may be inside.
-    if (known != nullptr && measures(p) && shape.is_cloud())
-        for (scene_mesh& m : shown.meshes) m.ghost = true;
+    // What is measured is seen through the fixed meshes: half of it may be inside.
+    if (known != nullptr && measures(p) && (shape.is_cloud() || of_band))
+        for (std::size_t m = shape.is_cloud() ? 0 : 1; m < shown.meshes.size(); ++m)
+            shown.meshes[m].ghost = true;
     tf::mesh floor;
     if (p.at.bed || p.laid) floor = bed_under(to, p.at.bed.value_or(to.min.z));
     if (!floor.faces.empty())
         shown.meshes.push_back(
             {.mesh = floor, .kind = {mark::bed}, .name = "the bed", .ghost = true});
     add_travel(shown, work, p, from, to);
-    add_contacts(shown, p);
+    if (!of_band) add_contacts(shown, p);
     write_page(work, std::move(shown));
 }
 

@@ -404,7 +404,7 @@ TEST_CASE("boolean: open edges are counted as the operand has them, and by what 
     const tf::certificate unknown = tf::check_operand(split);
     CHECK(unknown.open_count == 3);
     CHECK(unknown.boundary_edges == 0);
-    CHECK(unknown.message().starts_with("its surface is open at 3 pieces of edges, the first "));
+    CHECK(unknown.message().starts_with("its surface is open at 3 edges, the first "));
 }
 
 TEST_CASE("boolean: edges that fit together piece by piece leave nothing open") {

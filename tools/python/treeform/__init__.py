@@ -29,7 +29,7 @@ from ._files import Written, file_parts, read, write
 from ._from_others import from_meshio, from_open3d, from_pyvista, from_trimesh, from_vtk
 from ._intersections import (FacePairs, FilePairs, KINDS, Region, SharedSearch, faces_in_box,
                              intersection_curves, intersection_regions, mesh_intersections,
-                             self_intersections, self_intersections_of_file)
+                             self_intersections, self_intersections_of_file, write_curves)
 from ._mesh import Mesh, MeshLike
 from ._nearness import (AllRayHits, ClosestPoints, Deviation, RayHits, closest_point, contains,
                         deviation, locate, raycast, raycast_all, raycast_any, signed_distance,
@@ -77,7 +77,8 @@ __all__ = ["Alignment", "AllRayHits", "Attributes", "BooleanResult", "BoxTree", 
            "self_intersections", "self_intersections_of_file", "separate", "show",
            "signed_distance", "simplify", "slide", "split", "submesh", "symmetric_difference",
            "thicken", "thread_count", "threads", "time_of_impact", "transformed", "turn", "union",
-           "wall_thickness", "weld", "weld_stream", "winding_number", "wrap", "write"]
+           "wall_thickness", "weld", "weld_stream", "winding_number", "wrap", "write",
+           "write_curves"]
 # end
 
 __version__: str = _core.version()

@@ -20,7 +20,7 @@ from ._steps import Communicator, InSteps, in_communicator
 
 __all__ = ["FacePairs", "FilePairs", "KINDS", "Region", "SharedSearch", "faces_in_box",
            "intersection_curves", "intersection_regions", "mesh_intersections",
-           "self_intersections", "self_intersections_of_file"]
+           "self_intersections", "self_intersections_of_file", "write_curves"]
 # end
 
 #: The kinds of intersecting pairs; numbers in `kinds` are indexes of this list.
@@ -153,7 +153,7 @@ def curves(points: Floats, paths: list[tuple[Ids, bool]]) -> list[Floats]:
 
 # made of headers:
 #   self_intersections mesh_intersections self_intersections_of_file Region intersection_regions
-#   intersection_curves faces_in_box
+#   intersection_curves write_curves faces_in_box
 def self_intersections(mesh: MeshLike, *, vertices: str = "by_coordinates",
                        first_only: bool = False, kinds: Iterable[str] | None = None,
                        limit: int | None = None, progress: Progress = None) -> FacePairs:
@@ -318,6 +318,28 @@ def intersection_curves(mesh: MeshLike, found: FacePairs, *,
     [79]
     """
     return curves(*_core.intersection_paths(held(mesh), *pairs_of(found), progress=progress))
+
+
+def write_curves(path: Path, mesh: MeshLike, found: FacePairs, format: str = "", *,
+                 progress: Progress = None) -> None:
+    """Writes the curves along which pairs of faces intersect as polylines, joined as in
+    `intersection_curves`. Degenerate pairs have single segments.
+
+    path: the path of the file; "-" is standard output.
+    found: pairs of faces of `mesh`.
+    format: 'obj' (`v` and `l`) or 'ply' (text, with an element `edge`); empty: the extension of
+        `path`.
+
+    Raises FileError for another format, or if the file cannot be written: then a previous file is
+    unchanged.
+
+    >>> import tempfile, treeform
+    >>> m = treeform.read("data/two_spheres.stl")
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     treeform.write_curves(folder + "/curves.obj", m, treeform.self_intersections(m))
+    """
+    return _core.write_curve_file(path_of(path), held(mesh), *pairs_of(found),
+                           _arrays.word(format, "format"), progress=progress)
 
 
 def faces_in_box(mesh: MeshLike, min: ArrayLike, max: ArrayLike, *,

@@ -290,14 +290,14 @@ def held(mesh: Any) -> _core.HeldMesh:
 def cloud_of(body: Any) -> Floats | None:
     """The points of an array, or of an object with `points` or `vertices` and no faces; None for a
     mesh."""
+    if any(hasattr(body, name) for name in ("mesh", "faces", "triangles", "cells_dict", "triangle",
+                                          "GetPolys")):
+        return None
     if isinstance(body, np.ndarray) or isinstance(body,
                                                   (list, tuple)) and not _arrays.is_pair(body):
         first = body[0] if isinstance(body, (list, tuple)) and body else None
         _arrays.expect(not hasattr(first, "faces"), body, "mesh", "one mesh or cloud")
         return _arrays.points(body, "points")
-    if any(hasattr(body, name) for name in ("mesh", "faces", "triangles", "cells_dict", "triangle",
-                                          "GetPolys")):
-        return None
     if hasattr(body, "point"):  # of open3d.t.geometry
         return _arrays.points(np.asarray(body.point["positions"].cpu().numpy()), "points")
     for name in ("points", "vertices"):
@@ -339,7 +339,7 @@ def bodies(fixed: Any) -> list[_core.HeldMesh]:
     """One body, or a list of them."""
     if fixed is None:
         return []
-    if isinstance(fixed, (list, tuple)) and not _arrays.is_pair(fixed):
+    if isinstance(fixed, (list, tuple)) and not (_arrays.is_pair(fixed) or hasattr(fixed, "mesh")):
         return each(fixed, "fixed")
     return [held_body(fixed)]
 

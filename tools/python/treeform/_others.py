@@ -35,7 +35,7 @@ def arrays_of(mesh: Any) -> tuple[ArrayLike, ArrayLike]:
     hint = ": read the file by treeform.read" if isinstance(mesh, str) else (
         ": pass a list of its values" if isinstance(mesh, dict) else
         ": pass its `parts`" if type(mesh).__name__ == "Packing" else
-        ": a mesh is (vertices, faces), and comes before points" if hasattr(mesh, "dtype") else "")
+        ": a mesh is (vertices, faces)" if hasattr(mesh, "dtype") else "")
     raise ValueError(f"mesh: {type(mesh).__name__} has no vertices and faces{hint}")
 
 

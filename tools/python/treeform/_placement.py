@@ -773,7 +773,7 @@ class Impact(NamedTuple):
     """The first contact of a moving mesh with another.
 
     time: The greatest double that is not beyond the exact time t of the contact: `a` moved by
-        `time` times the motion has not passed it. 0 when they meet at the start.
+        `time` times the motion has not passed it. 0 if they meet at the start, infinite if never.
     faces: (n, 2) the faces of `a` and `b` that touch at that time.
     points: (n, 3) a common point of each pair, rounded.
     outcome: 'nothing_met', 'contact' or 'starts_touching'.

@@ -22,7 +22,7 @@ def brief(value: Any) -> str:
         there = {key: item for key, item in value.items()
                  if item is not None and (not np.isscalar(item) or item)}
         return "{" + ", ".join(f"{key!r}: {brief(item)}" for key, item in there.items()) + "}"
-    if isinstance(value, (list, tuple)) and len(value) > 4:
+    if isinstance(value, (list, tuple)) and len(value) > 4 and not hasattr(value, "_fields"):
         return f"[{len(value)} of {type(value[0]).__name__}]"
     if isinstance(value, float):
         return f"{value:.9g}"

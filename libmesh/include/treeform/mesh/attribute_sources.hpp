@@ -193,8 +193,9 @@ struct repaired_file {
 [[nodiscard]] TREEFORM_API repaired_file repair_file(const attribute_source& input,
                                                      const repair_options& options = {});
 
-/// The total defects of all parts; parts are defined as in `repair_file`. Faces of the file that
-/// are not in `input` do not count.
+/// The total defects of all parts; parts are defined as in `repair_file`. Each part is checked by
+/// itself, so pairs of faces of different parts do not count. Faces of the file that are not in
+/// `input` do not count, either.
 ///
 /// \throws std::invalid_argument as `self_intersections`
 /// \cost   as `find_solid_defects` of a mesh

@@ -56,7 +56,7 @@ struct contact_region {
 struct part_clash {
     std::uint32_t a = 0;  ///< the lower number
     std::uint32_t b = 0;  ///< number of the second part
-    /// `touching`, `penetrating` or `closer_than_clearance`
+    /// `mesh_relation::touching`, `penetrating` or `closer_than_clearance`
     mesh_relation relation = mesh_relation::touching;
     bool a_inside_b = false;  ///< as in `measure`
     bool b_inside_a = false;  ///< the same with `a` and `b` swapped
@@ -129,7 +129,7 @@ struct clash_result {
 struct pose_clash {
     std::uint32_t a = 0;  ///< the lower number
     std::uint32_t b = 0;
-    /// `touching`, `penetrating` or `closer_than_clearance`
+    /// `mesh_relation::touching`, `penetrating` or `closer_than_clearance`
     mesh_relation relation = mesh_relation::touching;
     double distance = 0.0;  ///< for parts closer than the clearance; else 0
     friend bool operator==(const pose_clash&, const pose_clash&) = default;

@@ -131,7 +131,8 @@ using pair_column = std::pair<std::string, std::vector<std::uint32_t>>;
 ///
 /// \pre    faces of `pairs` and their corners are in range, coordinates finite
 /// \throws io_error for another format, or if the file cannot be written: then a previous file is
-///         unchanged; std::invalid_argument unless each of `numbers` has one value for each pair
+///         unchanged
+/// \throws std::invalid_argument unless each `pair_column` has one value for each pair
 /// \same   bytes on any number of threads
 TREEFORM_API void write_curves(const std::filesystem::path& path, mesh_view mesh,
                                std::span<const face_pair> pairs,

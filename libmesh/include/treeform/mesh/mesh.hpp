@@ -114,7 +114,7 @@ struct mesh {
     std::vector<point3> points{};  ///< [V]
     std::vector<face> faces{};     ///< [F]
 
-    operator mesh_view() const { return {points, faces}; }  // NOLINT: meant to be implicit
+    operator mesh_view() const TREEFORM_LIFETIMEBOUND { return {points, faces}; }  // NOLINT
     friend bool operator==(const mesh&, const mesh&) = default;
 };
 

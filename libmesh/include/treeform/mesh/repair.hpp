@@ -78,7 +78,8 @@ struct repair_options {
     progress_callback progress{};
 };
 
-/// Counts of each step's changes. Closed gaps, chosen orientations and filled holes are heuristic.
+/// Counts of each step's changes. Closed gaps, chosen orientations, filled holes and labeled cells
+/// are heuristic.
 struct TREEFORM_API repair_statistics {
     std::uint64_t tetrahedra = 0;    ///< tetrahedra formed by faces; only their boundary was kept
     std::uint64_t degenerate = 0;    ///< dropped faces without area, and slivers dropped with them

@@ -49,8 +49,8 @@ struct impact {
     /// point at the start; `nothing_met`.
     placement_outcome outcome = placement_outcome::nothing_met;
     /// The greatest double that is not beyond the exact time t of the contact: `a` moved by
-    /// `time` times the motion has not passed it. 0 when they meet at the start.
-    double time = 0.0;
+    /// `time` times the motion has not passed it. 0 if they meet at the start, infinite if never.
+    double time = std::numeric_limits<double>::infinity();
     std::vector<face_contact> contacts{};  ///< pairs that meet at t, ascending; empty at the start
     std::uint64_t contact_count = 0;       ///< all pairs that meet at t, listed or not
     std::uint64_t pairs_tested = 0;        ///< pairs of faces tested; the others were skipped

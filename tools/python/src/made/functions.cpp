@@ -184,6 +184,12 @@ py::object intersection_paths(const held_mesh& mesh, const ids_array& pairs,
     }));
 }
 
+void write_curve_file(const std::filesystem::path& path, const held_mesh& mesh,
+                      const ids_array& pairs, const array_of<std::uint8_t>& kinds,
+                      const std::string& format) {
+    without_lock([&] { tf::write_curves(path, mesh.view(), pairs_of(pairs, kinds), {}, format); });
+}
+
 py::object count_nearly_equal(const points_array& points, double distance) {
     return as_python(run([&](const tf::progress_callback&) {
         return tf::count_nearly_equal(points_of(points), distance);
@@ -306,6 +312,7 @@ void add_functions(py::module_& module) {
     add_job(module, "faces_in_box", &faces_in_box);
     add_job(module, "group_pairs", &group_pairs);
     add_job(module, "intersection_paths", &intersection_paths);
+    add_job(module, "write_curve_file", &write_curve_file, job_kind::writes);
     add_job(module, "count_nearly_equal", &count_nearly_equal);
     add_job(module, "closest_point", &closest_point);
     add_job(module, "raycast", &raycast);

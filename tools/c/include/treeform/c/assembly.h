@@ -142,7 +142,7 @@ TREEFORM_C_API treeform_code treeform_pairs_named(const char* const* names, size
 typedef struct treeform_pose_clash {
     uint32_t a;  ///< the lower number
     uint32_t b;
-    /// `TREEFORM_TOUCHING`, `TREEFORM_RELATION_PENETRATING` or
+    /// `TREEFORM_RELATION_TOUCHING`, `TREEFORM_RELATION_PENETRATING` or
     /// `TREEFORM_RELATION_CLOSER_THAN_CLEARANCE` (a `treeform_mesh_relation`)
     uint8_t relation;
     double distance;  ///< for parts closer than the clearance; else 0

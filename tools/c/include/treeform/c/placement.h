@@ -293,7 +293,7 @@ typedef struct treeform_impact {
     /// `TREEFORM_OUTCOME_NOTHING_MET`.
     treeform_placement_outcome outcome;
     /// The greatest double that is not beyond the exact time t of the contact: `a` moved by `time`
-    /// times the motion has not passed it. 0 when they meet at the start.
+    /// times the motion has not passed it. 0 if they meet at the start, infinite if never.
     double time;
     /// [contact_listed] pairs that meet at t, ascending; empty at the start
     const treeform_face_contact* contacts;

@@ -229,7 +229,8 @@ typedef struct treeform_resolve_options {
 /// Sets the defaults.
 TREEFORM_C_API void treeform_resolve_options_init(treeform_resolve_options* options, size_t size);
 
-/// Counts of each step's changes. Closed gaps, chosen orientations and filled holes are heuristic.
+/// Counts of each step's changes. Closed gaps, chosen orientations, filled holes and labeled cells
+/// are heuristic.
 typedef struct treeform_repair_statistics {
     uint64_t tetrahedra;      ///< tetrahedra formed by faces; only their boundary was kept
     uint64_t degenerate;      ///< dropped faces without area, and slivers dropped with them
@@ -420,7 +421,7 @@ TREEFORM_C_API treeform_code treeform_find_solid_defects(const treeform_mesh* me
                                                          void* progress_data,
                                                          treeform_solid_defects** defects);
 
-/// The same for all parts of a file together.
+/// The total defects of the parts of a file. Pairs of faces of different parts do not count.
 TREEFORM_C_API treeform_code treeform_find_solid_defects_of_file(const treeform_file* file,
                                                                  treeform_progress progress,
                                                                  void* progress_data,
