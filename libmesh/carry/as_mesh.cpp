@@ -97,8 +97,12 @@ usable_mesh as_mesh(mesh_file file) {
     result.non_finite = before - file.mesh.faces.size();
     detail::weld::joined_faces joined = detail::weld::join_faces(file.mesh);
     if (joined.changed) file.mesh.faces = std::move(joined.faces);
-    for (point3& p : file.mesh.points)  // behind the join, or a 0 of ours might stand for another
-        if (!detail::base::is_finite(p)) p = {};
+    // Behind the join. A copy of another point, so that boxes and distances are as without it.
+    const auto is_finite = [](const point3& p) { return detail::base::is_finite(p); };
+    const auto first = std::ranges::find_if(file.mesh.points, is_finite);
+    const point3 instead = first == file.mesh.points.end() ? point3{} : *first;
+    for (point3& p : file.mesh.points)
+        if (!is_finite(p)) p = instead;
     result.mesh = std::move(file.mesh);
     result.face_of_triangle = std::move(file.face_of_triangle);
     return result;

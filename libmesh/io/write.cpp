@@ -1,4 +1,5 @@
 #include <libmesh/attributes/known_columns.hpp>
+#include <libmesh/base/point_math.hpp>
 #include <libmesh/io/formats.hpp>
 #include <libmesh/io/number.hpp>
 #include <libmesh/io/vertex_columns.hpp>
@@ -56,6 +57,15 @@ std::vector<const column*> scalar_columns(const element* e,
         found.push_back(c);
     }
     return found;
+}
+
+void check_finite(const write_job& job, const char* format) {
+    const std::vector<point3>& points = job.file.mesh.points;
+    const auto at =
+        std::ranges::find_if_not(points, [](const point3& p) { return base::is_finite(p); });
+    if (at == points.end()) return;
+    throw io_error(std::string(job.out.name()) + ": point " + std::to_string(at - points.begin()) +
+                   ": " + format + " can hold only finite coordinates");
 }
 
 std::vector<const column*> color_columns(const element* e) {

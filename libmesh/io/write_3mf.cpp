@@ -357,9 +357,7 @@ void put_member(zip_builder& archive, const char* name, const std::string& text)
 
 void write_3mf(const write_job& job) {
     constexpr const char* model_name = "3D/3dmodel.model";
-    for (const point3& p : job.file.mesh.points)
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            throw io_error("3MF can hold only finite coordinates");
+    check_finite(job, "3MF");
     std::string bytes;
     {
         zip_builder archive(bytes);

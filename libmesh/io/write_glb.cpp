@@ -67,7 +67,6 @@ struct box {
     box b{points[0], points[0]};
     for (const point3& p : points) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (!std::isfinite(p[axis])) throw io_error("GLB can hold only finite coordinates");
             b.min[axis] = std::min(b.min[axis], p[axis]);
             b.max[axis] = std::max(b.max[axis], p[axis]);
         }
@@ -102,6 +101,7 @@ class document_glb {
   public:
     explicit document_glb(const write_job& job)
         : job_(job), layout_(lay_out(job)), attributes_(job), numbers_(numbers_of_faces(job.file)) {
+        check_finite(job, "GLB");
         offset_ = choose_offset(job, box_of(job.file.mesh.points));
         for (const part_glb& p : layout_.parts) {
             const std::size_t normal_count = attributes_.count_normals(p);

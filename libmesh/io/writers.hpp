@@ -56,6 +56,9 @@ struct write_job {
     }
 };
 
+/// \throws io_error naming the first point that is not finite, which the format cannot hold
+void check_finite(const write_job& job, const char* format);
+
 /// Writes blocks of points after a header that was already written. The references in the job must
 /// outlive it.
 struct point_sink {

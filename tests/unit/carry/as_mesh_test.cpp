@@ -54,9 +54,15 @@ TEST_CASE(
     CHECK(m.non_finite == 2);
     CHECK(m.face_in_file(0) == 1);
     CHECK(m.face_in_file(1) == 2);
-    // Ready for what refuses a NaN; the 0 that stands for it joins nothing.
+    // Ready for what refuses a NaN; the point that stands for it joins nothing.
     CHECK(tf::self_intersections(m).pairs ==
           std::vector<tf::face_pair>{{0, 1, tf::pair_kind::duplicate}});
+}
+
+TEST_CASE("as_mesh: points that are not finite do not widen the box") {
+    const tf::usable_mesh m = tf::as_mesh(
+        file_of({{{NAN, 9, 9}, {5, 5, 5}, {6, 5, 5}, {5, 6, 5}}, {{0, 1, 2}, {1, 2, 3}}}));
+    CHECK(tf::bounding_box(m.mesh.points) == tf::box3{{5, 5, 5}, {6, 6, 5}});
 }
 
 TEST_CASE("as_mesh: of nothing nothing, and a corner that is no vertex is refused") {

@@ -355,7 +355,9 @@ TEST_CASE("3mf: parts with a point in common are written as one object") {
 TEST_CASE("3mf: what it cannot hold is refused or said") {
     tf::mesh_file file = scene(1);
     file.mesh.points[0].x = std::numeric_limits<double>::infinity();
-    CHECK_THROWS_AS((void)written_3mf(file), tf::io_error);
+    CHECK_THROWS_WITH_AS((void)written_3mf(file),
+                         doctest::Contains("point 0: 3MF can hold only finite coordinates"),
+                         tf::io_error);
     CHECK_THROWS_AS((void)written_3mf({.mesh = {.points = {{0, 0, 0}}, .faces = {}}}),
                     tf::io_error);
     CHECK(read_3mf(written_3mf({})).mesh == tf::mesh{});

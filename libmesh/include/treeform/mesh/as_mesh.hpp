@@ -49,8 +49,9 @@ struct usable_mesh {
 
 /// The mesh of `file`. Triangles with a NaN or infinite coordinate are dropped. Corners with equal
 /// coordinates become one vertex. Vertices keep the numbers of the file; of equal vertices, faces
-/// use the lowest. Coordinates that are not finite become 0; no face uses them. Of a point cloud,
-/// points that are not finite are dropped; `usable_mesh::non_finite` is their number.
+/// use the lowest. Points that are not finite become copies of the first finite one; no face uses
+/// them. Of a point cloud, points that are not finite are dropped; `usable_mesh::non_finite` is
+/// their number.
 ///
 /// \throws std::invalid_argument naming a face with a corner out of range
 /// \cost   O(V + F)

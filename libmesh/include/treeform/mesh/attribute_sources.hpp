@@ -224,8 +224,8 @@ struct face_marks {
     std::vector<std::int32_t> region{};  ///< [F] -1: in no pair
 
     face_marks() = default;
-    /// The marks of `face_count` faces. The worst kind is crossing, then pierce, overlap, fold,
-    /// duplicate, touching, degenerate.
+    /// The marks of `face_count` faces. The worst kind of a face is crossing, then pierce, overlap,
+    /// fold, duplicate, touching, degenerate: not the order of the enumerators.
     ///
     /// \pre `regions` are those of `pairs`, whose faces are in range
     TREEFORM_API face_marks(std::size_t face_count, std::span<const face_pair> pairs,
