@@ -140,6 +140,18 @@ def test_align():
         tf.align(scan, ball, overlap=2.0)
 
 
+def test_what_has_no_place_is_not_written(tmp_path):
+    stuck = tf.slide(moved(CUBE, 0.5, 0, 0), CUBE, [1, 0, 0])
+    assert not stuck
+    for what in (stuck, [CUBE, stuck], {"a": stuck}):
+        with pytest.raises(tf.NotCertifiedError, match="no valid placement"):
+            tf.write(tmp_path / "a.obj", what)
+    tf.write(tmp_path / "a.obj", stuck.mesh)
+    open_result = tf.union(tf.Mesh(CUBE.vertices, CUBE.faces[1:]), CUBE, check=False)
+    with pytest.raises(tf.NotClosedError):
+        tf.write(tmp_path / "a.obj", open_result)
+
+
 def test_pack():
     parts = [box([0, 0, 0], [1 + i % 3, 1, 1]) for i in range(6)]
     packed = tf.pack(parts, [8, 8], spacing=0.25)

@@ -405,7 +405,9 @@ FUNCTIONS = [
     Function("write(path: Path | IO[bytes], mesh: PartsLike, options: write_options(format))"
              " -> Written", body="written(path, mesh, format, how, progress)",
              words={"file": "mesh"},
-             also="Names of material and texture files are relative to the folder of `path`; in "
+             also="A result that is not certified is refused (NotCertifiedError, NotClosedError): "
+                  "pass its `mesh` to write that. "
+                  "Names of material and texture files are relative to the folder of `path`; in "
                   "a file object, as in the input. Each of `Written.warnings` is also a warning "
                   "of Python (`warnings.warn`).",
              docs={"path": "the path of the file, or a binary file object, such as BytesIO, with "

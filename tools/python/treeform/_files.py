@@ -13,7 +13,7 @@ from warnings import warn
 
 from . import _arrays, _core
 from ._arrays import path_of
-from ._errors import FileError, file_error, options
+from ._errors import FileError, file_error, options, require
 from ._mesh import MeshOrCloud, Mesh, MeshLike, as_mesh, held, listed
 from ._progress import Progress
 from ._results import Result
@@ -83,6 +83,9 @@ def written(path: Path | IO[bytes], mesh: PartsLike, format: str, how: _core.Wri
 
 def _write(mesh: Any, how: _core.WriteOptions, progress: Progress, path: str, name: str) -> Written:
     parts = mesh if isinstance(mesh, Mapping) else listed(mesh)
+    for one in parts.values() if isinstance(parts, Mapping) else parts or (mesh,):
+        if not isinstance(one, Mesh) and getattr(one, "certificate", None) is not None:
+            require(one.certificate, of="")
     if parts is None:
         made = Mesh(mesh) if hasattr(mesh, "dtype") else as_mesh(mesh)
         certified = bool(made._certificate)
@@ -280,8 +283,10 @@ def write(path: Path | IO[bytes], mesh: PartsLike, format: str = "", *, ascii: b
 
     An empty mesh can be written in every mesh format, and read again.
 
-    Names of material and texture files are relative to the folder of `path`; in a file object, as
-    in the input. Each of `Written.warnings` is also a warning of Python (`warnings.warn`).
+    A result that is not certified is refused (NotCertifiedError, NotClosedError): pass its `mesh`
+    to write that. Names of material and texture files are relative to the folder of `path`; in a
+    file object, as in the input. Each of `Written.warnings` is also a warning of Python
+    (`warnings.warn`).
 
     path: the path of the file, or a binary file object, such as BytesIO, with `format`.
     mesh: a mesh, or a cloud (n, 3); or several meshes, which become parts of the file, named "1",

@@ -67,7 +67,7 @@ enum {
     TREEFORM_OK = 0,
     /// there is a result, but its certificate is not ok; `treeform_last_error` has the reason
     TREEFORM_NOT_CERTIFIED = 1,
-    TREEFORM_NO_PLACE = 2,    ///< no position found, or not converged; the result says why
+    TREEFORM_NO_PLACE = 2,    ///< no position, not converged, or doubtful; the result says why
     TREEFORM_INVALID = -1,    ///< an invalid argument; the message names it
     TREEFORM_FILE = -2,       ///< a file cannot be read or written; the message names path and line
     TREEFORM_MEMORY = -3,     ///< not enough memory
