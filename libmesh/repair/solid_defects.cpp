@@ -59,7 +59,8 @@ std::string solid_defects::message() const {
               "faces with a corner that is not finite or not a vertex");
     if (without_faces) add("there are points, but no faces");
     if (tetrahedra > 0)
-        add("faces are " + detail::base::counted(tetrahedra, "tetrahedron", "tetrahedra"));
+        add("faces are the sides of " +
+            detail::base::counted(tetrahedra, "tetrahedron", "tetrahedra"));
     if (boundary_edges > 0)
         add("open at " + detail::base::counted(boundary_edges, "edge", "edges"));
     add_count(nonmanifold_edges, "edge of more than two faces", "edges of more than two faces");

@@ -109,7 +109,7 @@ class Mend(ToolTest):
                 self.assertIn("boundary kept of 5 tetrahedra", run.text)
                 entry = self.mended("volume.obj", "--check", status=1)
                 self.assertEqual(entry["defects"]["tetrahedra"], 5)
-                self.assertIn("faces are 5 tetrahedra",
+                self.assertIn("faces are the sides of 5 tetrahedra",
                               self.run_tool("volume.obj", "--check", status=1).text)
                 self.run_tool("out.obj", "--check", status=0)
 

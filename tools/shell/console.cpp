@@ -186,4 +186,10 @@ std::string counted(std::uint64_t number, std::string_view one, std::string_view
     return grouped(number) + " " + std::string(number == 1 ? one : many);
 }
 
+failure no_triangles(const std::string& name, std::uint64_t triangles, std::uint64_t points) {
+    return {bad_input, "no-triangles",
+            name + (triangles > 0 ? ": no triangle with finite coordinates"
+                                  : ": no triangles (" + counted(points, "point", "points") + ")")};
+}
+
 }  // namespace tools

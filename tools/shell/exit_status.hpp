@@ -3,6 +3,7 @@
 /// What a tool tells the shell, and the exception that carries it.
 
 #include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -35,6 +36,10 @@ class failure : public std::runtime_error {
     exit_status status_;
     std::string code_;
 };
+
+/// The failure of a file without a usable triangle: it has none, or none of them is finite.
+[[nodiscard]] failure no_triangles(const std::string& name, std::uint64_t triangles,
+                                   std::uint64_t points);
 
 /// Says that the command line makes no sense.
 [[noreturn]] inline void refuse(const std::string& text) {

@@ -44,12 +44,7 @@ usable_input read_usable(job& work) {
     input.triangle_of_face = tf::drop_unusable_faces(mesh);
     input.non_finite = triangles - mesh.faces.size();
     work.warn_of_non_finite(input.non_finite, "face", "faces");
-    if (mesh.faces.empty())
-        throw failure(
-            bad_input, "no-triangles",
-            work.name + (triangles > 0 ? ": no triangle with finite coordinates"
-                                       : ": no triangles (" +
-                                             counted(mesh.points.size(), "point", "points") + ")"));
+    if (mesh.faces.empty()) throw no_triangles(work.name, triangles, mesh.points.size());
     check_arrangeable(work.name, mesh);
     return input;
 }

@@ -41,12 +41,7 @@ solid read_solid(job& work, const std::string& path, const std::filesystem::path
     work.warn_of_non_finite(dropped, "face", "faces", name + ": ");
     // A mesh of nothing is what a difference may leave; points alone are no mesh.
     if (s.file.mesh.faces.empty() && !s.file.mesh.points.empty())
-        throw failure(
-            bad_input, "no-triangles",
-            name + (s.triangles > 0
-                        ? ": no triangle with finite coordinates"
-                        : ": no triangles (" +
-                              counted(s.file.mesh.points.size(), "point", "points") + ")"));
+        throw no_triangles(name, s.triangles, s.file.mesh.points.size());
     check_arrangeable(name, s.file.mesh);
     if (s.file.mesh.faces.empty()) work.warn("empty", name + ": no faces; used as an empty solid");
     about["faces"] = s.file.stored_faces;

@@ -155,12 +155,7 @@ findings search_in_tiles(job& work, const search_settings& settings, const tile_
     work.seconds["read"] =
         std::max(before, work.seconds["read"] - r.found.tree_seconds - r.found.pair_seconds);
     enter_source(work, r.header, sum);
-    if (r.triangles == 0)
-        throw failure(bad_input, "no-triangles",
-                      work.name + ": no triangles (" + counted(r.points, "point", "points") + ")");
-    if (r.part.non_finite == r.triangles)
-        throw failure(bad_input, "no-triangles",
-                      work.name + ": no triangle with finite coordinates");
+    if (r.part.non_finite == r.triangles) throw no_triangles(work.name, r.triangles, r.points);
     work.warn_of_non_finite(r.part.non_finite, "face", "faces");
     if (r.started_anew)
         work.warn("started-anew", folder.string() +

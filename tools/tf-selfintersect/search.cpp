@@ -56,10 +56,7 @@ findings search(job& work, tf::mesh_file& file, const search_settings& settings,
     result.faces_stored = file.stored_faces;
     result.triangles = file.mesh.faces.size();
     result.points_stored = file.mesh.points.size();
-    if (file.mesh.faces.empty())
-        throw failure(bad_input, "no-triangles",
-                      work.name + ": no triangles (" +
-                          counted(file.mesh.points.size(), "point", "points") + ")");
+    if (file.mesh.faces.empty()) throw no_triangles(work.name, 0, file.mesh.points.size());
     result.box = tf::bounding_box(file.mesh.points);
     result.tolerance_used = settings.tolerance.used(result.diagonal());
     {
@@ -69,8 +66,7 @@ findings search(job& work, tf::mesh_file& file, const search_settings& settings,
                              part_options_of(work, file, settings, result.tolerance_used));
         work.warn_of_non_finite(result.part.non_finite, "face", "faces");
         if (result.part.non_finite == result.triangles)
-            throw failure(bad_input, "no-triangles",
-                          work.name + ": no triangle with finite coordinates");
+            throw no_triangles(work.name, result.triangles, result.points_stored);
         work.keeper.check();
     }
     const tf::mesh& mesh = result.part.mesh;
